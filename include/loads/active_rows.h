@@ -5,12 +5,12 @@
 #include "bonds/bonds.h"
 #include "loads/loads.h"
 
-/* After a step in which the forces of all active row blocks were computed: finds the levels of rows that were just
- * made, else activates the neighbours of row blocks that have moved. */
+/* Updates the active row blocks after a step in which the forces of all active row blocks were computed: finds the
+ * levels of rebuilt rows, else activates the neighbours of row blocks that have moved. */
 void active_rows_update(struct bonds *b, const struct particles *p, const struct loads *l);
 
-/* Before a step: something else than bonds may move these n particles from now on, so that their row blocks are active
- * and their forces, which were 0, begin anew. */
+/* Activates the row blocks of n listed particles on which forces other than those of bonds may act from the next step
+ * on; their bond forces are 0 before. */
 void active_rows_touch(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
                        int64_t n);
 

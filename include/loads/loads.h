@@ -1,8 +1,7 @@
-/* Room `loads`: boundary conditions on particles, grids and meshes, and the account of what they put in. It knows
- * `data`, `bonds` and `kernels`, but neither scenes nor the step; mesh, solver and engine call it.
+/* Room `loads`: boundary conditions on particles, grids and meshes, and their impulse and work. It uses `data`, `bonds`
+ * and `kernels`, but neither scenes nor the step; mesh, solver and engine call it.
  *
- * Prescribed velocities, forces, walls and mirrors as functions of time; and the account of what they
- * put in: impulse and work. */
+ * Prescribed velocities, forces, walls and mirrors as functions of time, and the accounts of their impulse and work. */
 #ifndef CLEAVE_LOADS
 #define CLEAVE_LOADS
 
@@ -16,11 +15,11 @@
 #include "absorbing.h"
 
 enum boundary_kind {
-    BOUNDARY_VELOCITY,   /* drives components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
-    BOUNDARY_TRACTION,   /* surface force on the face that a body shows along an axis [Pa] */
-    BOUNDARY_BODY_FORCE, /* [N/m^3] */
+    BOUNDARY_VELOCITY,   /* prescribes components: velocity, displacement, rotation (`fixed` is a velocity of 0) */
+    BOUNDARY_TRACTION,   /* surface force on the exposed face of a body along an axis [Pa] */
+    BOUNDARY_BODY_FORCE, /* force per volume [N/m^3] */
     BOUNDARY_MIRROR,     /* plane of symmetry (roller) or of antisymmetry (fixed end) */
-    BOUNDARY_ABSORBING,  /* dashpots on the face that a body shows along an axis (absorbing.h) */
+    BOUNDARY_ABSORBING,  /* dashpots on the exposed face of a body along an axis (absorbing.h) */
     BOUNDARY_PRESSURE    /* on every free face, against its outward normal (loads_pressure.c) [Pa] */
 };
 
@@ -29,73 +28,73 @@ enum profile_kind { PROFILE_UNIFORM, PROFILE_SINE };
 struct profile {
     enum profile_kind kind;
     real wavelength;         /* [m] */
-    real origin[DIM_MAX];    /* where it is 0 and rises along `direction` [m] */
+    real origin[DIM_MAX];    /* zero of the sine, which increases along `direction` [m] */
     real direction[DIM_MAX]; /* of any length [1] */
 };
 
-/* One boundary condition, as the scene says it. */
+/* One boundary condition as given in the scene. */
 struct boundary {
     char name[NAME_MAX_LENGTH];
-    char place[PLACE_LENGTH]; /* in the scene */
+    char place[PLACE_LENGTH]; /* position in the scene file */
     enum boundary_kind kind;
-    struct region region;               /* of reference positions; empty: everywhere */
-    int body;                           /* -1: any */
-    uint8_t components;                 /* bit d: component d is held (VELOCITY) */
-    real value[DIM_MAX];                /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: the same in all; 1 beside a
-                                           formula */
-    struct expression formula[DIM_MAX]; /* of a component in X and t, PRESSURE: the first for all; none: value */
-    real end;                           /* formulas have their values then at later times; 0: no end is known [s] */
-    bool frozen;                        /* static: formulas have their value at `frozen_at` [s] */
+    struct region region; /* of reference positions; empty: everywhere */
+    int body;             /* index of the body, -1: any */
+    uint8_t components;   /* VELOCITY: bit d: component d is prescribed */
+    real value[DIM_MAX];  /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: equal in all components; 1 if there is a formula */
+    struct expression
+        formula[DIM_MAX]; /* of each component in X and t, PRESSURE: the first for all; empty: value only */
+    real end;             /* time after which formulas keep their values, 0: unknown [s] */
+    bool frozen;          /* static problem: formulas have their value at `frozen_at` [s] */
     real frozen_at;
-    bool displaces; /* VELOCITY: value, factor and formula are displacements; the value in [m] */
+    bool displaces; /* VELOCITY: value, factor and formula are displacements; value in [m] */
     bool rotates;   /* VELOCITY: all components, on circles about an axis through `centre` */
-    real centre[DIM_MAX], axis_of[DIM_MAX], rate; /* [m], of any length, z in the plane; times the factor [1/s] */
-    bool follow;                                  /* PRESSURE: normals and areas are those of the deformed body */
-    struct time_function time;                    /* factor on value */
-    char *time_file;                              /* it came from this CSV file; NULL: it stands in the scene */
-    char time_column[NAME_MAX_LENGTH];            /* of it; "": the only one beside the time */
-    uint64_t time_contents;                       /* hash of that file; 0: not read */
-    bool time_unit;         /* the column has the unit of the value, which then says the direction alone */
-    struct profile profile; /* BODY_FORCE: factor on value */
-    bool by_mass;           /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
-    int face;               /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
-    int side;               /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
-    real depth;             /* VELOCITY: of the layer behind its face [m] */
-    real section;           /* beside a face: of all bodies, in line [m^2], in the plane [m], 1 in
-                               space; 0: a particle's area is its volume over the spacing */
-    int axis;               /* MIRROR: normal of the plane ... */
-    real at;                /*         ... and where it is [m] */
-    bool hold_tangential;   /* MIRROR: displacement odd in all components, not only normal */
+    real centre[DIM_MAX], axis_of[DIM_MAX],
+        rate;                          /* [m]; axis of any length, z in 2D; angular velocity, times the factor [1/s] */
+    bool follow;                       /* PRESSURE: normals and areas are those of the deformed body */
+    struct time_function time;         /* factor on value */
+    char *time_file;                   /* CSV file of the factor; NULL: given in the scene */
+    char time_column[NAME_MAX_LENGTH]; /* column of the file; "": the only one beside the time */
+    uint64_t time_contents;            /* hash of the file; 0: not read */
+    bool time_unit;                    /* the column has the unit of the value, and `value` is only the direction */
+    struct profile profile;            /* BODY_FORCE: factor on value */
+    bool by_mass;                      /* BODY_FORCE: gravity; value is an acceleration [m/s^2] */
+    int face;                          /* TRACTION, ABSORBING, VELOCITY: axis of the face's normal */
+    int side;                          /* +1 upper face, -1 lower face; VELOCITY: 0, no face */
+    real depth;                        /* VELOCITY: depth of the layer behind its face [m] */
+    real section; /* with a face: section of all bodies, in 1D [m^2], in 2D [m], 1 in 3D; 0: a particle's area is its
+                     volume over the spacing */
+    int axis;     /* MIRROR: axis of the plane's normal */
+    real at;      /* MIRROR: position of the plane [m] */
+    bool hold_tangential; /* MIRROR: displacement odd in all components, not only the normal one */
 };
 
-/* A boundary condition at work on particles. */
+/* A boundary condition applied to particles. Arrays are owned, except shares that loads have in common. */
 struct load {
     const struct boundary *boundary; /* borrowed from the scene */
     int64_t n;
-    int32_t *particle;    /* ascending */
-    real *share[DIM_MAX]; /* [n] by component, TRACTION: area [m^2], in the face's plane 3/2 of it on a
-                             column's first particle, -1/2 on the next; BODY_FORCE: volume times
-                             profile [m^3], or mass [kg]. Equal ones are one array, of several components
-                             or loads */
-    /* [n] ABSORBING: area on first particles alone; 3/2 of it on these and -1/2 on the next, for nodes of a grid, to
-     * which first particles give some of it behind the face [m^2] */
+    int32_t *particle;    /* [n] ascending */
+    real *share[DIM_MAX]; /* [n] by component. TRACTION: area [m^2], for tangential components 3/2 of it on the first
+                             particle of a column and -1/2 on the next; BODY_FORCE: volume times profile [m^3], or mass
+                             [kg]. Equal shares of several components or loads are one array */
+    /* [n] ABSORBING: area on the first particle of each column; for grid nodes 3/2 of it there and -1/2 on the next
+     * particle, because first particles transfer part of it behind the face [m^2] */
     real *outer, *edge;
-    /* of a load whose shares change, which has them for itself: shares without function of time and formula */
+    /* the shares change in time and are not shared; `base`: shares without function of time and formula */
     bool moving;
     real *base[DIM_MAX];
-    struct surface *surface; /* of pressure that follows; NULL: none */
-    /* TRACTION, BODY_FORCE: first load on the same particles, which keeps the arrays of both; -1: itself */
+    struct surface *surface; /* surface of a pressure that follows the deformation; NULL: none */
+    /* TRACTION, BODY_FORCE: first load on an equal list of particles, which has the arrays of both; -1: not combined */
     int leader;
-    /* [n] of a load without leader, components with a value: positions before this step [m] */
+    /* [n] of a leader, components with a value: positions at the start of this step [m] */
     real *before[DIM_MAX];
-    real reaction[DIM_MAX];     /* VELOCITY: force of the support on the body in the last step, without what
-                                   moves the driven particles themselves; load steps: forces, too [N] */
-    real displacement[DIM_MAX]; /* of the driven particles, their mean; of velocities accumulated [m] */
-    real held_work;             /* static, drives by place: forces of the support times displacements [J] */
+    real reaction[DIM_MAX]; /* VELOCITY: force of the support on the body in the last step, without the inertia of the
+                               driven particles; load steps: forces too [N] */
+    real displacement[DIM_MAX]; /* mean displacement of the driven particles; for velocities accumulated [m] */
+    real held_work;             /* static, prescribed by position: sum of support forces times displacements [J] */
     int outside;                /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
-/* Does a formula of a boundary depend on time? */
+/* Returns true if a formula of a boundary depends on time. */
 static inline bool boundary_in_time(const struct boundary *b)
 {
     bool in_time = false;
@@ -103,275 +102,352 @@ static inline bool boundary_in_time(const struct boundary *b)
     return in_time;
 }
 
-/* Returns the time of which a formula of a boundary is asked at time t [s]. */
+/* Returns the time at which the formulas of a boundary are evaluated at time t [s]. */
 static inline real boundary_time(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
 }
 
-/* Does it put forces on particles? */
+/* Returns true if the boundary applies forces to particles. */
 static inline bool boundary_is_force(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
-/* A component of a node that is held as long as the grid keeps its box. */
+/* A constrained component of a node, valid as long as the grid keeps its box. */
 struct held {
     int32_t node;
     uint8_t component, load;
 };
 
+/* Constrained components of nodes; found once for each box of nodes. */
 struct constrained_set {
-    int64_t n, lasting; /* the first `lasting` do not depend on the masses of nodes */
+    int64_t n, lasting; /* the first `lasting` do not depend on nodal masses */
     struct held *held;
-    int64_t first[DIM_MAX], count[DIM_MAX]; /* of the box of nodes they were found in */
+    int64_t first[DIM_MAX], count[DIM_MAX]; /* box of nodes for which they were found */
 };
 
+/* All boundary conditions of a run with their accounts. */
 struct loads {
     int n;
     struct load *load;
-    uint8_t *loaded; /* [n] LOADED, MOVES_LATER, TOUCHES; NULL: no particle is */
+    uint8_t *loaded; /* [particles + LANES] sum of LOADED, MOVES_LATER, TOUCHES; NULL: all 0 */
     int64_t listed;
-    int32_t *list; /* [listed] those that are not 0, ascending */
+    int32_t *list; /* [listed] particles for which `loaded` is not 0, ascending */
     int64_t images;
     struct image *image;
-    real impulse[DIM_MAX];    /* given by loads and supports since the start [N s] */
-    real work;                /* done by applied forces, up to where particles are [J] */
-    real constraint_work;     /* done by supports, up to the velocities, half a step behind [J] */
-    real spacing, reach;      /* [m]; of bonds */
-    real centre[2], turn;     /* static, free in the plane: centre of mass [m], angular acceleration by the
-                                 loads' moment [1/s^2], 0: none */
-    real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of it; 0: not [m] */
+    real impulse[DIM_MAX];    /* impulse of loads and supports since the start [N s] */
+    real work;                /* work of applied forces, up to the present positions [J] */
+    real constraint_work;     /* work of supports, up to the velocities, half a step behind [J] */
+    real spacing, reach;      /* lattice spacing; reach of bonds [m] */
+    real centre[2], turn;     /* static, free in 2D: centre of mass [m]; angular acceleration by the moment of the loads
+                                 [1/s^2], 0: none */
+    real place_step[DIM_MAX]; /* positions across mirrors are rounded to multiples of this, 0: not rounded [m] */
     struct absorbing absorbing;
-    bool ended;                              /* forces are asked for that no step follows */
-    real *share;                             /* scratch: driven mass of the grid's nodes [kg] */
-    struct constrained_set constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and driven ones */
+    bool ended;  /* forces are computed that no step follows */
+    real *share; /* working memory: driven mass of the grid's nodes [kg] */
+    struct constrained_set
+        constrained_mesh; /* nodes of the mesh in driven regions, on mirrors, and with mostly driven points */
 };
 
-/* LOADED: something else than bonds and the grid may move a particle. MOVES_LATER: bonds across a clamped plane nearby
- * act on it after the sweep of its own. TOUCHES: so does contact. */
+/* Marks in loads.loaded. LOADED: forces other than those of bonds and grid may act on the particle. MOVES_LATER: bonds
+ * across a clamped plane nearby act on it after the bond sweep. TOUCHES: contact may act on it. */
 enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
+
+/* Returns true if contact or loads may act on particle i. */
 static inline bool is_loaded(const struct loads *l, int64_t i)
 {
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
 }
-/* Is it a mirror that holds motion along its plane, too? Along a line there is none: it is one of symmetry. */
+
+/* Returns true for a mirror that also prevents motion along its plane; false in 1D, where it is a plane of symmetry. */
 static inline bool is_clamp(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Finds the particles of one boundary (of a mirror those in its plane, if it is clamped), ascending, and their
- * shares; marks FLAG_DRIVEN. Refuses a force on a region without particles, a traction on one without a free face. */
+/* Finds the particles of one boundary (of a clamped mirror those in its plane), ascending, with their shares; sets
+ * FLAG_DRIVEN. REFUSED for a force on a region without particles, or a traction on one without a free face. */
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
-/* Which particles are in the region and body of a boundary [n]; false: none. */
+
+/* Marks the particles in the region and body of a boundary: selected [n]. Returns false if there are none. */
 bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
-/* The load acts on particles with taken[i] > 0: lists them, marks driven ones, makes room for shares. */
+
+/* Lists the particles with taken[i] > 0 as those of the load, sets FLAG_DRIVEN for prescribed motion, allocates
+ * shares. */
 void load_take(struct load *l, const uint8_t *taken, struct particles *p);
 
-/* The face of a traction (loads_columns.c): of each column of particles along the normal the first that nothing
- * hides bears its area, and that along the face together with the next where `two` are wanted. */
+/* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
+ * particle that no other one hides gets its area; for tangential components together with the next one if `two`. */
 struct face {
-    real *normal, *along; /* [particles] area for the component along the normal, and for the others [m^2] */
+    real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
+
+/* Computes the exposed face of boundary b among the selected particles [n]. two: extrapolate tangential components from
+ * two particles. Release with face_free. */
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two);
+
+/* Releases the areas. */
 void face_free(struct face *f);
-/* Marks the selected particles of the face of b and of the layer of depth b->depth behind it, as far as nothing parts
- * them [particles]. */
+
+/* Marks in taken [n] the selected particles in the layer of depth b->depth behind the face of b, as far as the columns
+ * are without gaps. */
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 uint8_t *taken);
-/* Calls `found` for every free end of a column along the normal of b's face, the walls of holes too, with the area of
- * the column [m^2]. */
+
+/* Receives a free end of a column: particle and area of the column [m^2]. */
 typedef void face_found_fn(void *context, int32_t particle, real area);
+
+/* Calls `found` for every free end of a column along the normal of b's face, including walls of holes. */
 void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 face_found_fn *found, void *context);
-/* The part of loads_make that finds the particles of a pressure, number `which` of n boundaries (loads_pressure.c). */
+
+/* Finds the particles of a pressure, number `which` of n boundaries; part of loads_make (loads_pressure.c). */
 status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
                             real spacing);
 
-/* Calls `found` for every free face on which a pressure acts, number `which` of n boundaries: axis and side of its
- * normal, its area [m^2]. */
+/* Receives a free face of a particle: axis and side of its normal, its area [m^2]. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
+
+/* Calls `found` for every free face among the selected particles on which pressure number `which` of n boundaries
+ * acts. */
 void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
                     const uint8_t *selected, pressure_face_fn *found, void *context);
 
-/* Loads whose shares change (loads_moving.c): formulas of time, pressure that follows. make: formulas without time
- * become part of the shares; REFUSED where a formula is not finite. push, work: the shares of loads_push and
- * loads_push_work. */
+/* Prepares the shares of a load with formulas or a following pressure (loads_moving.c): formulas without time are
+ * multiplied into the shares. REFUSED where a formula is not finite. */
 status load_formula_make(struct load *l, const struct particles *p);
-/* FAILED where the formula of a load or support has no finite value on one of its particles at time t [s], with the
- * name, the place and the time. */
+
+/* Checks that the formulas of all loads and supports are finite on their particles at time t [s]. FAILED otherwise,
+ * with name, position and time. */
 status loads_finite(const struct loads *l, const struct particles *p, real t);
+
+/* Updates the shares of loads that change in time for loads_push: mean over the kick that ends at t [s]. */
 void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
+
+/* Updates the shares of loads that change in time for loads_push_work: mean of the kicks before and after the drift. */
 void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
+
+/* Releases the arrays of load_formula_make. */
 void load_moving_free(struct load *l);
-/* Force of a load on its k-th particle at t, at reference places; static: once it has grown [dim, N]. */
+
+/* Computes the force of a load on its k-th particle at time t, at reference positions; static: at full load. force
+ * [dim] [N]. */
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
-/* Sets `reaction` of a load that is a force to all of it at time t, and `displacement` to that of its particles: their
- * mean by what they bear, so that force times displacement is the work; of a load without resultant their mean. */
+
+/* Stores the total force of a load at time t in `reaction`, and in `displacement` the mean displacement of its
+ * particles, weighted by force so that force times displacement is the work; unweighted if the forces cancel. */
 void load_applied_sum(struct load *l, const struct particles *p, real t);
-/* Its value there, without areas and profile [dim, as boundary.value]. Not of what rotates. */
+
+/* Computes the value of a boundary at its k-th particle, without areas and profile: value [dim], unit as
+ * boundary.value. Not for rotations. */
 void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value);
 
-/* Finds the particles of every boundary and marks FLAG_DRIVEN; appends mirror images within `reach` of
- * mirror planes to the particles (so bonds must be made after it). `spacing` [m] is that of the columns that bear
- * tractions. Refuses what load_select does. */
+/* Finds the particles of every boundary, sets FLAG_DRIVEN, and appends mirror images within `reach` [m] of mirror
+ * planes to the particles (so bonds must be made afterwards). spacing [m]: of the columns for tractions. optional: as
+ * particles_make. REFUSED as load_select. Release with loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional);
+
+/* Releases all loads. */
 void loads_free(struct loads *l);
-/* From now on these n particles, ascending, are those that contact may push. */
+
+/* Sets the list of particles on which contact forces may act (n indices in ascending order, copied). Their forces are
+ * cleared before each step, and their motion is not fused with the bond sweep. */
 void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* The part of loads_make that joins loads of the same particles; its end. */
+/* Combines loads on equal lists of particles; last part of loads_make. */
 void loads_join(struct loads *l, int dim);
+
+/* Releases the shares of all loads. */
 void loads_applied_free(struct loads *l);
-/* The parts of loads_apply and loads_hold that add forces and impulse, and book their work. */
+
+/* Adds the applied forces to p->f, and their impulse to l->impulse; part of loads_apply. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
+
+/* Adds the work of the applied forces in a step to l->work; part of loads_hold. */
 void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
-/* REFUSED where two absorbing faces share a part: it would have two dashpots. */
+/* Checks that no part of a face has two absorbing boundaries, and that none is in a mirror plane; else REFUSED. */
 status loads_absorbing_check(const struct loads *l, const struct particles *p);
-/* After loads_make: the dashpots of all absorbing faces, by the impedances of what moves particles [materials], which
- * stay with the caller. */
+
+/* Creates the dashpots of all absorbing faces, after loads_make. impedance: [MOVERS][materials] by the method that
+ * moves a particle, borrowed. */
 void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
+
+/* Releases the dashpots. */
 void loads_absorbing_free(struct loads *l);
-/* The part of loads_apply that acts on particles that bonds move; those of loads_walls and loads_mesh_find that list
- * dashpots of nodes, once walls are known; that of loads_react which books what these took. */
+
+/* Adds the dashpot forces on particles that bonds move; part of loads_apply. */
 void loads_absorb(struct loads *l, struct particles *p, real dt_velocity);
+
+/* Lists the dashpots of grid nodes, after the walls; part of loads_walls. half_width: l_p [m]. */
 void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
                     real half_width);
+
+/* Lists the dashpots of mesh nodes; part of loads_mesh_find. */
 void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
+
+/* Books energy and impulse of dashpots. */
 void loads_absorbed(struct loads *l, const struct absorbed *by);
 
-/* Where a boundary of kind VELOCITY has its particles at a (pseudo-)time t >= 0: displacements from reference places.
- * That of `displacement` is its value there, of a velocity the integral from 0, of a rotation the rotation by the
- * angle until then; formulas of a static problem are those at `frozen_at`. Made once for a load and a time, cheap to
- * ask for many places; pure. Not of a velocity by a formula of t, of which no integral is known in closed form:
- * load_displacement_known refuses it. */
+/* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
+ * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
+ * static formulas are evaluated at `frozen_at`. Made once for a load and time, then evaluated at many positions. Not
+ * for a velocity by a formula of t, whose integral has no closed form: load_displacement_known refuses it. */
 struct displacing {
     const struct boundary *boundary;
     int dim;
-    real t, factor;                 /* of value and formula at t: [1], of a velocity [s] */
-    real turned[DIM_MAX * DIM_MAX]; /* rotates: the rotation at t, row major */
+    real t, factor;                 /* of value and formula at t: [1], for a velocity [s] */
+    real turned[DIM_MAX * DIM_MAX]; /* rotates: rotation matrix at t, row major */
 };
+
+/* Evaluates time functions and rotation at t [s]. */
 struct displacing displacing_make(const struct boundary *b, int dim, real t);
-/* Component d of the displacement at the reference place X [dim, m]; d is one of boundary->components [m]. */
+
+/* Returns component d, one of boundary->components, of the displacement at the reference position X [dim, m] [m]. */
 real displacing_at(const struct displacing *s, const real *X, int d);
-/* All components of that of a load's k-th particle at t, 0 where it drives none [dim, m]. */
+
+/* Computes the displacement of a load's k-th particle at t: u [dim] [m], 0 in components that are not prescribed. */
 void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u);
-/* REFUSED for a boundary of kind VELOCITY whose displacements are not known ahead. OK for all others. */
+
+/* REFUSED for a boundary of kind VELOCITY whose displacements are not known in closed form. OK for all others. */
 status load_displacement_known(const struct boundary *b);
 
-/* What a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
+/* Motion that a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
 struct driving {
     const struct boundary *boundary;
     int dim;
-    real t, dt, factor;         /* of its function of time, at t */
-    struct displacing from, to; /* displaces, rotates: at the step's ends */
+    real t, dt, factor;         /* time, step [s], value of the function of time at t */
+    struct displacing from, to; /* displaces, rotates: displacements at the ends of the step */
 };
+
+/* Evaluates the motion of boundary b in the step about t. */
 struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
-/* That of boundary `which` in a step; where none follows, what is displaced goes on as in the step before: how its
- * motion changes after the end is nothing of the run, whose work would have half of it. */
+
+/* Evaluates the motion of boundary `which` in the step about t. After the last step (l->ended) a prescribed
+ * displacement continues as in the previous step: otherwise half of a change of motion after the end would enter the
+ * work of the run. */
 struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt);
-/* Velocity of component d at the reference place X; `placed`: of what is at X when the step begins [m/s]. That of a
- * displacement is its difference over the step. */
+
+/* Returns the velocity of component d at the reference position X [m/s]; placed: of material at X at the start of the
+ * step. For a displacement: its difference over the step divided by dt. */
 real driving_at(const struct driving *s, const real *X, int d, bool placed);
-/* Does it depend on the place? */
+
+/* Returns true if the prescribed motion depends on position. */
 static inline bool drives_by_place(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
-/* Largest speed that a displacement prescribes between the times 0 and t, INFINITY where it jumps: of formulas that at
- * MOMENTS of them, and at some places [m/s]. */
+
+/* Returns the largest speed that a displacement prescribes between the times 0 and t [m/s], INFINITY if it jumps; for
+ * formulas sampled at MOMENTS times and some particles. */
 real load_displacing_speed(const struct load *l, const struct particles *p, real t);
 
-/* Largest difference between the velocity that a load prescribes between the times 0 and t, at MOMENTS of them and some
- * places, and that which its particles have in p, the state at t = 0; on circles the difference of speeds; 0 of
- * displacements [m/s]. */
+/* Returns the largest difference between the velocity that a load prescribes between the times 0 and t, sampled at
+ * MOMENTS times and some particles, and the velocities of its particles in p, the state at t = 0; for rotations the
+ * difference of speeds; 0 for displacements [m/s]. */
 real load_velocity_jump(const struct load *l, const struct particles *p, real t);
-/* Computes the largest change of the velocity that a load (velocity or displacement) prescribes within a span of time,
- * between the times 0 and t; before 0 its particles have the velocity in p. Changes are sampled at MOMENTS times, at
- * least one spacing of these apart, and at some places. within: the span [s]. Returns a speed [m/s]. */
+
+/* Returns the largest change of the velocity that a load (velocity or displacement) prescribes within a span of time
+ * [m/s], between the times 0 and t; before 0 its particles have the velocity in p. Sampled at MOMENTS times and some
+ * particles. within: the span [s], at least one sampling interval is used. */
 real load_velocity_change(const struct load *l, const struct particles *p, real t, real within);
-/* Computes by how much the velocities that two loads prescribe, each less that of its particles in p, differ at most
- * between the times 0 and t, in the components that both drive. Returns 0 if there are none, INFINITY if one of them
- * rotates or depends on the place [m/s]. */
+
+/* Returns the largest difference between the velocities that two loads prescribe, each less that of its particles in p,
+ * between the times 0 and t, in the components that both prescribe [m/s]; 0 if there are none, INFINITY if one of them
+ * rotates or depends on position. */
 real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t);
 
-#define LOADS_TOLERANCE ON_SURFACE /* of a spacing: points on a region's border belong to it    */
+/* tolerance of region membership, over the spacing: points on the border belong to the region */
+#define LOADS_TOLERANCE ON_SURFACE
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
 
-/* The part of loads_make that checks mirrors and appends their images. Refuses a mirror that cuts its body. */
+/* Checks mirrors and appends their images; part of loads_make. REFUSED for a mirror inside its body. */
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
 
-/* MOVES_LATER of those whose bonds may cross a clamped plane. */
+/* Sets MOVES_LATER for particles whose bonds may cross a clamped plane. */
 void loads_mirrors_mark(struct loads *l, const struct particles *p);
 
-/* Moves images to the mirror image of their sources (x, v); kind and FLAG_DRIVEN follow. Places of the sources
- * across the mirror go to the nearest multiple of place_step, about the last bit of the farthest place. */
+/* Updates images from their sources: x, v, kind and FLAG_DRIVEN. First rounds the positions of the sources across the
+ * mirror to multiples of place_step, about the last bit of the farthest position. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Before bonds: f = 0 on every loaded particle (loads_applied.c). After bonds: books what mirror images gave, adds
- * applied forces; for driven peridynamic particles replaces f by what gives them their velocity. t is the middle of
- * the step, where the kick ends that began dt_velocity before. */
+/* Sets f = 0 on every loaded particle, before the bond sweep (loads_applied.c). */
 void loads_clear(struct loads *l, struct particles *p);
+
+/* Completes the forces after the bond sweep: books the impulse of mirror images, adds applied forces and dashpots, and
+ * replaces f of driven peridynamic particles by the force that gives them their velocity. t: middle of the step, where
+ * the kick ends that began dt_velocity before [s]. */
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Walls of the grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass belongs to
- * driven points; and nodes beyond a mirror plane, which follow their images if the plane stands on a node or half-way
- * between two, else are held as those on it. held: those of the grid, empty at first. Call after the first map. */
+/* Sets the walls of a grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass
+ * belongs to driven points. Nodes beyond a mirror plane follow their images if the plane is on a node or midway between
+ * two, else they are constrained like nodes on the plane. held: set of this grid, zero at first. Call after the first
+ * map. */
 void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
                  const struct kernels *k, real half_width, real t, real dt);
 
-/* The same for the mesh: found once, and again whenever it has lost points; their velocities in every step. */
+/* Finds the constrained nodes and dashpots of the mesh: at the first call, and again after it has lost points. */
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
+
+/* Sets the walls of the mesh for the step about t. */
 void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
-/* The same for nodes of coarse cells, by place alone: those in driven regions and on mirrors. */
+
+/* Finds the constrained nodes of a mesh of coarse cells by position: in driven regions and on mirrors. */
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p);
+
+/* Sets the walls of a mesh of coarse cells for the step about t. */
 void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
 
-/* After the gather: driven material points take their velocity exactly, and displaced particles their place; books the
- * work of applied forces. Returns whether points on a grid are elsewhere than it has moved them. */
+/* After the grid-to-particle transfer: sets the velocity of driven material points and the position of displaced
+ * particles exactly; books the work of applied forces. Returns true if points on a grid were moved. */
 bool loads_hold(struct loads *l, struct particles *p, real t, real dt);
-/* Reactions of the walls of one grid, or of the mesh. */
+
+/* Adds the reactions of the walls and dashpots of one grid, or of the mesh, to the loads. */
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 
-/* Does a mirror's plane stand on a node of the grid or half-way between two? */
+/* Returns true if a mirror's plane is on a node of the grid or midway between two. */
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
-/* Boundaries of a static problem in pseudo-time, n of them into `to`: forces have their value at `duration`, and
- * what is driven goes as far as it goes until then. Both grow evenly from 0 to `ramp` [s] and stay. */
+/* Makes boundaries of a static problem in pseudo-time: copies n of them into `to`; forces have their value at
+ * `duration` [s], and prescribed motion its displacement until then. Both grow linearly from 0 to `ramp` [s] and stay
+ * constant. */
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
 
-/* Of such boundaries once they have grown: displacement of every driven component [m], and which are driven (bits of
- * `held` by particle); where two overlap the later one holds, as in a run. */
+/* Computes the final displacement of every driven component: displacement [dim][n] [m], and bits of driven components:
+ * held [n]. Where loads overlap the later one counts, as in a run. */
 void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
                          uint8_t *held);
 
-/* A body that nothing holds in the plane has no equilibrium under loads that turn it, and those on the scattered
- * particles of a shaken lattice always do a little: from now on the forces of its inertia in that turn belong to the
- * applied ones (inertia relief). Returns the moment over the largest that forces of their size could make there [1]. */
+/* Adds the inertia of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that loads with
+ * a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns the moment over the
+ * largest moment that forces of this size could have [1]. */
 real loads_static_balance(struct loads *l, const struct particles *p);
-/* Adds the applied forces to part.f. */
+
+/* Adds the applied forces of a static problem to p->f. */
 void loads_static_force(const struct loads *l, struct particles *p);
 
-/* Forces on driven components become reactions and leave f. */
+/* Moves the forces on driven components from p->f to the reactions. */
 void loads_static_hold(struct loads *l, struct particles *p);
 
-/* Half the applied force times the displacement, and half of reactions times theirs: the work of loads that grow in
- * proportion on a linear body, into `work` and `constraint_work`. */
+/* Computes the work of loads that grow in proportion on a linear body: half the applied force times displacement, into
+ * `work`, and half the reactions times displacement, into `constraint_work`. */
 void loads_static_work(struct loads *l, const struct particles *p);
 
+/* Saves or restores accounts, displacements and reactions. */
 status loads_archive(struct loads *l, struct archive *a);
 
-enum { BOUNDARIES_MAX = 255 }; /* their number fits the byte of struct held and struct image; scene_keys.c */
+enum {
+    BOUNDARIES_MAX = 255
+}; /* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */
 
 #endif

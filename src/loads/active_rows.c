@@ -1,4 +1,4 @@
-/* The active set of row blocks: which row blocks of bonds are inactive, and which motion activates. */
+/* The active set of row blocks: finds inactive row blocks of bonds, and activates them when particles move. */
 #include "loads/active_rows.h"
 
 #include <string.h>
@@ -6,6 +6,7 @@
 /* Reach of a motion [levels]: forces of state-based models reach two horizons, of bond-based ones one. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
+/* Returns true if a particle of the row block is not at its reference position. */
 static bool has_moved(const struct bonds *b, const struct particles *p, int64_t row_block)
 {
     for (int64_t row = row_block * LANES; row < b->rows && row < (row_block + 1) * LANES; row++)
@@ -14,7 +15,8 @@ static bool has_moved(const struct bonds *b, const struct particles *p, int64_t 
     return false;
 }
 
-/* Displacements, velocities and forces are zero, and nothing but bonds can move its particles. */
+/* Returns true if displacements, velocities and forces of a row block are zero, and only bonds can move its
+ * particles. */
 static bool active_set_is_inactive(const struct bonds *b, const struct particles *p, const struct loads *l,
                                    int64_t row_block)
 {
@@ -27,7 +29,8 @@ static bool active_set_is_inactive(const struct bonds *b, const struct particles
     return !has_moved(b, p, row_block);
 }
 
-/* Row block of the neighbour in a lane of a column; -1: none, or it has no row. Padding may point at any particle. */
+/* Returns the row block of the neighbour in a lane of a column, -1 if there is none or it has no row. Padding may point
+ * to any particle. */
 static int64_t row_block_of(const struct bonds *b, const struct particles *p, const struct loads *l,
                             const struct column_copy *column, int lane)
 {
@@ -36,7 +39,7 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
     return row < 0 ? -1 : row / LANES;
 }
 
-/* Gives a row block a level, and its neighbours one less, recursively. */
+/* Raises a row block to a level, and its neighbours to one less, recursively. */
 static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                                int level)
 {
@@ -52,6 +55,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     }
 }
 
+/* Returns true if a neighbour of the row block has the level. */
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
@@ -66,8 +70,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Finds levels from scratch. Rows are made anew after every conversion, so row blocks that may be inactive are
- * found, not those that are active. */
+/* Finds all levels anew. Rows are rebuilt after every conversion, so inactive row blocks are searched, not active
+ * ones. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
@@ -83,7 +87,7 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Only active row blocks that have not moved yet can have begun to move. */
+/* Updates the levels: only active row blocks that have not moved yet can have begun to move. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

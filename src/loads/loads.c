@@ -1,4 +1,4 @@
-/* Application of boundary conditions: mirror images, forces, walls, and their impulse and work. */
+/* Application of boundary conditions: set-up, forces, walls, and their impulse and work. */
 #include "loads/loads.h"
 
 #include <math.h>
@@ -10,8 +10,7 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Lists the particles that are loaded (LOADED) or have to wait for reactions of bonds across clamped planes
- * (MOVES_LATER). */
+/* Lists the particles that are loaded (LOADED) or wait for reactions of bonds across clamped planes (MOVES_LATER). */
 static void loads_list(struct loads *l, const struct particles *p)
 {
     int64_t most = 0;
@@ -45,7 +44,7 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     return OK;
 }
 
-/* Both lists ascend, and so does the new one; what nothing loads any more is left out. */
+/* Both lists ascend, and so does the new one; particles without marks are left out. */
 void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
@@ -97,7 +96,8 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
             if (!(components >> d & 1)) continue;
             const real target = driving_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
-            load->reaction[d] -= p->f[d][i]; /* without the driven particles' own inertia: what a load cell reads */
+            load->reaction[d] -=
+                p->f[d][i]; /* without the inertia of the driven particles: the reading of a load cell */
             if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;
@@ -126,8 +126,8 @@ static void loads_force_block(const void *context, int64_t first, int64_t end, r
     for (int l = 0; l < LANES; l++) *sum += part[l];
 }
 
-/* Books the impulse of mirrors. Forces of bonds between particles add up to 0, so the sum of all forces across a mirror
- * is that of its images, the reaction of the support. Along a mirror that leaves tangential motion free the forces of
+/* Books the impulse of mirrors. Forces of bonds between particles sum to 0, so the sum of all forces across a mirror is
+ * that of its images, the reaction of the support. Along a mirror that leaves tangential motion free the forces of
  * images cancel in pairs and nothing is booked: the momentum balance remains a check there. */
 static void mirror_impulse(struct loads *l, const struct particles *p, real dt_velocity)
 {
@@ -144,9 +144,9 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Adds the way of a step to the displacement of what a load drives: of its particles the mean, where they differ. A
- * prescribed displacement is what it says. */
-static void way_add(struct load *load, const struct particles *p, const struct driving *by)
+/* Updates the displacement of a load: mean over its particles if they differ; prescribed displacements are taken as
+ * they are, velocities are integrated over the step. */
+static void displacement_update(struct load *load, const struct particles *p, const struct driving *by)
 {
     const bool displaces = load->boundary->displaces;
     const int64_t n = drives_by_place(load->boundary) ? load->n : 1;
@@ -172,19 +172,19 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
     }
     loads_push(l, p, t, dt_velocity);
     loads_absorb(l, p, dt_velocity);
-    for (int c = 0; c < l->n; c++) { /* after all forces, which reactions contain */
+    for (int c = 0; c < l->n; c++) { /* after all forces, which reactions include */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
         const struct driving by = loads_driving(l, c, p->dim, t, dt);
-        way_add(load, p, &by);
+        displacement_update(load, p, &by);
         drive(l, load, p, &by, dt_velocity);
     }
 }
 
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
-/* Gives driven material points on the grid their velocity exactly; books impulse and work. */
-static void hold(struct loads *l, const struct load *load, struct particles *p, const struct driving *by)
+/* Sets the velocity of driven material points on the grid exactly; books impulse and work. */
+static void velocities_set(struct loads *l, const struct load *load, struct particles *p, const struct driving *by)
 {
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
@@ -202,13 +202,13 @@ static void hold(struct loads *l, const struct load *load, struct particles *p, 
     }
 }
 
-/* A particle that is so much beside its place has been a point between nodes that are not all driven, and keeps what it
- * is off [spacings]. */
+/* Largest deviation of a particle from its prescribed position that counts as round-off [spacings]. Larger deviations
+ * belong to former points between partly driven nodes, and are kept. */
 #define OFF_PLACE 1e-6
 
-/* Puts displaced particles where they have to be at the end of the step, but for those that nodes of a mesh move.
- * Returns whether that has moved points on a grid. */
-static bool place(const struct load *load, struct particles *p, const struct driving *by, real spacing)
+/* Moves displaced particles to their position at the end of the step, except points of a mesh. Returns true if points
+ * on a grid were moved. */
+static bool positions_set(const struct load *load, struct particles *p, const struct driving *by, real spacing)
 {
     bool moved = false;
     for (int64_t k = 0; k < load->n; k++) {
@@ -251,8 +251,8 @@ bool loads_hold(struct loads *l, struct particles *p, real t, real dt)
         struct load *load = &l->load[c];
         const struct driving by = driving_make(load->boundary, p->dim, t, dt);
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
-        hold(l, load, p, &by);
-        if (load->boundary->displaces) moved = place(load, p, &by, l->spacing) || moved;
+        velocities_set(l, load, p, &by);
+        if (load->boundary->displaces) moved = positions_set(load, p, &by, l->spacing) || moved;
     }
     loads_push_work(l, p, t, dt);
     return moved;

@@ -1,5 +1,5 @@
-/* Dashpots of absorbing faces: on particles that bonds move, on nodes of a grid with the mass of the points that bear
- * the face, and on the mesh's nodes of the face. */
+/* Dashpots of absorbing faces: on particles moved by bonds, on nodes of a grid through the points of the face, and on
+ * the mesh nodes of the face. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,9 +9,10 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true for an absorbing boundary. */
 static bool is_absorbing(const struct load *l) { return l->boundary->kind == BOUNDARY_ABSORBING; }
 
-/* Do two loads absorb at the same face of a particle? */
+/* Returns true if two loads absorb at one face of a particle. */
 static bool absorb_same(const struct load *a, const struct load *b)
 {
     if (a->boundary->face != b->boundary->face || a->boundary->side != b->boundary->side) return false;
@@ -25,7 +26,7 @@ static bool absorb_same(const struct load *a, const struct load *b)
     return false;
 }
 
-/* Does a load absorb in the plane of a mirror, where the body goes on? */
+/* Returns true if a load absorbs in the plane of a mirror, where the body continues. */
 static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, const struct particles *p, real spacing)
 {
     const int axis = a->boundary->face;
@@ -69,17 +70,17 @@ status loads_absorbing_check(const struct loads *l, const struct particles *p)
 static void particles_join(struct loads *l, const struct particles *p)
 {
     struct absorbing *a = &l->absorbing;
-    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int b = 0; b < l->n; b++)
-        for (int64_t k = 0; k < l->load[b].n && is_absorbing(&l->load[b]); k++) bears[l->load[b].particle[k]] = 1;
-    for (int64_t i = 0; i < p->n; i++) a->n += bears[i];
+        for (int64_t k = 0; k < l->load[b].n && is_absorbing(&l->load[b]); k++) chosen[l->load[b].particle[k]] = 1;
+    for (int64_t i = 0; i < p->n; i++) a->n += chosen[i];
     a->particle = NEW("loads.absorbing", a->n, int32_t);
     for (int64_t i = 0, k = 0; i < p->n; i++)
-        if (bears[i]) a->particle[k++] = (int32_t)i;
-    memory_free(bears);
+        if (chosen[i]) a->particle[k++] = (int32_t)i;
+    memory_free(chosen);
 }
 
-/* Force over velocity of the q-th particle of a load along d [kg/s]. */
+/* Returns the dashpot rate of the q-th particle of a load along d, for a particle moved by method `by` [kg/s]. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -94,14 +95,15 @@ static int by_index(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Place of particle i in the list of dashpots; -1: it has none. */
+/* Returns the index of particle i in the list of dashpots, -1 if it has none. */
 static int64_t dashpot_of(const struct absorbing *a, int32_t i)
 {
     const int32_t *found = a->n ? bsearch(&i, a->particle, (size_t)a->n, sizeof i, by_index) : NULL;
     return found ? found - a->particle : -1;
 }
 
-/* What a support holds no dashpot moves. Of particles that bonds move; nodes have walls. */
+/* Removes dashpots in components that a support prescribes, for particles moved by bonds; grid nodes have walls
+ * instead. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -181,8 +183,8 @@ static int by_dashpot(const void *a, const void *b)
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Rates are those of the face by linear extrapolation from its first two particles, which leaves nodes behind them
- * less than nothing where the face is not on nodes: such nodes have none, and all others less, for the same sum. */
+/* Sets negative rates to 0 and reduces the others, keeping the sum. Rates are linearly extrapolated from the first two
+ * particles of a face, which gives nodes behind them negative rates if the face is not on nodes. */
 static void rates_clip(real *rate, int64_t n)
 {
     real all = 0, left = 0;
@@ -190,8 +192,8 @@ static void rates_clip(real *rate, int64_t n)
     for (int64_t I = 0; I < n && all < left; I++) rate[I] = all > 0 ? real_max(rate[I], 0) * (all / left) : 0;
 }
 
-/* Lists the dashpots of nodes by their rates, [dim][g->n], which are used up. A node beyond a mirror plane gives its
- * own to its image. */
+/* Lists the dashpots of nodes by their rates [dim][g->n], which are destroyed. A node beyond a mirror plane transfers
+ * its rate to its image. */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
@@ -208,6 +210,7 @@ static void dashpots_list(struct grid *g, real *rate)
     }
 }
 
+/* Removes the dashpot of a component that a wall prescribes. */
 static void dashpots_hold(struct grid *g, int64_t node, int component)
 {
     const struct dashpot one = {.node = (int32_t)node};
@@ -215,7 +218,7 @@ static void dashpots_hold(struct grid *g, int64_t node, int component)
     if (held) held->rate[component] = 0;
 }
 
-/* Zeroed rates for nodes [dim][n], kept for the next call. */
+/* Returns zeroed rates for nodes [dim][n], in memory kept for the next call. */
 static real *field_of(struct absorbing *a, int64_t n)
 {
     GROW("loads.field", a->field, n);
@@ -248,8 +251,8 @@ void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, 
     memory_free(value);
 }
 
-/* Share of a face that the point at `place` of its cell shows along `axis`, at a corner of this cell: by the weight of
- * the corner where the face is, half a spacing before the point. */
+/* Returns the weight of a cell corner for the part of a face belonging to the point at `place` [1]; the face is half a
+ * spacing in front of the point along `axis`. */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);
@@ -259,7 +262,7 @@ static real face_weight(int dim, int corner, int place, int axis, int side)
     return weight;
 }
 
-/* Adds the rates of an absorbing face to the nodes of the cells that bear it. */
+/* Adds the rates of an absorbing face to the nodes of its cells. */
 static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
                       const struct particles *p, real *rate)
 {

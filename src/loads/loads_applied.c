@@ -10,14 +10,14 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Are they on the same particles, and can be one term? */
+/* Returns true if two loads are on equal particles and constant in time, so that they can be combined. */
 static bool same_particles(const struct load *a, const struct load *b)
 {
     return !a->moving && !b->moving && a->n == b->n &&
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Replaces the share of component d of load b by an equal one that the same leader's earlier loads have, if there is
+/* Replaces the share of component d of load b by an equal array of an earlier load with the same leader, if there is
  * one. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
@@ -59,7 +59,7 @@ void loads_join(struct loads *l, int dim)
     }
 }
 
-/* Is the share of component d of load b the array of an earlier component or load? */
+/* Returns true if the share of component d of load b is the array of an earlier component or load. */
 static bool is_borrowed(const struct loads *l, int b, int d)
 {
     for (int c = 0; c <= b; c++)
@@ -79,6 +79,7 @@ void loads_applied_free(struct loads *l)
 
 /* ---- one component of all loads of a leader ---------------------------------------------------------------------- */
 
+/* One component of all loads of a leader: particles, distinct shares with their values, force and positions. */
 struct push {
     const int32_t *particle;
     int terms;
@@ -86,7 +87,8 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads of a leader, times their factors [loads]; false: none has that component. */
+/* Collects component d of all loads of a leader, times their factors [loads]. Returns false if none has this
+ * component. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -103,7 +105,7 @@ static bool push_make(struct push *a, const struct loads *l, int leader, struct 
     return a->terms > 0;
 }
 
-/* Forces on particles first .. end - 1 of the leader [N]. */
+/* Computes the forces on particles first .. end - 1 of the leader [N]. */
 static void loads_applied_forces(const struct push *a, int64_t first, int64_t end, real *restrict force)
 {
     for (int b = 0; b < a->terms; b++) {
@@ -112,8 +114,7 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds the force [N] to f, stores the coordinate of the particle and returns the force; and below, the work of the
- * force over the displacement since then [J]. */
+/* Adds the force [N] to f and stores the coordinate of the particle. Returns the force. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -121,19 +122,20 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
+/* Returns the work of the force over the displacement since push_one [J]. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);
 }
 
-/* Do the listed particles first .. end - 1 have consecutive indices? */
+/* Returns true if the listed particles first .. end - 1 have consecutive indices. */
 static bool follow_each_other(const int32_t *particle, int64_t first, int64_t end)
 {
     return particle[end - 1] - particle[first] == end - 1 - first;
 }
 
-/* Sum of `one` over a block, in eight partial sums. Particles with consecutive indices, as in a body loaded everywhere,
- * are `dense`: they need no index. */
+/* Returns the sum of `one` over a block, in eight partial sums. dense: particles have consecutive indices, as in a body
+ * loaded everywhere. */
 static ALWAYS_INLINE real block_sum(real one(const struct push *, int64_t, int64_t, real), const struct push *a,
                                     int64_t first, int64_t end, const real *force, const bool dense)
 {
@@ -169,16 +171,16 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Mean of a time function over the kick that ends at t, by the trapezoidal rule [1]. The kick is centred on the instant
- * of the forces; the value at its end alone would be half a step late, an error of first order. A load that switches at
- * a whole step then gives its full impulse, too: half of it in the kick that the switch divides. */
+/* Returns the mean of a time function over the kick that ends at t, by the trapezoidal rule [1]. The kick is centred on
+ * the time of the forces; the value at its end alone would be half a step late, a first-order error. A load that
+ * switches at a whole step then has its full impulse too: half of it in the kick that contains the switch. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
     return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
 }
 
 /* The impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of
- * steps, not of steps times particles. */
+ * steps, not with steps times particles. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
@@ -196,10 +198,10 @@ void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
         }
 }
 
-/* Mean of the factors of the kicks before and after the drift of a step, t in its middle [1]. With kicks F_n at
- * positions x_n and drifts v dt between them, the change of 1/2 m v- . v+ equals sum 1/2 (F_n + F_n+1) . v dt to the
- * last digit, however short a load is. */
-static real way_factor(const struct time_function *f, real t, real dt)
+/* Returns the mean of the factors of the kicks before and after the drift of a step, t being its middle [1]. With kicks
+ * F_n at positions x_n and drifts v dt between them, the change of 1/2 m v- . v+ equals sum 1/2 (F_n + F_n+1) . v dt to
+ * the last digit, however short a load is. */
+static real drift_factor(const struct time_function *f, real t, real dt)
 {
     return 0.5 * time_function_at(f, t) +
            0.25 * (time_function_at(f, real_max(0, t - dt)) + time_function_at(f, t + dt));
@@ -212,7 +214,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
     loads_moving_work(l, p, t, dt);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
-        factor[b] = load->moving ? 1 : way_factor(&load->boundary->time, t, dt);
+        factor[b] = load->moving ? 1 : drift_factor(&load->boundary->time, t, dt);
     }
     for (int b = 0; b < l->n; b++)
         for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {

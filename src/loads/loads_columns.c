@@ -1,25 +1,26 @@
-/* The exposed face of bodies along an axis, column by column, which bears tractions.
+/* The exposed face of bodies along an axis, column by column, for tractions.
  *
- * Columns run along the normal of the face. A particle is a cube (a square in the plane) of its volume and lies in
- * every column whose middle passes through it. The exposed particle of a column is the first particle of the region
- * that has no particle within GAP widths in front of it; particles of all bodies that the boundary acts on hide those
- * behind them. Steps and curved faces are thus found; particles below an overhang and walls of holes are not, unless
- * the region leaves out the particles in front of them.
+ * Columns run along the normal of the face. A particle is a cube (in 2D a square) of its volume and belongs to every
+ * column whose middle line passes through it. The exposed particle of a column is the first particle of the region that
+ * has no particle within GAP widths in front of it; particles of all bodies that the boundary acts on hide those behind
+ * them. Steps and curved faces are thus found; particles below an overhang and walls of holes are not, unless the
+ * region excludes the particles in front of them.
  *
- * A lattice, exact or shaken, determines its columns: its sites are the mean positions of particles, and each site has
- * one column. Disordered particles are sampled by FINE columns across the mean particle. */
+ * A lattice, regular or irregular, determines its columns: its sites are the mean positions of particles, and each site
+ * has one column. Disordered particles are sampled by FINE columns per mean particle width. */
 #include <math.h>
 
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* A particle farther in front lies beyond a hole: lattice neighbours are at 1, particles across a missing site at 2
- * [widths]. */
+/* Distance in front beyond which a particle is across a hole: lattice neighbours are at 1, particles across a missing
+ * site at 2 [widths]. */
 #define GAP 1.75
-#define BENEATH 0.25     /* least distance from the first to the next particle [widths] */
-#define EVEN 1e-4        /* relative difference of equal volumes: lattices may be written in decimals */
-#define TO_ONE_SIDE 1e-6 /* shift of cubes that end at column middles: each counts at one end only [widths] */
-/* least order of sites: 0 without order, 1 on a lattice, sin(2 pi s)/(2 pi s) on one shaken by s spacings */
+#define BENEATH 0.25 /* smallest distance from the first to the next particle [widths] */
+#define EVEN 1e-4    /* relative difference of volumes that count as equal: lattices may be written in decimals */
+/* shift of cubes that end at middle lines of columns, so that each counts at one end only [widths] */
+#define TO_ONE_SIDE 1e-6
+/* least order parameter of sites: 0 without order, 1 on a lattice, sin(2 pi s)/(2 pi s) if shifted by s spacings */
 #define ORDER_LEAST 0.05
 #define ORDER_CHANCE 3.0 /* times sqrt(n): sum that n disordered particles may reach by chance */
 enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
@@ -40,14 +41,14 @@ struct columns {
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Edge of a particle's cube [m]. */
+/* Returns the edge of a particle's cube [m]. */
 static real width_of(const struct columns *c, const struct boundary *b, const struct particles *p, int64_t i)
 {
     if (p->body[i] == c->body && c->even) return c->width;
     return b->section > 0 ? pow(p->volume0[i] / b->section, 1.0 / p->dim) : c->spacing;
 }
 
-/* Mean width of the particles of the body, and whether all have one volume. */
+/* Computes the mean width of the particles of the body, and whether all have one volume. */
 static void find_width(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real mean = 0, least = INFINITY, most = 0;
@@ -80,7 +81,7 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Middle of column 0 and step of the columns, by axis. */
+/* Computes the position of column 0 and the step of the columns, for each axis. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -100,8 +101,8 @@ static void find_middles(struct columns *c, const struct boundary *b, const stru
 
 /* ---- particles in columns ---------------------------------------------------------------------------------------- */
 
-/* Index of a key in the table, or the free index where it belongs; the multiplier is that of Fibonacci hashing (Knuth,
- * vol. 3). */
+/* Returns the index of a key in the hash table, or the free index where it belongs (Fibonacci hashing, Knuth vol.
+ * 3). */
 static int64_t table_place(const struct columns *c, int64_t key)
 {
     const int64_t last = c->room - 1;
@@ -128,7 +129,7 @@ static void table_grow(struct columns *c)
     memory_free(old.number);
 }
 
-/* Number of the column of a key; if there is none, a new one with `make`, else -1. */
+/* Returns the number of the column of a key; if there is none, adds it if `make`, else returns -1. */
 static int32_t column_number(struct columns *c, int64_t key, bool make)
 {
     if (make && 2 * c->n >= c->room) table_grow(c);
@@ -138,11 +139,12 @@ static int32_t column_number(struct columns *c, int64_t key, bool make)
     return c->number[place];
 }
 
-/* The columns whose middles pass through a particle's cube: from .. to - 1 along each axis across. */
+/* The columns through a particle's cube: from .. to - 1 along each axis. */
 struct span {
     int64_t from[DIM_MAX - 1], to[DIM_MAX - 1];
 };
 
+/* Computes the columns through the cube of particle i. */
 static struct span span_of(const struct columns *c, const struct particles *p, int64_t i, real width)
 {
     struct span s = {{0, 0}, {1, 1}};
@@ -153,8 +155,8 @@ static struct span span_of(const struct columns *c, const struct particles *p, i
     return s;
 }
 
-/* Counts particle i in its columns, or with `put` stores it there. Particles of the body make columns; those of other
- * bodies only enter columns that exist. */
+/* Counts particle i in its columns, or stores it there if `put`. Particles of the body create columns; those of other
+ * bodies only enter existing columns. */
 static void particle_enter(struct columns *c, const struct boundary *b, const struct particles *p, int64_t i, bool put)
 {
     const bool make = p->body[i] == c->body && !put;
@@ -171,21 +173,21 @@ static void particle_enter(struct columns *c, const struct boundary *b, const st
         }
 }
 
-/* Coordinate of particle i along the outward normal [m]. */
+/* Returns the coordinate of particle i along the outward normal [m]. */
 static real loads_columns_height(const struct boundary *b, const struct particles *p, int32_t i)
 {
     return b->side * p->X[b->face][i];
 }
 
-/* Is particle i below particle j? Equal heights are ordered by index. */
+/* Returns true if particle i is below particle j; equal heights are ordered by index. */
 static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||
            (loads_columns_height(b, p, i) == loads_columns_height(b, p, j) && i < j);
 }
 
-/* Sorts a column of n particles by height. Shell's sort with Knuth's gaps: columns of a lattice are in order
- * already. */
+/* Sorts a column of n particles by height, by Shell's sort with Knuth's gaps: columns of a lattice are already in
+ * order. */
 static void sort_column(const struct boundary *b, const struct particles *p, int32_t *order, int64_t n)
 {
     int64_t gap = 1;
@@ -215,6 +217,7 @@ static void columns_fill(struct columns *c, const struct boundary *b, const stru
     for (int64_t k = 0; k < c->n; k++) sort_column(b, p, c->order + c->start[k], c->start[k + 1] - c->start[k]);
 }
 
+/* Makes the columns of one body. */
 static void loads_columns_make(struct columns *c, const struct boundary *b, const struct particles *p, int body,
                                real spacing)
 {
@@ -235,14 +238,14 @@ static void loads_columns_free(struct columns *c)
 
 /* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Distance of particle j behind particle i [mean of their widths]. */
+/* Returns the distance of particle j behind particle i [mean of their widths]. */
 static real behind(const struct columns *c, const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return (loads_columns_height(b, p, i) - loads_columns_height(b, p, j)) /
            (0.5 * (width_of(c, b, p, i) + width_of(c, b, p, j)));
 }
 
-/* Index in c->order of the next exposed particle of a column below `from`, -1: none. */
+/* Returns the index in c->order of the next exposed particle of a column below `from`, -1: none. */
 static int64_t exposed_below(const struct columns *c, int64_t column, int64_t from, const struct boundary *b,
                              const struct particles *p, const uint8_t *selected)
 {
@@ -255,8 +258,8 @@ static int64_t exposed_below(const struct columns *c, int64_t column, int64_t fr
     return -1;
 }
 
-/* Index in c->order of the exposed particle of a column, -1: none of this body. An exposed particle of another body
- * belongs to the columns of that body. */
+/* Returns the index in c->order of the exposed particle of a column, -1: none of this body. An exposed particle of
+ * another body belongs to the columns of that body. */
 static int64_t loads_columns_shown(const struct columns *c, int64_t column, const struct boundary *b,
                                    const struct particles *p, const uint8_t *selected)
 {
@@ -264,7 +267,7 @@ static int64_t loads_columns_shown(const struct columns *c, int64_t column, cons
     return k >= 0 && p->body[c->order[k]] == c->body ? k : -1;
 }
 
-/* Index in c->order of the next particle of the body behind the one at k, -1: none. */
+/* Returns the index in c->order of the next particle of the body behind the one at k, -1: none. */
 static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const struct boundary *b,
                        const struct particles *p)
 {
@@ -278,11 +281,11 @@ static int64_t beneath(const struct columns *c, int64_t column, int64_t k, const
 
 /* Adds the area of a column to its exposed particles. A traction acts on the face, half a spacing outside the first
  * particle of the column. This makes no difference for the normal component, but for the tangential ones it would cause
- * a moment: a plate of n particles a side in shear would bear 1 + 1.3/n of the stress. So 3/2 of the tangential
+ * a moment: a plate of n particles per side in shear would have 1 + 1.3/n of the stress. So 3/2 of the tangential
  * components act on the first particle and -1/2 on the next: by this linear extrapolation force and first moment are
- * those of the face. The first particle bears all where the column has no next one. */
-static void show(struct face *f, const struct columns *c, int64_t column, const struct boundary *b,
-                 const struct particles *p, const uint8_t *selected, real area, bool two)
+ * those of the face. The first particle gets all of it if the column has no next one. */
+static void face_add(struct face *f, const struct columns *c, int64_t column, const struct boundary *b,
+                     const struct particles *p, const uint8_t *selected, real area, bool two)
 {
     const int64_t k = loads_columns_shown(c, column, b, p, selected),
                   m = k >= 0 && two ? beneath(c, column, k, b, p) : -1;
@@ -294,8 +297,8 @@ static void show(struct face *f, const struct columns *c, int64_t column, const 
     if (m >= 0) f->along[c->order[m]] += area * -0.5;
 }
 
-/* Area of a column [m^2]: the volume of a cubic particle over its height, as on a lattice; 0: the boundary has no
- * section. */
+/* Returns the area of a column [m^2]: the volume of a cubic particle over its height, as on a lattice; 0 if the
+ * boundary has no section. */
 static real column_area(const struct columns *c, const struct boundary *b, int dim)
 {
     if (!(b->section > 0)) return 0;
@@ -303,15 +306,16 @@ static real column_area(const struct columns *c, const struct boundary *b, int d
     return c->step == c->width ? area : area * pow(c->step / c->width, dim - 1);
 }
 
-/* Columns of one body after the other, of those with a selected particle:
+/* Iterator over the columns of each body that has a selected particle:
  *
  *     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) ... f.columns ... */
 struct faced {
     bool known, has[UINT8_MAX + 1];
-    int next, body; /* the next body to look at, and the one at hand */
+    int next, body; /* next body to be examined; present body */
     struct columns columns;
 };
 
+/* Advances to the columns of the next body. Returns false at the end. */
 static bool faced_next(struct faced *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                        real spacing)
 {
@@ -344,7 +348,7 @@ void face_make(struct face *f, const struct boundary *b, const struct particles 
     *f = (struct face){NEW("loads.normal", p->n, real), NEW("loads.along", p->n, real)};
     for (struct faced of = {0}; faced_next(&of, b, p, selected, spacing);)
         for (int64_t k = 0; k < of.columns.n; k++)
-            show(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), two);
+            face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), two);
 }
 
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,

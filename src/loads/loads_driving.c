@@ -1,13 +1,13 @@
-/* Prescribed velocities and displacements: numbers and formulas times a function of time, and rotations.
+/* Prescribed velocities and displacements: values and formulas times a function of time, and rotations.
  *
- * What rotates moves on circles: its velocity in a step is the difference of its places at both ends over the step, so
- * that no step leaves the circle, however long it is. So does what is displaced; it takes its place at the end exactly
- * (loads_hold, walls of the mesh), so that no round-off adds up. */
+ * Rotating particles move on circles: their velocity in a step is the difference of their positions at both ends over
+ * the step, so that no step leaves the circle, however long it is. Displaced particles likewise; their position at the
+ * end is set exactly (loads_hold, walls of the mesh), so that round-off does not accumulate. */
 #include <math.h>
 
 #include "loads/loads.h"
 
-/* Rotation by `angle` about the axis of a boundary: Rodrigues. */
+/* Computes the rotation by `angle` about the axis of a boundary (Rodrigues' formula). */
 static void rotation_matrix(const struct boundary *b, int dim, real angle, real *R)
 {
     const real plane[DIM_MAX] = {0, 0, 1}, *n = dim == 3 ? b->axis_of : plane;
@@ -74,8 +74,8 @@ struct driving loads_driving(const struct loads *l, int which, int dim, real t, 
     return driving_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
-/* Component d of the rotation from the first end of the step to the second, minus one, of an arm. */
-static real turned_further(const struct driving *s, const real *arm, int d)
+/* Returns component d of the change of an arm by the rotation from the start of the step to its end. */
+static real rotation_increment(const struct driving *s, const real *arm, int d)
 {
     real own[DIM_MAX] = {0}, sum = -arm[d];
     for (int k = 0; k < s->dim; k++) /* back to the reference, then on */
@@ -87,31 +87,32 @@ static real turned_further(const struct driving *s, const real *arm, int d)
 real driving_at(const struct driving *s, const real *X, int d, bool placed)
 {
     const struct boundary *b = s->boundary;
-    real arm[DIM_MAX] = {0}, way = 0;
+    real arm[DIM_MAX] = {0}, increment = 0;
     if (b->displaces) return (displacing_at(&s->to, X, d) - displacing_at(&s->from, X, d)) / s->dt;
     if (!b->rotates)
         return s->factor * b->value[d] *
                (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, boundary_time(b, s->t)) : 1);
     for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
-    if (placed) return turned_further(s, arm, d) / s->dt;
-    for (int k = 0; k < s->dim; k++) way += (s->to.turned[d * s->dim + k] - s->from.turned[d * s->dim + k]) * arm[k];
-    return way / s->dt;
+    if (placed) return rotation_increment(s, arm, d) / s->dt;
+    for (int k = 0; k < s->dim; k++)
+        increment += (s->to.turned[d * s->dim + k] - s->from.turned[d * s->dim + k]) * arm[k];
+    return increment / s->dt;
 }
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
 enum { MOMENTS = 1000, PLACES = 64 };
 
-/* Of one particle, by differences between moments. */
+/* Returns the largest speed of one particle, by differences between sampled times [m/s]. */
 static real formula_speed(const struct load *l, const struct particles *p, int64_t k, real t)
 {
     real before[DIM_MAX], u[DIM_MAX], most = 0;
     load_displacement_at(l, p, k, 0, before);
     for (int m = 1; m <= MOMENTS; m++) {
-        real way2 = 0;
+        real increment2 = 0;
         load_displacement_at(l, p, k, t * m / MOMENTS, u);
-        for (int d = 0; d < p->dim; d++) way2 += square(u[d] - before[d]), before[d] = u[d];
-        most = real_max(most, sqrt(way2) / (t / MOMENTS));
+        for (int d = 0; d < p->dim; d++) increment2 += square(u[d] - before[d]), before[d] = u[d];
+        most = real_max(most, sqrt(increment2) / (t / MOMENTS));
     }
     return most;
 }
@@ -128,7 +129,7 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
     return most;
 }
 
-/* By which the driven velocity of the k-th particle of a load differs from its own [m/s]. */
+/* Returns the difference between the prescribed velocity of the k-th particle of a load and its own [m/s]. */
 static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k, const struct driving *by)
 {
     const int32_t i = l->particle[k];
@@ -156,9 +157,10 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t)
     return most;
 }
 
-enum { LAGS = 9 }; /* of the time within which a velocity may change, each 0.6 of the one before: no period hides */
+enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
-/* Change of the velocity of the k-th particle of a load from time t - lag to t; before 0 it has its own [m/s]. */
+/* Returns the change of the velocity of the k-th particle of a load between two times; before 0 it has its own velocity
+ * [m/s]. */
 static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k, const struct driving by[2])
 {
     const bool own = by[0].t <= 0;
@@ -180,7 +182,7 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
     real most = 0;
     for (int m = 0; m < MOMENTS + b->time.n; m++) {
         const real moment = m < MOMENTS ? step * m : b->time.t[m - MOMENTS];
-        const real at = real_min(moment, t - 0.5 * dt); /* displacements by formulas stay as they are after the end */
+        const real at = real_min(moment, t - 0.5 * dt); /* displacements by formulas stay constant after the end */
         if (!(moment >= 0 && moment <= t)) continue;
         real lag = real_max(within, step);
         for (int n = 0; n < LAGS; n++, lag *= 0.6) {

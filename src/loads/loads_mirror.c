@@ -1,4 +1,4 @@
-/* Mirror images of particles: which particles have images, and the motion of images. */
+/* Mirror images of particles: selection of particles with images, and motion of images. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -6,9 +6,9 @@
 #include "loads/loads.h"
 #include "base/memory.h"
 
-/* Step of the positions along `axis` of particles with images [m]; 0: positions stay as they are. Along a mirror the
- * force of i on the image of j cancels that of j on the image of i if both bonds are equal to the last bit, that is if
- * reflection causes no rounding; else the round-off of bond lengths moves slow bodies. Positions across mirrors are
+/* Returns the step to which positions along `axis` of particles with images are rounded [m]; 0: none. Along a mirror
+ * the force of i on the image of j cancels that of j on the image of i if both bonds are equal to the last bit, that is
+ * if reflection causes no rounding; else the round-off of bond lengths moves slow bodies. Positions across mirrors are
  * therefore multiples of one step, the last bit of twice the farthest position. Mirrors at 0 only change a sign and
  * need no step. */
 static real place_step(const struct boundary *boundary, int n, const struct particles *p, real reach, int axis)
@@ -22,15 +22,15 @@ static real place_step(const struct boundary *boundary, int n, const struct part
     return scalbn(1, ilogb(farthest + reach) + 2 - DBL_MANT_DIG);
 }
 
-/* Nearest multiple of the step along `axis` [m]. */
+/* Returns the nearest multiple of the step along `axis` [m]. */
 static real stepped(const struct loads *l, int axis, real place)
 {
     const real step = l->place_step[axis];
     return step > 0 ? step * nearbyint(place / step) : place;
 }
 
-/* Adds the images of mirror `which`: of all particles within `reach` [m] of its plane, images of earlier mirrors
- * included, for corners. Particles on the plane have none: each is its own image. */
+/* Adds the images of mirror `which`: of all particles within `reach` [m] of its plane, including images of earlier
+ * mirrors, for corners. Particles on the plane have none: each is its own image. */
 static void mirror_make(struct loads *l, int which, struct particles *p, real reach, int optional)
 {
     const struct boundary *b = l->load[which].boundary;
@@ -80,7 +80,7 @@ void loads_mirror(const struct loads *l, struct particles *p)
     }
 }
 
-/* REFUSED for a mirror with body on both sides: images would coincide with particles. */
+/* REFUSED for a mirror with the body on both sides: images would coincide with particles. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -94,7 +94,7 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
                       b->name, "xyz"[b->axis], b -> at);
 }
 
-/* The side of a mirror that holds no body: -1 below, +1 above. */
+/* Returns the side of a mirror without body: -1 below, +1 above. */
 static int mirror_outside(const struct boundary *b, const struct particles *p)
 {
     real sum = 0;
@@ -103,8 +103,8 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* REFUSED for parallel mirrors closer than bonds reach: a particle between them would have bonds to images of images on
- * both sides, of which there is only one. The forces would have no potential, and no time step would be small
+/* REFUSED for parallel mirrors closer than the reach of bonds: a particle between them would have bonds to images of
+ * images on both sides, of which only one exists. The forces would have no potential, and no time step would be small
  * enough. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {

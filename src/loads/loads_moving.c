@@ -1,5 +1,5 @@
-/* Loads whose shares change from step to step: formulas of time, and pressure that follows its surface. Their shares
- * contain functions of time and formulas; all that comes after is that of other loads. */
+/* Loads whose shares change from step to step: formulas of time, and pressure that follows the surface. Their shares
+ * include functions of time and formulas; all else is done as for other loads. */
 #include <math.h>
 #include <string.h>
 
@@ -8,12 +8,13 @@
 #include "base/memory.h"
 #include "base/team.h"
 
+/* Returns the formula of component d. */
 static const struct expression *formula_of(const struct boundary *b, int d)
 {
     return &b->formula[b->kind == BOUNDARY_PRESSURE ? 0 : d];
 }
 
-/* Formula of component d at particle i and time t; 1 without [of the value]. */
+/* Returns the formula of component d at particle i and time t, 1 if there is none [unit of the value]. */
 static real formula_at(const struct boundary *b, int d, const struct particles *p, int32_t i, real t)
 {
     real X[DIM_MAX];
@@ -84,8 +85,8 @@ void load_moving_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Mean of function of time and formula over the kick from t - dt to t, times the shares without: as kick_factor is of
- * other loads. Added with the weight `half` to what the shares were, times 1 - half. */
+/* Computes the shares: mean of function of time and formula over the kick from t - dt to t (as kick_factor), times the
+ * base shares; the result is weighted by `half`, the previous shares by 1 - half. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -98,6 +99,7 @@ static void moving_shares(struct load *l, const struct particles *p, int d, real
         });
 }
 
+/* Updates the shares of all loads that change in time. */
 static void moving_update(struct loads *l, const struct particles *p, real t, real dt, real half)
 {
     for (int b = 0; b < l->n; b++) {
@@ -114,13 +116,13 @@ void loads_moving_push(struct loads *l, const struct particles *p, real t, real 
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* The mean of the kicks before and after a drift, at the places before and after it. */
+/* Mean of the kicks before and after a drift, at the positions before and after it. */
 void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }
 
-/* ---- what it amounts to ------------------------------------------------------------------------------------------ */
+/* ---- totals ----------------------------------------------------------------------------------------------------- */
 
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {

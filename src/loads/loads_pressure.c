@@ -1,11 +1,11 @@
 /* Pressure on every free face of a body.
  *
- * A particle is a cube (a square in the plane) of a lattice; each face of it that has no neighbour counts with its area
- * along its outward normal. These faces are the surface of the body of cubes: each column of particles along an axis
- * ends twice with the same area, so that the resultant of a pressure all round vanishes to the last digit, and on a
- * lattice its moment, too, as both ends lie on one line. Steps of a curved or sloping surface add up to its projected
- * areas, as those of tractions do. Columns are those of tractions (loads_columns.c), which know scattered particles as
- * well. A face on a mirror is none: the body goes on there. */
+ * A particle is a cube (in 2D a square) of a lattice; each of its faces without a neighbour counts with its area along
+ * its outward normal. These faces are the surface of the body of cubes: each column of particles along an axis ends
+ * twice with equal areas, so that the resultant of a uniform pressure vanishes to the last digit, and on a lattice its
+ * moment too, as both ends are on one line. Steps of a curved or sloping surface sum to its projected areas, as for
+ * tractions. Columns are those of tractions (loads_columns.c), which also handle scattered particles. A face on a
+ * mirror does not count: the body continues there. */
 #include <math.h>
 #include <string.h>
 
@@ -13,17 +13,17 @@
 #include "loads_surface.h"
 #include "base/memory.h"
 
-/* What hears of the free ends of columns along one axis. */
+/* Context of end_found: free ends of columns along one axis. */
 struct ends {
-    const struct boundary *boundary, *all; /* with axis and side; those of the scene */
-    int n;                                 /* of the scene */
+    const struct boundary *boundary, *all; /* boundary with axis and side; boundaries of the scene */
+    int n;                                 /* number of boundaries of the scene */
     const struct particles *p;
     real spacing;
     pressure_face_fn *found;
     void *context;
 };
 
-/* Does the body go on behind a mirror at this end? */
+/* Returns true if the body continues behind a mirror at this end. */
 static bool is_mirrored(const struct ends *e, int32_t i)
 {
     const int axis = e->boundary->face;
@@ -35,6 +35,7 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
+/* Passes on a free end unless it is on a mirror. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -52,6 +53,7 @@ void pressure_faces(const struct boundary *all, int n, int which, const struct p
         }
 }
 
+/* Appends a face. */
 static void surface_face_add(struct surface_faces *f, int32_t particle, int axis, int side)
 {
     GROW("loads.faces", f->face, f->n + 1);
@@ -64,12 +66,13 @@ static void surface_faces_free(struct surface_faces *f)
     *f = (struct surface_faces){0};
 }
 
-/* Areas of free faces along their outward normals. */
+/* Context of face_pressed: areas of free faces along their outward normals. */
 struct pressed {
     real *const *area;           /* by component [particles] [m^2] */
-    struct surface_faces *faces; /* of pressure that follows; NULL: none */
+    struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
+/* Adds a free face to the areas and, if needed, to the list. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {
     const struct pressed *a = context;
@@ -77,16 +80,17 @@ static void face_pressed(void *context, int32_t i, int axis, int side, real area
     if (a->faces) surface_face_add(a->faces, i, axis, side);
 }
 
-/* A pressure that acts on the reference state: its shares are the areas, inwards. */
+/* Makes a pressure on the reference surface: its shares are the inward areas. Returns false if there is no free
+ * face. */
 static bool pressure_shares(struct load *l, struct particles *p, real *const *area)
 {
-    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int d = 0; d < p->dim; d++)
-        for (int64_t i = 0; i < p->n; i++) bears[i] |= area[d][i] != 0;
-    load_take(l, bears, p);
+        for (int64_t i = 0; i < p->n; i++) chosen[i] |= area[d][i] != 0;
+    load_take(l, chosen, p);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < l->n; k++) l->share[d][k] = -area[d][l->particle[k]];
-    memory_free(bears);
+    memory_free(chosen);
     return l->n > 0;
 }
 
@@ -94,7 +98,7 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
                             real spacing)
 {
     const struct boundary *b = &boundary[which];
-    const bool follows = b->follow && p->dim > 1; /* in a line there is nothing to follow */
+    const bool follows = b->follow && p->dim > 1; /* in 1D there is nothing to follow */
     real *area[DIM_MAX] = {NULL};
     struct surface_faces faces = {0};
     status s = OK;

@@ -1,9 +1,10 @@
-/* The particles on which a boundary condition acts, and their shares of its value. */
+/* Selects the particles on which a boundary condition acts, and computes their shares of its value. */
 #include <math.h>
 
 #include "loads/loads.h"
 #include "base/memory.h"
 
+/* Returns true if particle i is in the region and body of a boundary. */
 static bool selects(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     real X[DIM_MAX];
@@ -12,6 +13,7 @@ static bool selects(const struct boundary *b, const struct particles *p, int64_t
     return region_contains(&b->region, X, p->dim, LOADS_TOLERANCE * spacing);
 }
 
+/* Returns true if a face load has tangential components. */
 static bool has_tangential(const struct boundary *b, int dim)
 {
     bool found = false;
@@ -21,7 +23,7 @@ static bool has_tangential(const struct boundary *b, int dim)
 
 /* ---- shares ------------------------------------------------------------------------------------------------------ */
 
-/* Factor of the profile at particle i [1]. */
+/* Returns the factor of the profile at particle i [1]. */
 static real profile_at(const struct profile *f, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX], along = 0;
@@ -31,6 +33,7 @@ static real profile_at(const struct profile *f, const struct particles *p, int64
     return sin(2 * M_PI * along / (sqrt(dot(f->direction, f->direction, p->dim)) * f->wavelength));
 }
 
+/* Computes the shares of a body force: volume or mass times profile. */
 static void body_shares(struct load *l, const struct particles *p)
 {
 #pragma omp parallel for schedule(static)
@@ -39,13 +42,15 @@ static void body_shares(struct load *l, const struct particles *p)
                          profile_at(&l->boundary->profile, p, l->particle[k]);
 }
 
+/* Allocates shares, one array for all components of a body force. */
 static void shares_allocate(struct load *l, int dim)
 {
     const bool alike = l->boundary->kind == BOUNDARY_BODY_FORCE;
     for (int d = 0; d < dim; d++) l->share[d] = d > 0 && alike ? l->share[0] : NEW("loads.share", l->n, real);
 }
 
-static bool wants_face(const struct boundary *b)
+/* Returns true if the boundary acts on an exposed face. */
+static bool needs_face(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_ABSORBING ||
            (b->kind == BOUNDARY_VELOCITY && b->side != 0);
@@ -67,33 +72,33 @@ void load_take(struct load *l, const uint8_t *taken, struct particles *p)
 static void select_face(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct face face;
-    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     face_make(&face, l->boundary, p, selected, spacing, has_tangential(l->boundary, p->dim));
-    for (int64_t i = 0; i < p->n; i++) bears[i] = face.normal[i] != 0 || face.along[i] != 0;
-    load_take(l, bears, p);
+    for (int64_t i = 0; i < p->n; i++) chosen[i] = face.normal[i] != 0 || face.along[i] != 0;
+    load_take(l, chosen, p);
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++)
             l->share[d][k] = (d == l->boundary->face ? face.normal : face.along)[l->particle[k]];
-    memory_free(bears);
+    memory_free(chosen);
     face_free(&face);
 }
 
-/* The same of an absorbing face. */
+/* Lists the particles of an absorbing face and their areas. */
 static void select_absorbing(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     struct face face;
-    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
+    uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     face_make(&face, l->boundary, p, selected, spacing, true);
-    for (int64_t i = 0; i < p->n; i++) bears[i] = face.along[i] != 0;
-    load_take(l, bears, p);
+    for (int64_t i = 0; i < p->n; i++) chosen[i] = face.along[i] != 0;
+    load_take(l, chosen, p);
     l->outer = NEW("loads.outer", l->n, real), l->edge = NEW("loads.edge", l->n, real);
     for (int64_t k = 0; k < l->n; k++)
         l->outer[k] = face.normal[l->particle[k]], l->edge[k] = face.along[l->particle[k]];
-    memory_free(bears);
+    memory_free(chosen);
     face_free(&face);
 }
 
-/* The layer of a face that is driven. */
+/* Lists the particles of a driven layer behind a face. */
 static void select_layer(struct load *l, const uint8_t *selected, struct particles *p, real spacing)
 {
     uint8_t *taken = NEW("loads.layer", p->n, uint8_t);
@@ -112,7 +117,7 @@ bool load_region(const struct boundary *b, const struct particles *p, real spaci
     return any;
 }
 
-/* Does particle i lie in the plane of a clamped mirror? Such a particle is its own image and stays at rest. */
+/* Returns true if particle i is in the plane of a clamped mirror; it is its own image and stays at rest. */
 static bool is_in_plane(const struct boundary *b, const struct particles *p, int64_t i, real spacing)
 {
     return (b->body < 0 || p->body[i] == b->body) && fabs(p->X[b->axis][i] - b->at) <= LOADS_TOLERANCE * spacing;
@@ -133,15 +138,15 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
         select_face(l, selected, p, spacing);
     else if (b->kind == BOUNDARY_ABSORBING)
         select_absorbing(l, selected, p, spacing);
-    else if (wants_face(b))
+    else if (needs_face(b))
         select_layer(l, selected, p, spacing);
     else
         load_take(l, selected, p);
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
-    if (!any && (boundary_is_force(b) || wants_face(b)))
+    if (!any && (boundary_is_force(b) || needs_face(b)))
         return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
-    if (l->n > 0 || !wants_face(b)) return OK;
+    if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
                       "region hold the body's outside there, or the wall of a hole",

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUND_OFF 1e-12 /* share of the largest possible moment; smaller moments count as 0 */
+#define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
 {
@@ -23,10 +23,11 @@ void loads_static_boundaries(struct boundary *to, const struct boundary *from, i
     }
 }
 
-/* Work of its support is summed by particles: a sum of forces times one displacement would not be it. */
+/* Returns true if the work of its support must be summed over particles, because displacements differ. */
 static bool works_by_place(const struct boundary *b) { return b->frozen && drives_by_place(b); }
 
-/* Displacement of component d that the k-th particle of a load has in the end; k < 0: of a load that has none [m]. */
+/* Returns the final displacement of component d of the k-th particle of a load; k < 0: of a load without particles
+ * [m]. */
 static real static_displacement(const struct displacing *by, const struct load *l, const struct particles *p, int64_t k,
                                 int d)
 {
@@ -57,8 +58,8 @@ void loads_static_driven(struct loads *l, const struct particles *p, real ramp, 
     }
 }
 
-/* Moment of the applied forces about the centre of mass in the plane, and the largest that forces of their size could
- * make there [N m]. */
+/* Computes the moment of the applied forces about the centre of mass in 2D, and the largest moment that forces of this
+ * size could have there [N m]. */
 static void moment(const struct loads *l, const struct particles *p, real *turning, real *most)
 {
     *turning = *most = 0;

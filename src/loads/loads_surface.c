@@ -1,15 +1,15 @@
 /* Pressure that follows the surface of a body of lattice cubes.
  *
- * The free faces of the cubes meet in corners. A corner goes with the particles around it: its place is a weighted mean
- * of theirs, x = sum w x_i, with sum w = 1 and sum w X_i = X, so that it is exact in every uniform deformation. The
- * faces between corners (in the plane segments; in space quadrilaterals, halved along either diagonal, the mean of
- * both) enclose a volume V. A pressure p does the work -p dV: the force on a corner is -p dV/dx, a half of each of its
- * segments, a third of each of its triangles, and that on a particle follows by the weights. So the forces of a closed
- * surface have the energy p V, no resultant and no moment, whatever the deformation, and turn with the body; on part of
- * a surface each face gives its own share.
+ * The free faces of the cubes meet in corners. A corner moves with the particles around it: its position is a weighted
+ * mean of theirs, x = sum w x_i, with sum w = 1 and sum w X_i = X, so that it is exact in every uniform deformation.
+ * The faces between corners (in 2D segments; in 3D quadrilaterals, divided along either diagonal, the mean of both)
+ * enclose a volume V. A pressure p does the work -p dV: the force on a corner is -p dV/dx, half of each of its
+ * segments, a third of each of its triangles, and the force on a particle follows from the weights. So the forces of a
+ * closed surface have the energy p V, no resultant and no moment, whatever the deformation, and rotate with the body;
+ * on part of a surface each face contributes its own share.
  *
- * Beside a mirror a corner goes with images, too, whose displacement is that of their sources with some components
- * turned round. V is that of the part on this side; its derivative by a source is what the whole surface does to it. */
+ * Near a mirror a corner also moves with images, whose displacement is that of their sources with some components
+ * reversed. V is that of the part on this side; its derivative by a source is the force of the whole surface on it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,29 +18,31 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define OFF_LATTICE 1e-4  /* of particles that count as on it [spacings] */
-#define SECOND_LAYER 0.25 /* weight of particles behind those at a corner */
-#define SINGULAR 1e-10    /* least variance that counts as extent [spacings^2] */
-#define BESIDE 3.0        /* corners farther away from mirrors know nothing of them [spacings] */
-#define TORN 3.0          /* edge of a face that no longer is one [spacings] */
+#define OFF_LATTICE 1e-4  /* tolerance for particles on the lattice [spacings] */
+#define SECOND_LAYER 0.25 /* weight of particles behind those at a corner; empirical */
+#define SINGULAR 1e-10    /* smallest variance that counts as extent [spacings^2] */
+#define BESIDE 3.0        /* distance from a mirror beyond which a corner has no images [spacings] */
+#define TORN 3.0          /* edge length of a face beyond which it counts as torn [spacings] */
 enum { FACE_CORNERS = 4, STENCIL_MOST = 32, SITE_BITS = 18 };
 
+/* The surface of one load. All arrays are owned. */
 struct surface {
     int dim;
-    real section, longest; /* [m] in the plane, 1 in space; of an edge [m] */
+    real section, longest; /* thickness in 2D [m], 1 in 3D; largest edge [m] */
     int64_t faces, corners, particles;
-    int32_t *corner;                           /* [faces][4] in order round the outward normal of an upper face */
-    int8_t *sign;                              /* [faces] of their area in this order */
-    uint8_t *turned;                           /* [first[corners]] bit d: component d is that of an image */
-    int64_t *first, *face_first, *share_first; /* [corners + 1] stencil, faces; [particles + 1] corners */
-    int32_t *particle;                         /* [first[corners]] of a corner's stencil ... */
-    real *weight;                              /* ... and its weight [1] */
-    int32_t *part;                             /* [4 faces] 4 face + place of those that meet in a corner */
-    int32_t *share_corner;                     /* [first[corners]] corners that go with a particle of the load ... */
+    int32_t *corner; /* [faces][4] in order around the outward normal of an upper face */
+    int8_t *sign;    /* [faces] sign of the area in this order */
+    uint8_t *turned; /* [first[corners]] bit d: component d is that of an image */
+    int64_t *first, *face_first,
+        *share_first;      /* ranges: [corners + 1] in the stencils, in `part`; [particles + 1] in share_corner */
+    int32_t *particle;     /* [first[corners]] particles of the corners' stencils */
+    real *weight;          /* their weights [1] */
+    int32_t *part;         /* [4 faces] 4 face + position, of the faces that meet in a corner */
+    int32_t *share_corner; /* [first[corners]] corners that depend on each particle of the load */
     real *share_weight;
     uint8_t *share_turned;
-    real *place;                /* [corners][dim] of the reference state [m] */
-    real *x, *face_area, *area; /* scratch: [corners][dim], [faces][4][dim], [corners][dim] */
+    real *place;                /* [corners][dim] reference position [m] */
+    real *x, *face_area, *area; /* working memory: [corners][dim], [faces][4][dim], [corners][dim] */
 };
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
@@ -51,14 +53,15 @@ struct site {
     int32_t value;
 };
 
+/* The sites of all bodies with faces. */
 struct sites {
     const struct particles *p;
-    const struct boundary *all; /* [boundaries] of the scene, with the mirrors */
+    const struct boundary *all; /* [boundaries] of the scene, including mirrors */
     int boundaries;
     real spacing;
     int32_t first[UINT8_MAX + 1]; /* a particle of each body, -1: none */
     int64_t n;
-    struct site *site; /* by ascending key */
+    struct site *site; /* ascending by key */
 };
 
 static int by_key(const void *a, const void *b)
@@ -67,7 +70,7 @@ static int by_key(const void *a, const void *b)
     return p->key != q->key ? (p->key > q->key) - (p->key < q->key) : (p->value > q->value) - (p->value < q->value);
 }
 
-/* Of a body, at steps k from its first particle; -1: too far away. */
+/* Returns the key of a site of a body at steps k from its first particle, -1 if too far away. */
 static int64_t site_key(int body, const int64_t *k, int dim)
 {
     int64_t key = body;
@@ -79,7 +82,7 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Steps of particle i from the first of its body; false: it is not on their lattice. */
+/* Computes the steps k of particle i from the first of its body. Returns false if it is not on their lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -91,6 +94,7 @@ static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
     return on;
 }
 
+/* Returns the particle at a site, -1: none. */
 static int32_t site_find(const struct sites *s, int64_t key)
 {
     const struct site wanted = {key, 0};
@@ -105,7 +109,7 @@ static int32_t site_find(const struct sites *s, int64_t key)
     return low < s->n && s->site[low].key == key ? s->site[low].value : -1;
 }
 
-/* Sites of all particles of bodies that have faces. */
+/* Lists the sites of all particles of bodies that have faces. REFUSED if a particle is not on a lattice. */
 static status sites_make(struct sites *s, const struct surface_faces *f)
 {
     bool has[UINT8_MAX + 1] = {false};
@@ -125,13 +129,13 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Twice the place of a mirror in steps from the first particle of a body. */
+/* Returns twice the position of a mirror in steps from the first particle of a body. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* REFUSED for a mirror whose images are on no site half-way beside the lattice of a body that has faces. */
+/* REFUSED for a mirror that is not midway between sites of a body with faces nearby. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -151,7 +155,8 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
     return OK;
 }
 
-/* Particle of a body at a site, or of which it has the image: which components are turned round. -1: none. */
+/* Returns the particle of a body at a site, or the source of the image there; *turned: components that are reversed.
+ * -1: none. */
 static int32_t site_or_image_find(const struct sites *s, int body, const int64_t *site, uint8_t *turned)
 {
     int64_t k[DIM_MAX];
@@ -170,7 +175,7 @@ static int32_t site_or_image_find(const struct sites *s, int body, const int64_t
 
 /* ---- corners ----------------------------------------------------------------------------------------------------- */
 
-/* Site above corner c of face q; corners are in order round it. */
+/* Computes the site above corner c of face q; corners are in order around the face. */
 static void corner_site(const struct sites *s, const struct surface_face *f, int c, int64_t *k)
 {
     const int dim = s->p->dim, u = dim == 2 ? 1 - f->axis : (f->axis + 1) % 3, v = (f->axis + 2) % 3;
@@ -180,7 +185,7 @@ static void corner_site(const struct sites *s, const struct surface_face *f, int
     if (dim == 3) k[v] += c >= 2;
 }
 
-/* Numbers the corners of all faces; their sites in the order of the numbers. */
+/* Numbers the corners of all faces. Returns their sites in the order of the numbers; release with memory_free. */
 static struct site *corners_number(struct surface *a, const struct sites *s, const struct surface_faces *f)
 {
     const int each = a->dim == 2 ? 2 : FACE_CORNERS;
@@ -201,7 +206,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
     return all;
 }
 
-/* The faces that meet in each corner, by the sorted corners of faces. */
+/* Lists the faces that meet in each corner, from the sorted corners of faces. */
 static void parts_make(struct surface *a, const struct site *all, int64_t n)
 {
     a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
@@ -212,7 +217,7 @@ static void parts_make(struct surface *a, const struct site *all, int64_t n)
     }
 }
 
-/* Particles that a corner goes with, their places in spacings from it, and how much each counts. */
+/* The particles that determine a corner, their positions relative to it [spacings], and their weights. */
 struct around {
     int n;
     int32_t particle[STENCIL_MOST];
@@ -220,7 +225,7 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle at a site, `off` steps from the corner's, or its image. True: there is one. */
+/* Adds the particle or image at a site, `off` steps from the corner's site. Returns true if there is one. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -237,7 +242,7 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
     return true;
 }
 
-/* The particles at a corner and, along each axis, those behind them. */
+/* Lists the particles at a corner and, along each axis, those behind them. */
 static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
@@ -256,7 +261,7 @@ static void corner_around(struct around *t, const struct sites *s, int body, con
         }
 }
 
-/* Solves C y = b, symmetric and positive once SINGULAR is on its diagonal, by elimination. */
+/* Solves C y = b by elimination; C is symmetric and positive definite with SINGULAR on its diagonal. */
 static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
 {
     array_copy(y, b, n, sizeof *y);
@@ -272,8 +277,8 @@ static void solve_small(real C[DIM_MAX][DIM_MAX], const real *b, int n, real *y)
     }
 }
 
-/* Weights of least weighted square with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) . C^-1 mean), where C is
- * the variance. Along directions in which a thin body has no extent they say nothing. */
+/* Computes the weights of least weighted square with sum w = 1 and sum w r = 0: w = counts (1 - (r - mean) . C^-1
+ * mean), C being the variance. Directions in which a thin body has no extent are left out. */
 static void corner_weights(const struct around *t, int dim, real *w)
 {
     real C[DIM_MAX][DIM_MAX] = {{0}}, mean[DIM_MAX] = {0}, y[DIM_MAX], all = 0;
@@ -295,8 +300,8 @@ static void corner_weights(const struct around *t, int dim, real *w)
     }
 }
 
-/* Reference place of corner c at a site, the weighted mean of the places of particles and images: to the last digit, so
- * that forces have no moment. first: a particle of its body. */
+/* Computes the reference position of corner c at a site, the weighted mean of the positions of particles and images, to
+ * the last digit, so that forces have no moment. first: a particle of its body. */
 static void corner_place_make(struct surface *a, int64_t c, const struct sites *s, int32_t first, const int64_t *site,
                               const struct around *t)
 {
@@ -309,7 +314,7 @@ static void corner_place_make(struct surface *a, int64_t c, const struct sites *
     }
 }
 
-/* Particles and weights of all corners, by the sorted corners of faces. */
+/* Computes particles and weights of all corners, from the sorted corners of faces. */
 static void corners_make(struct surface *a, const struct sites *s, const struct site *all,
                          const struct surface_faces *f)
 {
@@ -334,7 +339,7 @@ static void corners_make(struct surface *a, const struct sites *s, const struct 
     }
 }
 
-/* The corners that each particle of the load goes with. */
+/* Lists the corners that depend on each particle of the load. */
 static void shares_transpose(struct surface *a, const struct load *l, int64_t particles)
 {
     int32_t *place = NEW("loads.place", particles, int32_t);
@@ -353,7 +358,7 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     memory_free(place);
 }
 
-/* Everything but the sites; takes the particles of the load. */
+/* Fills the surface and lists the particles of the load. */
 static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
                          struct particles *p)
 {
@@ -363,16 +368,16 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     for (int64_t q = 0; q < f->n; q++)
         a->sign[q] = (int8_t)(a->dim == 2 && f->face[q].axis == 1 ? -f->face[q].side : f->face[q].side);
     corners_make(a, s, all, f);
-    uint8_t *bears = NEW("loads.bears", p->n, uint8_t);
-    for (int64_t q = 0; q < a->first[a->corners]; q++) bears[a->particle[q]] = 1;
-    load_take(l, bears, p);
+    uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
+    for (int64_t q = 0; q < a->first[a->corners]; q++) chosen[a->particle[q]] = 1;
+    load_take(l, chosen, p);
     a->particles = l->n;
     shares_transpose(a, l, p->n);
     a->x = NEW("loads.corner_x", a->corners * a->dim, real);
     a->area = NEW("loads.corner_area", a->corners * a->dim, real);
     a->face_area = NEW("loads.face_area", a->faces * FACE_CORNERS * a->dim, real);
     surface_areas(a, p, l->share);
-    memory_free(bears);
+    memory_free(chosen);
     memory_free(all);
 }
 
@@ -412,7 +417,7 @@ void load_surface_free(struct surface *s)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Is a face no longer one, as its corners have gone with different fragments? */
+/* Returns true if an edge of a face is so long that its corners belong to different fragments. */
 static bool is_torn(const struct surface *s, const real *const *x, int corners)
 {
     bool torn = false;
@@ -424,7 +429,7 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Half of a segment's area for both of its ends. */
+/* Computes half of a segment's area for each of its ends. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -433,7 +438,7 @@ static void segment_area(const struct surface *s, const real *const *x, real sig
     }
 }
 
-/* Adds a sixth of the area of a triangle, half of what its corners get, as either diagonal counts half. */
+/* Adds to its corners a sixth of the area of a triangle each: a third, halved because both diagonals count half. */
 static void triangle_add(const real *const *x, int a, int b, int c, real sign, real *to)
 {
     real u[DIM_MAX], v[DIM_MAX];
@@ -445,6 +450,7 @@ static void triangle_add(const real *const *x, int a, int b, int c, real sign, r
     }
 }
 
+/* Computes the areas of the corners of a quadrilateral, as mean over both diagonals. */
 static void quadrilateral_area(const real *const *x, real sign, real *to)
 {
     triangle_add(x, 0, 1, 2, sign, to);
@@ -453,6 +459,7 @@ static void quadrilateral_area(const real *const *x, real sign, real *to)
     triangle_add(x, 1, 2, 3, sign, to);
 }
 
+/* Computes the areas of the corners of face q. */
 static void surface_face_area(struct surface *s, int64_t q)
 {
     const int corners = s->dim == 2 ? 2 : FACE_CORNERS;
@@ -467,6 +474,7 @@ static void surface_face_area(struct surface *s, int64_t q)
         quadrilateral_area(x, s->sign[q], to);
 }
 
+/* Computes the present position of corner c. */
 static void surface_corner_place(struct surface *s, const struct particles *p, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -479,6 +487,7 @@ static void surface_corner_place(struct surface *s, const struct particles *p, i
     }
 }
 
+/* Sums the areas of corner c over its faces. */
 static void surface_corner_area(struct surface *s, int64_t c)
 {
     for (int d = 0; d < s->dim; d++) {
@@ -489,6 +498,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
+/* Returns the inward area of the k-th particle along d. */
 static real surface_share(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
@@ -498,7 +508,7 @@ static real surface_share(const struct surface *s, int64_t k, int d)
     return area;
 }
 
-/* Each step gathers: the same bits on any number of threads. */
+/* Each pass gathers: equal bits on any number of threads. */
 void surface_areas(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;

@@ -1,27 +1,33 @@
-/* The surface of bodies of lattice particles, for pressure that follows it (loads_surface.c). */
+/* The surface of bodies of lattice particles, for pressure that follows the deformation (loads_surface.c). */
 #ifndef CLEAVE_LOADS_SURFACE
 #define CLEAVE_LOADS_SURFACE
 
 #include "loads/loads.h"
 
-/* Free faces of particles, each by its axis and side. */
+/* A free face of a particle, by axis and side of its normal. */
 struct surface_face {
     int32_t particle;
     uint8_t axis;
     int8_t side;
 };
+
+/* List of free faces. */
 struct surface_faces {
     int64_t n;
     struct surface_face *face;
 };
 
-/* The load acts on the particles that the corners of these faces go with: takes them, their shares being the areas of
- * the reference state. all: the n boundaries of the scene, with the mirrors. REFUSED where bodies are no lattice, or
- * mirrors do not stand half-way between its sites. */
+/* Makes the surface of these faces and lists the particles at their corners as those of the load; shares: areas of the
+ * reference state. all: the n boundaries of the scene, including mirrors. REFUSED if bodies are not lattices, or
+ * mirrors are not midway between sites. */
 status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all, int n,
                          struct particles *p, real spacing);
-/* Areas at present places that the particles of the load bear, inwards, by component [load->n] [m^2]. */
+
+/* Computes the inward areas at present positions of the particles of the load, by component: area [dim][load->n]
+ * [m^2]. */
 void surface_areas(struct surface *s, const struct particles *p, real *const *area);
+
+/* Releases the surface. */
 void load_surface_free(struct surface *s);
 
 #endif

@@ -8,14 +8,15 @@
 
 /* ---- walls of the grid ------------------------------------------------------------------------------------------- */
 
+/* Appends a constrained component. */
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     GROW("loads.held", s->held, s->n + 1);
     s->held[s->n++] = (struct held){(int32_t)node, (uint8_t)component, (uint8_t)load};
 }
 
-/* Does a load constrain this component of any node at position x: in a driven region, on a mirror plane or beyond
- * it? Not behind a face: the particles of its layer say which nodes they drive. */
+/* Returns true if a load constrains this component of any node at position x: in a driven region, on a mirror plane or
+ * beyond it. False for layers behind a face, whose particles determine the driven nodes. */
 static bool node_constrained(const struct load *load, const struct grid *g, const real *x, real tolerance,
                              int component)
 {
@@ -34,8 +35,8 @@ bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacin
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
 }
 
-/* Reflects node k (indices in the box) at a mirror plane that it lies beyond, within reach of the widest shape, and
- * changes the signs of its components in f. False if it lies beyond the plane but has no image. */
+/* Reflects node k (indices in the box) at a mirror plane if it is beyond it, within reach of the widest shape function,
+ * and changes the signs of its components in f. Returns false if it is beyond the plane but has no image. */
 static bool node_reflect(const struct load *load, const struct grid *g, real spacing, int64_t *k, struct mirror_node *f)
 {
     const struct boundary *b = load->boundary;
@@ -50,7 +51,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     return k[b->axis] >= 0 && k[b->axis] < g->count[b->axis];
 }
 
-/* Does node I lie beyond mirrors and move as the mirror image of another node? Fills f if so. */
+/* Returns true if node I is beyond mirrors and moves as the mirror image of another node, described in f. */
 static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I, struct mirror_node *f)
 {
     int64_t k[DIM_MAX] = {0}, image = 0;
@@ -61,7 +62,7 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
         if (!node_reflect(&l->load[b], g, l->spacing, k, f)) return false;
         if (k[l->load[b].boundary->axis] != before) f->load = (uint8_t)b;
     }
-    for (int b = 0; b < l->n; b++) { /* between two mirrors an image may lie beyond one of them */
+    for (int b = 0; b < l->n; b++) { /* between two mirrors an image may be beyond one of them */
         struct mirror_node none = *f;
         int64_t again[DIM_MAX];
         memcpy(again, k, sizeof k);
@@ -72,7 +73,8 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
-/* Where bodies have a grid each a region holds those that have particles in it. */
+/* Returns true if the load acts on this grid; where bodies have separate grids, a region acts on those with particles
+ * in it. */
 static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
 {
     bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
@@ -80,15 +82,15 @@ static bool load_holds(const struct load *load, const struct grid *g, const stru
     return holds;
 }
 
-/* Place of node I [m]. `mesh`: that of the grid, NULL: it has none. */
+/* Computes the position of node I [m]. mesh: that of the grid, NULL: none. */
 static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, real *x)
 {
     const int64_t at = mesh ? mesh_base(mesh, I) : I;
     for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Is the place of node I no guide to what its cells hold? Of nodes that slits have doubled each holds other material:
- * only that says whether it is driven; and of those on a mirror some hold material that a slit parts from its image. */
+/* Returns true if the position of node I does not determine its constraints: nodes doubled by slits are driven by the
+ * material of their cells, and on a mirror some have material that a slit separates from its image. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -96,8 +98,8 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Finds the nodes constrained wherever the body is, and the mirror nodes; once for each box of the grid. Extra nodes of
- * a mesh mirror no others: there are none where a mirror lies between nodes. */
+/* Finds the nodes constrained by position, and the mirror nodes; once for each box of the grid. Extra nodes of a mesh
+ * have no mirror nodes: slits are not allowed where a mirror is between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {
@@ -108,7 +110,7 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
     for (int64_t I = 0; I < g->n; I++) {
         real x[DIM_MAX];
         const bool behind = mesh && I >= mesh->slits.first;
-        if (behind && mesh_base(mesh, I) == I) continue; /* no node */
+        if (behind && mesh_base(mesh, I) == I) continue; /* unused index */
         if (!behind && node_mirrored(l, g, I, &mirror_node)) {
             grid_add_mirror_node(g, &mirror_node);
             continue;
@@ -118,12 +120,12 @@ static void constrained_find(const struct loads *l, struct constrained_set *s, s
             for (int d = 0; d < g->dim; d++)
                 if (load_holds(&l->load[b], g, p) && !place_misleads(mesh, &l->load[b], I) &&
                     node_constrained(&l->load[b], g, x, LOADS_TOLERANCE * l->spacing, d) &&
-                    (reference || !l->load[b].boundary->rotates)) /* the region turns, nodes stay */
+                    (reference || !l->load[b].boundary->rotates)) /* the region rotates, nodes do not */
                     constrained_add(s, I, d, b);
     }
 }
 
-/* Has constrained_find listed this component of node I already? */
+/* Returns true if constrained_find has already listed this component of node I. */
 static bool constrained_by_region(const struct loads *l, const struct load *load, const struct mesh *mesh, int64_t I,
                                   int component)
 {
@@ -133,7 +135,7 @@ static bool constrained_by_region(const struct loads *l, const struct load *load
            node_constrained(load, &mesh->grid, x, LOADS_TOLERANCE * l->spacing, component);
 }
 
-/* Was the set found for the present box of nodes? */
+/* Returns true if the set was found for the present box of nodes. */
 static bool constrained_is_current(const struct constrained_set *s, const struct grid *g)
 {
     for (int d = 0; d < g->dim; d++)
@@ -141,12 +143,13 @@ static bool constrained_is_current(const struct constrained_set *s, const struct
     return true;
 }
 
+/* Returns true if particle i is a point of this grid. */
 static bool point_is_on(const struct grid *g, const struct particles *p, int32_t i)
 {
     return particle_on_grid(p, i) && !(p->flag[i] & FLAG_MESHED) && (g->body == 0 || g->body == p->body[i] + 1);
 }
 
-/* Maps the mass of a load's driven material points to the nodes, into l->share [kg]; returns the number of these
+/* Maps the mass of a load's driven material points to the nodes, into l->share [kg]. Returns the number of these
  * points. */
 static int64_t driven_share(struct loads *l, const struct load *load, const struct grid *g, const struct particles *p,
                             const struct kernels *k, real half_width)
@@ -169,13 +172,13 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
     return n;
 }
 
-/* What a load prescribes in this step and did in the step before. */
+/* Motion that a load prescribes in this step and in the previous one. */
 struct driven_by {
     struct driving now, before;
 };
 
-/* A wall of component d of node I, at x. The change is that of what is at the node: a rotation carries it away. A
- * displacement says where nodes of a mesh are at the end of the step. */
+/* Adds a wall for component d of node I at x. Its change of velocity is that of the material at the node, which a
+ * rotation carries away. For a mesh, a displacement also prescribes the nodal displacement at the end of the step. */
 static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, const real *x, int d, int which,
                      bool reference)
 {
@@ -191,8 +194,8 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
     grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
 }
 
-/* Adds walls at the nodes that have at least half of their mass from driven points, but for those that the load's
- * region holds already: a second wall would count the inertia of the node as a reaction. */
+/* Adds walls at the nodes that have at least half of their mass from driven points, except those already constrained by
+ * the load's region: a second wall would count the inertia of the node as a reaction. */
 static void driven_walls(struct loads *l, int which, struct grid *g, const struct driven_by *by,
                          const struct particles *p)
 {
@@ -209,7 +212,7 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
     }
 }
 
-/* What all loads prescribe in the step about t. */
+/* Evaluates the motion that all loads prescribe in the step about t. */
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
 {
     for (int b = 0; b < l->n; b++) {
@@ -248,7 +251,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
 
-/* Mass that points of a load give to nodes, [grid.n]; marks the nodes that have any. */
+/* Computes the mass that points of a load contribute to nodes: share [grid.n] [kg]; marks the nodes that have any. */
 static void driven_masses(const struct load *load, const struct mesh *mesh, const struct particles *p, real *share,
                           uint8_t *mark)
 {
@@ -262,7 +265,7 @@ static void driven_masses(const struct load *load, const struct mesh *mesh, cons
     }
 }
 
-/* Constrains the nodes of the mesh that have at least half of their mass from points that a load drives. */
+/* Constrains the nodes of the mesh that have at least half of their mass from points of a load. */
 static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, const struct particles *p)
 {
     const struct load *load = &l->load[which];
@@ -298,6 +301,7 @@ void loads_level_find(const struct loads *l, struct constrained_set *held, struc
     if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
 }
 
+/* Sets the walls of a mesh from its constrained set. */
 static void reference_walls(const struct loads *l, const struct constrained_set *held, struct grid *g,
                             const struct mesh *mesh, real t, real dt)
 {
