@@ -185,7 +185,8 @@ typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct t
 typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list, int64_t n,
                        const real *value, real *field);
 
-struct kernels { /* The kernels of a run, chosen once at set-up */
+/* The kernels of a run, chosen once at set-up. */
+struct kernels {
     bond_force_fn *bond_force;
     bond_energy_fn *bond_energy;
     bond_stress_fn *bond_stress;

@@ -96,8 +96,8 @@ struct state {
 /* Bond lengths of a lattice: shell k has the length spacing sqrt(k). */
 enum { BOND_SHELLS = 256 };
 struct bond_length {
-    real inverse, length, square;
-}; /* 1/r [1/m], r [m], r^2 [m^2] */
+    real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
+};
 
 /* Common properties of the eight bonds of a column, derived from first, w and inverse_length by bonds_share: on a
  * lattice the hot loops read only these, four bytes per bond. */
@@ -189,7 +189,7 @@ struct bonds {
     int32_t *broken;       /* [row blocks 8] bonds broken by load since the start */
     struct state state;
     struct clamped clamped;
-    struct active_set active; /* of row blocks */
+    struct active_set active; /* active row blocks */
     real core;                /* stiffness of the cores (kernels/pd/bond_core.h) over that of the bonds [1] */
     real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };

@@ -1,6 +1,6 @@
-/* Room `bonds`: families of particles and the bonds between them. It knows particles, cells, materials and regions, but
- * neither loads nor the step; kernels, coupling, fracture, solver and engine call it. family.h says which bonds there
- * are, bond_storage.h how they are stored; this header makes and reads them. */
+/* Room `bonds`: families of particles and the bonds between them. It uses particles, cells, materials and regions, but
+ * neither loads nor the step; kernels, coupling, fracture, solver and engine call it. family.h defines which bonds
+ * exist, bond_storage.h how they are stored; this header makes and reads them. */
 #ifndef CLEAVE_BONDS
 #define CLEAVE_BONDS
 
@@ -9,11 +9,11 @@
 
 #define BYTES_PER_BOND 24.0 /* stored, with padding; measured on blocks of 10^6 particles */
 
-/* Block-Gershgorin bound of the largest eigenvalue of springs around one particle: norm of sum K n n plus sum K
- * [N/m]. */
+/* Block-Gershgorin bound of the largest eigenvalue of springs around one particle: norm of `block` plus
+ * `total`. */
 struct spring_bound {
-    real block[DIM_MAX][DIM_MAX], total;
-}; /* [N/m] */
+    real block[DIM_MAX][DIM_MAX], total; /* sum K n n; sum K [N/m] */
+};
 
 /* Adds a spring of stiffness K [N/m] and direction n [dim]. */
 static inline void spring_bound_add(struct spring_bound *s, real K, const real *n, int dim)

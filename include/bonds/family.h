@@ -40,7 +40,7 @@ enum last_force { LAST_FORCE_MOMENT, LAST_FORCE_HALF, LAST_FORCE_WHOLE, LAST_FOR
 
 /* Critical stretches by pair of materials [materials^2]; INFINITY: never breaks. */
 struct bond_limit {
-    const real *critical_stretch;
+    const real *critical_stretch; /* [1] */
     int materials;
     enum last_force last_force;
     real dt; /* time between the positions of two steps [s] */
@@ -119,7 +119,8 @@ static inline bool family_plain(const struct family *f)
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }
 
-/* Returns beta x omega x shell weight of a reference bond with components xi [m] and length r [m] [1]. */
+/* Returns the weight of a reference bond with components xi [m] and length r [m]: beta omega shell_weight, the product
+ * of volume fraction, influence function and weight of its direction [1]. */
 real family_weight(const struct family *f, const real *xi, real r);
 
 #endif

@@ -12,13 +12,14 @@ struct stencil_row {
 
 /* Map of the sites of a lattice to particles and images (bonds_site_map.c). */
 struct site_map {
-    int32_t *at; /* [sites] particle + 1, 0: none; NULL: particles are not on a lattice */
-    real low[DIM_MAX], spacing;
-    int64_t stride[DIM_MAX];
-    struct stencil_row *row;
-    int reach, rows, most; /* largest number of bonds of eight consecutive particles, in columns */
-    int users;             /* rows that share the map */
-    bool uniform;          /* exact positions, one volume, mass and material: bonds follow from sites */
+    int32_t *at;                /* [sites] particle + 1, 0: none; NULL: particles are not on a lattice */
+    real low[DIM_MAX], spacing; /* position of the lowest site of the body; lattice spacing [m] */
+    int64_t stride[DIM_MAX];    /* step of the site index along each axis */
+    struct stencil_row *row;    /* [rows] rows of sites within the cutoff, ascending */
+    int reach;                  /* cutoff, rounded down [sites] */
+    int rows, most;             /* length of `row`; number of sites in these rows */
+    int users;                  /* users of the map; the last one frees it */
+    bool uniform;               /* exact positions, one volume, mass and material: bonds follow from sites */
 };
 
 /* Returns the site of particle i, -1 if it is not at a site. */

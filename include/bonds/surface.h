@@ -21,20 +21,20 @@
 
 /* Factors of the weights of bonds near faces, by class of particle and offset. */
 struct surface_weights {
-    real spacing;            /* of the lattice [m] */
+    real spacing;            /* lattice spacing [m] */
     int reach, dim;          /* largest component of a bond vector [spacings]; dimension */
     int offsets, *offset_at; /* neighbours of a full family; index of an offset by its position in a box of offsets */
     int32_t classes, *class_of; /* [n] class of equal surroundings of a particle; 0: no face nearby */
-    uint8_t *mirrors;           /* [n] mirrors in which the particle looks like its class, one bit per axis */
+    uint8_t *mirrors;           /* [n] mirrors that turn the particle into one of its class, one bit per axis */
     real *factor;               /* [classes offsets] factor on the weight of a bond [1] */
     real *weighted;             /* [classes] sum w r^2 of the family, of reference particles [m^2] */
     int64_t apart[2]; /* if REFUSED: a particle, and its first neighbour or image that is not a whole number of spacings
                          away */
 };
 
-/* Computes the factors for particles on a lattice. REFUSED if they are not on one, with an example in to->apart.
- * rotates: model with rotations, which has another alpha, because differences between neighbours' rotations store
- * energy where strain is not uniform. Release with surface_free. */
+/* Computes the factors for particles on a lattice. rotates: true for models with rotations, which have another alpha,
+ * because differences between neighbours' rotations store energy where strain is not uniform. REFUSED if the particles
+ * are not on a lattice, with an example in to->apart. Release with surface_free. */
 status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates);
 
 /* Releases all arrays. */

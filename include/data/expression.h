@@ -46,8 +46,8 @@ enum { EXPRESSION_STACK = 32, EXPRESSION_STEPS = 400 }; /* largest stack and lar
 /* One step of an expression. */
 struct expression_step {
     enum expression_op op;
-    real value;
-}; /* value of a NUMBER [SI] */
+    real value; /* value of a NUMBER [SI] */
+};
 
 /* An expression; n = 0: none. `text` has SI units and units of the scene, without variables of the scene: parsing it
  * gives an equal expression. */

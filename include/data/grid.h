@@ -25,8 +25,8 @@ struct grid {
     real h;                    /* node distance [m] */
     real anchor[DIM_MAX];      /* position of node 0 [m] */
     int64_t first[DIM_MAX];    /* lowest node of the box, counted from the anchor */
-    int64_t count[DIM_MAX], n; /* nodes per direction, in all */
-    int64_t stride[DIM_MAX];   /* of the node index along each axis; stride[0] = 1 */
+    int64_t count[DIM_MAX], n; /* nodes per direction; product */
+    int64_t stride[DIM_MAX];   /* step of the node index along each axis; stride[0] = 1 */
     real *mass;                /* nodal mass [kg] */
     real *momentum[DIM_MAX];   /* nodal momentum [kg m/s]; after grid_remapped the velocity of the second map [m/s] */
     real *force[DIM_MAX];      /* nodal force [N]; after grid_move the change of velocity [m/s] */

@@ -15,13 +15,14 @@ struct hull_node {
     real low[DIM_MAX], high[DIM_MAX]; /* box round its faces [m] */
     real centre[DIM_MAX];             /* centroid of its faces, weighted by area [m] */
     real moment[DIM_MAX];             /* sum of area vectors [m^2]; of segments [m] */
+    /* first face and number of faces; first of the two child nodes, 0: a leaf */
     int32_t first, count, left;
 };
 
 /* A surface with its tree. All arrays are owned. */
 struct hull {
     int dim;
-    int64_t corners, faces;
+    int64_t corners, faces;   /* lengths of `corner`, `face` */
     real (*corner)[DIM_MAX];  /* [m] */
     int32_t (*face)[DIM_MAX]; /* corners of a face, the first `dim` are used */
     int32_t nodes;

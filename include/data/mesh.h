@@ -50,15 +50,15 @@ struct mesh_slits {
     int64_t nodes, first; /* number of extra nodes; first node and cell behind the box */
     int32_t *base;        /* [grid.n - first] node of the grid at the position of an extra node, -1: no extra node */
     uint8_t *split;       /* [grid.n] 1: other nodes have its position */
-    uint8_t
-        *open; /* [grid.n] bit d: on a mirror across axis d, behind a slit that separates its points from their image */
-    int32_t *cell; /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no slits */
-    int64_t cells;
+    /* [grid.n] bit d: on a mirror across axis d, behind a slit that separates its points from their image */
+    uint8_t *open;
+    int32_t *cell;   /* [grid.n] number of a cell in `corner`, -1: corners of the grid. NULL: no slits */
+    int64_t cells;   /* number of cells with extra nodes */
     int32_t *corner; /* [cells][2^dim] nodes at the corners */
     int32_t *next;   /* [grid.n] next cell divided from one cell, -1: none */
     int32_t *cut;    /* [grid.n] number of a divided cell of the grid in `home`, -1: not divided */
     int32_t *home;   /* [divided cells][2^dim] cell of the point at each place */
-    int32_t *group;  /* [groups] of partial cells: number in `lane`, -1: corners of the grid */
+    int32_t *group;  /* [groups of partial cells] number in `lane`, -1: corners of the grid */
     int32_t *lane;   /* [numbers][2^dim][LANES] nodes at the corners of the cells of a group */
     int64_t links;   /* pairs of blocks: of extra nodes or cells, and of nodes at their positions */
     struct mesh_link {
@@ -76,8 +76,8 @@ struct mesh {
     real *inverse_mass;          /* nodal; 0 where there is no mass [1/kg] */
     int32_t *point;              /* [grid.n << dim] particle at each place of a cell, -1: none */
     uint8_t *kind;               /* [grid.n] kind of cell: empty, whole, partial, or part of a coarser cell */
-    const uint8_t
-        *level; /* [grid.n] 0, or the level of the coarser cell that contains the cell (mesh/levels.h); NULL: none */
+    /* [grid.n] 0, or the level of the coarser cell that contains the cell (mesh/levels.h); NULL: none */
+    const uint8_t *level;
     uint8_t *absent; /* [grid.n] 1: a whole cell whose particles are not made (hollow.h), part of a coarser one; NULL:
                         none */
     int64_t filled_cells, filled_nodes; /* with `absent`: cells that are not absent, and nodes at their corners */
@@ -105,7 +105,7 @@ struct mesh {
     real *partial_force; /* [groups][corners dim][LANES] forces on the corners [N] */
     int64_t exposed;
     struct mesh_exposed *exposed_list; /* [exposed] ascending by cell */
-    struct active_set active;          /* of blocks of nodes */
+    struct active_set active;          /* active blocks of nodes */
     int64_t segments;                  /* blocks per row of nodes */
     real rounding;                     /* displacements are rounded to multiples of this [m] */
     struct mesh_slits slits;

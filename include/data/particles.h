@@ -149,8 +149,8 @@ enum {
 
 /* Description of one array. The table allocates, frees, sorts, archives and restores. */
 struct particle_field {
-    const char *name, *unit, *meaning;   /* name in checkpoints; unit; description */
-    size_t offset, size;                 /* of the (first) array pointer in struct particles; of one entry [byte] */
+    const char *name, *unit, *meaning; /* name in checkpoints; unit; description */
+    size_t offset, size;               /* offset of the (first) array pointer in struct particles; entry size [byte] */
     int (*count)(int dim, int optional); /* number of component arrays in dimension dim */
     bool in_trials;                      /* belongs to ARCHIVE_TRIAL: plastic state */
 };

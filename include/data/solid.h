@@ -32,7 +32,7 @@ enum motion_kind { MOTION_MOVE, MOTION_ROTATE, MOTION_MIRROR, MOTION_GRID, MOTIO
 struct solid_motion {
     enum motion_kind kind;
     real step[DIM_MAX];                  /* MOVE: displacement; GRID: distance of copies in each direction [m] */
-    real about[DIM_MAX];                 /* ROTATE, RING: a point of the axis; MIRROR: of the plane [m] */
+    real about[DIM_MAX];                 /* ROTATE, RING: a point of the axis; MIRROR: a point of the plane [m] */
     real axis[DIM_MAX];                  /* ROTATE, RING: axis of any length, unused in 2D; MIRROR: normal */
     real angle;                          /* ROTATE: angle, in 2D from x to y; RING: angle between copies [rad] */
     real count[DIM_MAX];                 /* GRID: copies in each direction; RING: count[0] [1] */
@@ -89,7 +89,7 @@ struct solid {
     real inner;           /* inner radius of a tube or ring; radius of a cone at `to`; radius of a torus' section [m] */
     int axis;             /* extrusion: its axis */
     real begin, end;      /* extrusion: from .. to along the axis [m] */
-    struct region region; /* of an extrusion (its plane has the other two axes in order) or a group */
+    struct region region; /* section of an extrusion (in the other two axes, in order), or solids of a group */
     struct polygon *polygon;         /* owned */
     const struct hull *hull;         /* borrowed from the scene; an open hull: points within `radius` of it */
     const struct voxel_part *voxels; /* borrowed from the scene */

@@ -8,9 +8,9 @@
 struct voxels {
     int dim;
     int64_t n[DIM_MAX]; /* voxels along x, y, z; 1 in absent directions */
-    real size[DIM_MAX]; /* of a voxel [m] */
-    real from[DIM_MAX]; /* lower corner of the first [m] */
-    uint16_t *grey;     /* x fastest */
+    real size[DIM_MAX]; /* edges of a voxel [m] */
+    real from[DIM_MAX]; /* lower corner of the first voxel [m] */
+    uint16_t *grey;     /* [n[2]][n[1]][n[0]] */
 };
 
 enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };

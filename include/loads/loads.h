@@ -37,14 +37,14 @@ struct boundary {
     char name[NAME_MAX_LENGTH];
     char place[PLACE_LENGTH]; /* position in the scene file */
     enum boundary_kind kind;
-    struct region region; /* of reference positions; empty: everywhere */
+    struct region region; /* selects particles by reference position; empty: everywhere */
     int body;             /* index of the body, -1: any */
     uint8_t components;   /* VELOCITY: bit d: component d is prescribed */
     real value[DIM_MAX];  /* [m/s], [m], [Pa] or [N/m^3]; PRESSURE: equal in all components; 1 if there is a formula */
-    struct expression
-        formula[DIM_MAX]; /* of each component in X and t, PRESSURE: the first for all; empty: value only */
-    real end;             /* time after which formulas keep their values, 0: unknown [s] */
-    bool frozen;          /* static problem: formulas have their value at `frozen_at` [s] */
+    /* formula of each component in X and t; PRESSURE: the first is used for all; empty: value only */
+    struct expression formula[DIM_MAX];
+    real end;    /* time after which formulas keep their values, 0: unknown [s] */
+    bool frozen; /* static problem: formulas have their value at `frozen_at` [s] */
     real frozen_at;
     bool displaces; /* VELOCITY: value, factor and formula are displacements; value in [m] */
     bool rotates;   /* VELOCITY: all components, on circles about an axis through `centre` */
@@ -85,7 +85,7 @@ struct load {
     struct surface *surface; /* surface of a pressure that follows the deformation; NULL: none */
     /* TRACTION, BODY_FORCE: first load on an equal list of particles, which has the arrays of both; -1: not combined */
     int leader;
-    /* [n] of a leader, components with a value: positions at the start of this step [m] */
+    /* [n] components with a value, only if the load leads its list: positions at the start of this step [m] */
     real *before[DIM_MAX];
     real reaction[DIM_MAX]; /* VELOCITY: force of the support on the body in the last step, without the inertia of the
                                driven particles; load steps: forces too [N] */
@@ -122,7 +122,7 @@ struct held {
 
 /* Constrained components of nodes; found once for each box of nodes. */
 struct constrained_set {
-    int64_t n, lasting; /* the first `lasting` do not depend on nodal masses */
+    int64_t n, lasting; /* length of `held`; the first `lasting` do not depend on nodal masses */
     struct held *held;
     int64_t first[DIM_MAX], count[DIM_MAX]; /* box of nodes for which they were found */
 };
@@ -191,8 +191,8 @@ void face_make(struct face *f, const struct boundary *b, const struct particles 
 /* Releases the areas. */
 void face_free(struct face *f);
 
-/* Marks in taken [n] the selected particles in the layer of depth b->depth behind the face of b, as far as the columns
- * are without gaps. */
+/* Marks in taken [n] the selected particles in the layer of depth b->depth behind the face of b; a gap in a column of
+ * particles normal to the face ends the layer there. */
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 uint8_t *taken);
 
@@ -303,7 +303,7 @@ void loads_absorbed(struct loads *l, const struct absorbed *by);
 struct displacing {
     const struct boundary *boundary;
     int dim;
-    real t, factor;                 /* of value and formula at t: [1], for a velocity [s] */
+    real t, factor;                 /* time [s]; factor on value and formula at t: [1], for a velocity [s] */
     real turned[DIM_MAX * DIM_MAX]; /* rotates: rotation matrix at t, row major */
 };
 
@@ -446,8 +446,7 @@ void loads_static_work(struct loads *l, const struct particles *p);
 /* Saves or restores accounts, displacements and reactions. */
 status loads_archive(struct loads *l, struct archive *a);
 
-enum {
-    BOUNDARIES_MAX = 255
-}; /* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */
+/* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */
+enum { BOUNDARIES_MAX = 255 };
 
 #endif

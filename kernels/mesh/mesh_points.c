@@ -107,8 +107,7 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
         points_move_3(mesh, p, list, n);
 }
 
-/* ---- bonded points
- * ------------------------------------------------------------------------------------------------- */
+/* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
 /* Computes the rotations of the cells of a group, in the layout of particles.end_rotation. rotates: from the finite
  * rotation, else from the antisymmetric part of the gradient. */

@@ -6,8 +6,7 @@
 #include "base/base.h"
 #include "kernels/simd/kernel.h"
 
-/* ---- microbench_machine.c: limits of the machine
- * ------------------------------------------------------------------- */
+/* ---- microbench_machine.c: limits of the machine ----------------------------------------------------------------- */
 
 /* Data of the lattice benchmark: the bond law with contiguous loads, no bond data, positions in cache. */
 struct microbench_lattice;

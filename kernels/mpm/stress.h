@@ -98,8 +98,8 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
 
 /* Elastic constants (struct elastic) of a few points. */
 struct elastic_points {
-    row_of_points c11, c12, shear, trigger, yield;
-}; /* [Pa] */
+    row_of_points c11, c12, shear, trigger, yield; /* [Pa] */
+};
 
 /* Updates the stresses s by the velocity gradient L[a dim + b] = dv_a/dx_b. Returns the trace of the strain increment
  * [1]. */

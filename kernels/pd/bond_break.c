@@ -49,8 +49,7 @@ static void row_changed(struct bonds *b, int64_t row)
     if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
 }
 
-/* ---- force of a breaking bond
- * -------------------------------------------------------------------------------------- */
+/* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Replaces the force of a breaking bond on particle i, as the sweep added it, by its `share` [1]. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)

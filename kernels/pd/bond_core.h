@@ -20,7 +20,7 @@
 
 #define RARE static __attribute__((noinline, unused))
 
-/* y|/|xi| below which the core acts [1]; empirical */
+/* |y|/|xi| below which the core acts [1]; empirical */
 #define CORE_FROM 0.7
 
 /* A bond within its core: ratio |y|/|xi| (1 outside the core), K [N], y from i to j [m] and distance |y| [m]. */

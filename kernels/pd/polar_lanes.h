@@ -7,7 +7,7 @@
 
 #define POLAR_TINY 1e-300 /* keeps the root of a zero matrix finite */
 
-/* Computes R in 2D as polar_rotation_2d. */
+/* Computes the rotations R nearest to eight 2x2 matrices M, with the formula of polar_rotation_2d; M = 0: identity. */
 static ALWAYS_INLINE void polar_rotation_lanes_2d(const lanes *M, lanes *R)
 {
     const lanes c = M[0] + M[3], s = M[2] - M[1], size2 = c * c + s * s;
@@ -46,7 +46,7 @@ static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
     for (int c = 0; c < 9; c++) R[c] = lanes_choose(sound, R[c], lanes_of(c % 4 == 0));
 }
 
-/* Computes the rotation nearest to M in dimension 2 or 3. */
+/* Computes the rotations R nearest to eight matrices M; dim: 2 or 3. */
 static ALWAYS_INLINE void polar_rotation_lanes(const lanes *M, lanes *R, const int dim)
 {
     if (dim == 2)

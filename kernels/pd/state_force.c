@@ -54,10 +54,12 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_make(rotation, R, spring, dim);
 }
 
-/* Moduli A and B, 1/Q and V/Q of eight rows (V/Q of a full family if the moduli are); 0 where a family has no bonds. */
+/* Moduli and family sums of eight rows; 0 where a family has no bonds. */
 struct own_family {
-    lanes A, B, inverse, share;
-}; /* A, B [Pa], inverse [1/m^2], share [m] */
+    lanes A, B;    /* moduli [Pa] */
+    lanes inverse; /* 1/Q [1/m^2] */
+    lanes share;   /* V/Q, of a full family if the moduli are [m] */
+};
 
 /* Computes the moduli and weighted volumes of row block g. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
@@ -92,8 +94,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
         rows_store(t->rotation[c], row, rows, b->aligned[g], k->rotation[c]);
 }
 
-/* ---- bonded material points
- * ------------------------------------------------------------------------------------------ */
+/* ---- bonded material points -------------------------------------------------------------------------------------- */
 
 /* Returns the mask of rows of row block g that are material points. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)

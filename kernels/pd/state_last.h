@@ -10,11 +10,12 @@
 #include "polar.h"
 #include "rotation.h"
 
-/* Sums over the remaining bonds of a row, sum w r e, sum w r^2, sum w Y (x) xi, and the mean share (struct bond_last)
- * of the breaking bonds. */
+/* Sums over the remaining bonds of a row. */
 struct family_left {
-    real extension, weighted, moment[DIM_MAX * DIM_MAX], share;
-    int64_t ended;
+    real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
+    real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */
+    real share;                     /* mean share of the breaking bonds (struct bond_last) [1] */
+    int64_t ended;                  /* number of breaking bonds */
 };
 
 /* Computes the sums over the bonds of a row that stay below their limit, and counts the breaking bonds in `ended`. */
@@ -90,8 +91,7 @@ static inline void state_last(struct bonds *b, const struct particles *p, const 
     }
 }
 
-/* ---- force of a breaking bond
- * -------------------------------------------------------------------------------------- */
+/* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
 /* Returns component c of the state (0 pressure, 1 spring, 2 .. rotation) of the family of particle i before it lost
  * bonds. For an image: the state of its source, reflected as in state_of_images, because the bond from the source to

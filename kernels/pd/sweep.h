@@ -20,8 +20,8 @@ enum {
 struct sweep {
     const int32_t *row_block; /* active row blocks, ascending */
     int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */
-    int64_t early,
-        next; /* first entry that may move before other threads have finished their forces; next entry to move */
+    /* first entry that may move before other threads have finished their forces; next entry to move */
+    int64_t early, next;
     bool diverged;
 };
 

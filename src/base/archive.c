@@ -1,4 +1,4 @@
-/* State of arrays that follow the particles. */
+/* Archives arrays that have one element per particle. */
 #include "base/archive.h"
 
 #include "base/arrays.h"

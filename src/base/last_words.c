@@ -90,7 +90,7 @@ static void on_library_exit(int result, void *unused)
 
 void last_words_start(void)
 {
-    static char room[1 << 16]; /* the handler needs a stack of its own if the stack cannot grow */
+    static char room[1 << 16]; /* the handler needs a separate stack if the stack cannot grow */
     const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};
     const struct sigaction action = {.sa_handler = on_crash, .sa_flags = SA_ONSTACK};
     sigaltstack(&apart, NULL);

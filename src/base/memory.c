@@ -136,7 +136,7 @@ static void keep_none(void)
 }
 #endif
 
-/* Returns `length` bytes at a multiple of `alignment`, NULL if there are none. anew: new pages are wanted, no kept
+/* Returns `length` bytes at a multiple of `alignment`, NULL if there are none. anew: takes new pages, no kept
  * block. *fresh: the bytes are zero. */
 static char *memory_block_make(struct block *block, size_t length, size_t alignment, bool anew, bool *fresh)
 {

@@ -285,9 +285,8 @@ void core_shares_free(struct core_shares *s)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-enum {
-    FEW_BLOCKS = 16
-}; /* largest number of blocks of a sum without allocation: steps need short sums several times */
+/* largest number of blocks of a sum without allocation: steps need short sums several times */
+enum { FEW_BLOCKS = 16 };
 
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)

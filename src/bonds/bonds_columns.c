@@ -75,8 +75,7 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
     memory_free(stays);
 }
 
-/* ---- positions of columns
- * ------------------------------------------------------------------------------------------ */
+/* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
 /* Allocates the column arrays. sparse: address space without memory until written, since on a lattice most row blocks
  * write no column. */

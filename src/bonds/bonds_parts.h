@@ -7,12 +7,13 @@
 
 /* One row of bonds under construction; arrays have room for all neighbours of a particle. */
 struct row {
-    int n;
-    int32_t *nbr;
-    real *inverse_length;
-    real *w;
+    int n;                /* number of bonds */
+    int32_t *nbr;         /* [n] neighbours, ascending */
+    real *inverse_length; /* [n] 1/r; negative: broken [1/m] */
+    real *w;              /* [n] weights; 0: broken or cut [1] */
     struct bond_plasticity *plastic;
-    real trigger, family_volume, cut_volume;
+    real trigger;                   /* stretch above which the vector test reports a bond [1] */
+    real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
 };
 
 /* Micro-moduli of all pairs of materials over that of material 0 [materials^2] [1]. */
@@ -65,8 +66,8 @@ void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t
 
 /* Neighbours found for the rows of a row block, kept between the two passes. */
 struct row_block_found {
-    real family_volume[LANES];
-    int32_t n[LANES], nbr[];
+    real family_volume[LANES]; /* [m^3] */
+    int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
 };
 
 /* Copies the neighbours of rows to a new allocation. Release with memory_free. */
@@ -101,7 +102,7 @@ struct regular_bonds {
     struct stencil_cache *stencil_cache;
 };
 
-/* Allocates regular bonds. Release with regular_bonds_free. */
+/* Allocates room for the most index distances that the site map can have. Release with regular_bonds_free. */
 void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
 
 /* Releases the arrays. */
@@ -166,7 +167,7 @@ int row_block_columns(struct row_block_room *g, const int32_t *particle, int row
 void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
                     const struct particles *p);
 
-/* Fills row block g whose eight rows have families of one lattice (room->regular). */
+/* Fills row block g from room->regular, without a search: its eight particles are consecutive on one lattice. */
 void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m);
 
 /* Stores the columns in `room` as row block g, or lets it follow an equal stencil. Called after filling. */

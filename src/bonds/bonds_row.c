@@ -140,7 +140,7 @@ static real elastic_strain_along(const struct particles *p, const struct materia
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
-    const int32_t other = j < p->n ? j : i; /* an image has no stress of its own */
+    const int32_t other = j < p->n ? j : i; /* images store no stress */
     real e[DIM_MAX], length2 = 0;
     if (!p->plastic_strain || p->plastic_strain[i] + p->plastic_strain[other] <= 0)
         return (struct bond_plasticity){0, 0};

@@ -245,7 +245,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
         w[l] = f->shell_weight[0];
         for (int d = 0; d < dim; d++) xi[d][l] = p->X[d][j + l] - p->X[d][i + l], same &= xi[d][l] == xi[d][0];
     }
-    for (int l = 0; l < LANES; l++) { /* with exact positions one root and one weight serve all lanes */
+    for (int l = 0; l < LANES; l++) { /* with exact positions all lanes have equal length and weight */
         real r2 = 0;
         for (int d = 0; d < dim; d++) r2 += square(xi[d][l]);
         r[l] = same && l > 0 ? r[0] : sqrt(r2);

@@ -6,10 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-enum {
-    REMEMBERED = 32
-}; /* number of remembered row blocks: enough for the kinds in a few lattice rows, inside and at their ends; empirical
-    */
+/* number of remembered row blocks: enough for the kinds in a few lattice rows, inside and at their ends; empirical */
+enum { REMEMBERED = 32 };
 
 struct stencil_cache {
     const struct site_map *map;

@@ -39,8 +39,7 @@ void stencil_free(struct stencil *p)
     memory_free(p->w);
 }
 
-/* ---- stencil of one row block
- * -------------------------------------------------------------------------------------- */
+/* ---- stencil of one row block ------------------------------------------------------------------------------------ */
 
 /* Stores the components of the bonds of a column. Returns false if they are not equal to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)

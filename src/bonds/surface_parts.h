@@ -37,7 +37,7 @@ struct seen {
     int mirrors;
 };
 
-/* Returns particle or image j as a particle of the body with mirrors. */
+/* Returns the particle of the body that j is or, for an image, is the source of, and the mirrors between them. */
 struct seen seen_of(const struct near_faces *b, int64_t j);
 
 /* Returns -1 if the mirrors reverse the axis, else 1. */
@@ -89,7 +89,7 @@ void faces_free(struct faces *f);
  * stored by class and offset. */
 struct alike {
     int32_t classes, *class_of; /* [near n] class; 0 is not used (no face nearby) */
-    uint8_t *mirrors;           /* [near n] mirrors in which the particle looks like its class */
+    uint8_t *mirrors;           /* [near n] mirrors that turn the particle into one of its class */
     int64_t *member;            /* [classes] first particle of the class, as index in near_faces */
     real *members;              /* [classes] number of particles */
     uint8_t *symmetry;          /* [classes] bit m: the class is its own image in mirrors m */

@@ -73,8 +73,7 @@ static void faces_cancel(struct hull *s)
     memory_free(piece);
 }
 
-/* ---- open edges and components
- * ------------------------------------------------------------------------------------- */
+/* ---- open edges and components ----------------------------------------------------------------------------------- */
 
 /* Lists the edges (2D: end points) of all faces, sorted. Returns their number. */
 static int64_t sides_make(const struct hull *s, struct piece *side)

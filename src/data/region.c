@@ -221,7 +221,7 @@ static bool crack_plane(const struct crack *c, const real *a, const real *b, int
     switch (dim) {
     case 1:
         plane->normal[0] = 1;
-        plane->length = fabs(b[0] - a[0]); /* a point has no length of its own */
+        plane->length = fabs(b[0] - a[0]); /* a point has no length */
         return true;
     case 2:
         plane->length = direction(c->corner[0], c->corner[1], 2, along);

@@ -37,9 +37,8 @@ static uint64_t hashed(uint64_t z, uint64_t with)
 /* Returns a standard normal number from a hash. */
 static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
-enum {
-    NODES = 8
-}; /* nodes along each direction, of a lattice of length/2; omitted nodes have weights below exp(-8) of the largest */
+/* nodes along each direction, of a lattice of length/2; omitted nodes have weights below exp(-8) of the largest */
+enum { NODES = 8 };
 
 /* Computes the weights of the nodes around a coordinate [lengths/2]. Returns the first node. */
 static int64_t weights_along(real place, real weight[NODES])

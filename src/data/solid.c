@@ -102,8 +102,7 @@ static real half_space_support(const struct solid *s, const real *along, int dim
     return off2 < 1e-28 ? dot(s->point, along, dim) : INFINITY;
 }
 
-/* ---- bodies of revolution
- * ------------------------------------------------------------------------------------------ */
+/* ---- bodies of revolution ---------------------------------------------------------------------------------------- */
 
 /* Computes the coordinates of X relative to the axis from .. to. */
 static struct axis_place axis_place_of(const struct solid *s, const real *X)

@@ -1,5 +1,6 @@
-/* Abaqus .inp: nodes, elements and sets of a flat deck, or of parts that stand in an assembly once each. What else a
- * deck says (materials, steps, loads) is passed over; what would make nodes or elements is refused. */
+/* Reads Abaqus .inp files: nodes, elements and sets of a flat deck, or of parts each of which has one instance in the
+ * assembly. Other keywords (materials, steps, loads) are skipped; keywords that would generate nodes or elements are
+ * refused. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,38 +12,40 @@
 
 enum { FIELD = 96, PARAMETERS_MAX = 16, PARTS_MAX = 256, LABEL_MAX = 999999999, GENERATED_MOST = 16 };
 
-/* A keyword and what stands behind it: *ELSET, ELSET=grip, GENERATE. */
+/* A keyword line: its name and parameters, such as *ELSET, ELSET=grip, GENERATE. */
 struct keyword {
-    char name[FIELD]; /* capital letters, without blanks and the star */
-    int n;
+    char name[FIELD]; /* in capitals, without blanks and star */
+    int n;            /* length of `of` */
     struct parameter {
         char name[FIELD], value[FIELD];
     } of[PARAMETERS_MAX];
 };
 
-/* Where labels count: a part, or what stands outside parts. */
+/* A range of nodes and elements whose labels are unique: a part, or what is outside parts. */
 struct scope {
-    char name[FIELD], instance[FIELD];
-    int64_t node, element, node_end, element_end; /* first and last of the mesh */
-    struct label_map node_of, element_of;
-    bool placed;
+    char name[FIELD], instance[FIELD];            /* name of the part; name of its instance */
+    int64_t node, element, node_end, element_end; /* indices of the first and one past the last in the mesh */
+    struct label_map node_of, element_of;         /* indices of labels, once the scope has ended */
+    bool placed;                                  /* has an instance */
 };
 
+/* A deck while it is read. */
 struct deck {
     struct source *s;
     struct element_mesh *m;
-    struct keyword key;
-    int scopes, now; /* scope 0: outside parts */
+    struct keyword key; /* the keyword read last */
+    int scopes, now;    /* number of scopes, current scope; scope 0 is outside parts */
     struct scope *scope;
-    int64_t generated; /* members of sets made by GENERATE */
+    int64_t generated; /* members added by GENERATE or from other sets */
 };
 
 /* ---- lines and fields ------------------------------------------------------------------------------------------ */
 
+/* Returns true at the end of a line or of the file. */
 static bool at_end_of_line(const struct source *s) { return s->at >= s->length || s->text[s->at] == '\n'; }
 
-/* The next field of the line without blanks round it; false: there is none. Behind a comma that ends a line nothing
- * follows in it. */
+/* Reads the next field of the line without surrounding blanks. Returns false if there is none; a trailing comma adds no
+ * field. */
 static bool deck_field(struct source *s, char field[FIELD])
 {
     size_t n = 0;
@@ -56,7 +59,8 @@ static bool deck_field(struct source *s, char field[FIELD])
     return true;
 }
 
-/* Goes to the next line that is no comment and not empty; false: the next keyword, or the end. */
+/* Moves to the next line that is neither empty nor a comment. Returns false if it is a keyword, or at the end of the
+ * file. */
 static bool data_line(struct source *s)
 {
     while (s->at < s->length) {
@@ -70,7 +74,7 @@ static bool data_line(struct source *s)
     return false;
 }
 
-/* A field as a number; letters d of Fortran are exponents, too. */
+/* Parses a field as a number; also with Fortran's exponent letter d. REFUSED: no finite number. */
 static status deck_real(const struct source *s, const char *field, real *value)
 {
     char text[FIELD], *end;
@@ -78,13 +82,15 @@ static status deck_real(const struct source *s, const char *field, real *value)
     for (char *c = text; *c; c++)
         if (*c == 'd' || *c == 'D') *c = 'e';
     *value = strtod(text, &end);
-    if (field[0] == '\0') *value = 0; /* an empty field is 0 */
+    if (field[0] == '\0') *value = 0; /* the deck's default for an empty field */
     if (*end == '\0' && isfinite(*value) && !strpbrk(text, "xX")) return OK;
     return source_fault(s, "%.40s is no number", field);
 }
 
+/* Returns true if a field is a label, not the name of a set. */
 static bool is_label(const char *field) { return isdigit((unsigned char)field[0]); }
 
+/* Parses a field as a label of a node or element. REFUSED: no whole number from 0 to LABEL_MAX. */
 static status deck_label(const struct source *s, const char *field, int32_t *label)
 {
     real value;
@@ -98,7 +104,7 @@ static status deck_label(const struct source *s, const char *field, int32_t *lab
 
 /* ---- keywords ------------------------------------------------------------------------------------------------- */
 
-/* Capital letters without blanks. */
+/* Copies a word in capitals without blanks. */
 static void word_plain(char *to, const char *from)
 {
     size_t n = 0;
@@ -107,6 +113,7 @@ static void word_plain(char *to, const char *from)
     to[n] = '\0';
 }
 
+/* Appends a parameter NAME or NAME=VALUE; further ones than PARAMETERS_MAX are ignored. */
 static void parameter_add(struct keyword *k, char *field)
 {
     char *equals = strchr(field, '=');
@@ -121,7 +128,7 @@ static void parameter_add(struct keyword *k, char *field)
     word_plain(p->name, field);
 }
 
-/* Reads the line of a keyword; it goes on after a comma at its end. */
+/* Reads a keyword line, which continues on the next line after a trailing comma. */
 static void keyword_read(struct deck *d)
 {
     struct source *s = d->s;
@@ -140,6 +147,7 @@ static void keyword_read(struct deck *d)
     } while (more);
 }
 
+/* Returns the value of a parameter of the current keyword; NULL if it is missing. */
 static const char *parameter(const struct deck *d, const char *name)
 {
     for (int k = 0; k < d->key.n; k++)
@@ -149,7 +157,8 @@ static const char *parameter(const struct deck *d, const char *name)
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
-/* Its set, by a parameter of the keyword; -1: none. */
+/* Finds or creates the set that a parameter of the keyword names; *set = -1 without this parameter. REFUSED: too many
+ * sets. */
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
@@ -157,6 +166,7 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
     return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
+/* Reads the nodes of *NODE. */
 static status nodes_read(struct deck *d)
 {
     int set;
@@ -176,13 +186,15 @@ static status nodes_read(struct deck *d)
     return OK;
 }
 
-/* Families of elements and the numbers of nodes in them that are solids, pieces of a plane, or of a surface. */
+/* Prefixes of element types, matched in this order; plane: 2D or surface elements. */
 static const struct family {
     const char *name;
     bool plane;
 } families[] = {{"C3D", false}, {"CPS", true}, {"CPEG", true}, {"CPE", true}, {"CGAX", true},
                 {"CAX", true},  {"C2D", true}, {"M3D", true},  {"R3D", true}, {"SFM3D", true},
                 {"STRI", true}, {"SC", false}, {"DS", true},   {"S", true}};
+
+/* Shapes by number of nodes. */
 static const struct size {
     bool plane;
     int nodes;
@@ -193,7 +205,8 @@ static const struct size {
              {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
              {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
 
-/* What a type of elements is by its corners, as C3D10M or CPS4R; NULL: none that fills or bounds a body. */
+/* Returns shape and number of nodes of an element type, such as C3D10M or CPS4R; NULL if it neither fills nor bounds a
+ * body. */
 static const struct size *size_of_type(const char *type)
 {
     for (size_t f = 0; f < COUNT_OF(families); f++) {
@@ -207,8 +220,8 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* The labels of the nodes of an element, on as many lines as it takes: corners, then those between them, whose order is
- * that of elements.h; in an element of 27 nodes one in the middle of all stands before those of its sides. */
+/* Reads the node labels of an element, possibly over several lines: corners, then middle nodes, which have the order of
+ * elements.h; an element with 27 nodes has its interior node before those of its sides. */
 static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -232,6 +245,7 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
     return source_fault(d->s, "an element of %d nodes has more, such as %.20s", size->nodes, field);
 }
 
+/* Reads the elements of *ELEMENT. Unsupported types are skipped. */
 static status elements_read(struct deck *d)
 {
     int set;
@@ -258,7 +272,7 @@ static status elements_read(struct deck *d)
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* first, last, step */
+/* Adds the labels first, last, step of a line after GENERATE. REFUSED: step < 1, last < first, or too many members. */
 static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -272,7 +286,7 @@ static status generate_line(struct deck *d, int set)
     return OK;
 }
 
-/* Members of another set as they are known so far. */
+/* Adds the current members of another set. REFUSED: too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
     const int other = mesh_set(d->m, name, of_nodes);
@@ -285,7 +299,7 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Indices for the labels that have been added to sets since; labels of what was left out are left out, too. */
+/* Replaces labels added to sets since the last call by indices; drops labels that are not in the mesh. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -300,7 +314,7 @@ static void sets_resolve(struct deck *d, const struct scope *scope)
     }
 }
 
-/* A part by its name or that of its instance; -1: there is none. */
+/* Finds a part by its own name or that of its instance; returns -1 if there is none. */
 static int scope_find(const struct deck *d, const char *name, bool instance)
 {
     for (int k = 1; k < d->scopes; k++)
@@ -308,6 +322,7 @@ static int scope_find(const struct deck *d, const char *name, bool instance)
     return -1;
 }
 
+/* Reads a set of *NSET or *ELSET: labels, names of other sets, or ranges. */
 static status set_read(struct deck *d, bool of_nodes)
 {
     int set;
@@ -340,7 +355,7 @@ static status set_read(struct deck *d, bool of_nodes)
 
 /* ---- parts ---------------------------------------------------------------------------------------------------- */
 
-/* A label of element k becomes an index. */
+/* Replaces a node label of element k by the node's index. REFUSED: unknown node. */
 static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
 {
     const int64_t index = label_find(&scope->node_of, *node);
@@ -351,7 +366,7 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends a scope: its labels become indices. Middle nodes numbered 0 are none: that edge is straight. */
+/* Ends the current scope: its labels become indices. Middle nodes with label 0 are missing: that edge is straight. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -376,6 +391,7 @@ static status scope_end(struct deck *d)
     return OK;
 }
 
+/* Begins a new scope, which becomes the current one. */
 static void scope_begin(struct deck *d, const char *name)
 {
     GROW("abaqus.parts", d->scope, d->scopes + 1);
@@ -385,7 +401,8 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* Begins and ends of parts, and the assembly, whose own nodes have labels of their own. */
+/* At the beginning or end of a part: ends the scope and begins the next one. Nodes of the assembly have their own
+ * labels. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX) return source_fault(d->s, "more than %d parts", PARTS_MAX);
@@ -394,8 +411,8 @@ static status scope_change(struct deck *d, const char *name)
     return OK;
 }
 
-/* Turns X by `angle` about the axis from a to b (Rodrigues). */
-static void turn_about(real *X, const real *a, const real *b, real angle)
+/* Rotates X by `angle` [rad] about the axis from a to b (Rodrigues' formula). */
+static void rotate_about(real *X, const real *a, const real *b, real angle)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = 0;
     for (int d = 0; d < DIM_MAX; d++) axis[d] = b[d] - a[d], arm[d] = X[d] - a[d], length += square(axis[d]);
@@ -408,26 +425,27 @@ static void turn_about(real *X, const real *a, const real *b, real angle)
     }
 }
 
-/* Moves a part to where its instance stands: a line with the way, one with an axis and an angle in degrees. */
+/* Moves a part to the position of its instance: one line with a displacement, one with two points of an axis and an
+ * angle in degrees. REFUSED: unknown part, or a second instance. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");
     const int scope = part ? scope_find(d, part, false) : -1;
-    real way[DIM_MAX] = {0}, turn[7] = {0};
+    real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0) return source_fault(d->s, "an instance of part %.40s, which there is not", part ? part : "?");
     struct scope *p = &d->scope[scope];
     if (p->placed) return source_fault(d->s, "part %.40s stands in the assembly twice; once is expected", p->name);
     if (data_line(d->s)) {
-        for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &way[k]));
+        for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
         source_next_line(d->s);
     }
     if (data_line(d->s))
         for (int k = 0; k < 7 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &turn[k]));
     const bool turns = turn[6] != 0 && memcmp(turn, turn + 3, 3 * sizeof *turn) != 0;
     for (int64_t k = p->node; k < p->node_end; k++) {
-        for (int a = 0; a < DIM_MAX; a++) d->m->node[k][a] += way[a];
-        if (turns) turn_about(d->m->node[k], turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
+        for (int a = 0; a < DIM_MAX; a++) d->m->node[k][a] += shift[a];
+        if (turns) rotate_about(d->m->node[k], turn, turn + 3, turn[6] * 3.14159265358979323846 / 180);
     }
     p->placed = true;
     if (name) snprintf(p->instance, sizeof p->instance, "%s", name);
@@ -436,6 +454,7 @@ static status instance_read(struct deck *d)
 
 /* ---- the deck ------------------------------------------------------------------------------------------------- */
 
+/* Handles the current keyword and its data lines. */
 static status keyword_follow(struct deck *d)
 {
     static const char *const makers[] = {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "INCLUDE"};
@@ -463,7 +482,7 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     status result = OK;
     scope_begin(&d, "");
     while (result == OK && source_more(s)) {
-        while (data_line(s)) source_next_line(s); /* of a keyword that is passed over */
+        while (data_line(s)) source_next_line(s); /* data lines of a skipped keyword */
         if (s->at >= s->length) break;
         source_more(s);
         keyword_read(&d);

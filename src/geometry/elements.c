@@ -1,4 +1,4 @@
-/* Meshes of finite elements: what all formats have in common. */
+/* Operations on finite-element meshes that all file formats share. */
 #include "elements.h"
 
 #include <stdio.h>
@@ -102,6 +102,7 @@ void element_mesh_free(struct element_mesh *m)
 
 /* ---- labels --------------------------------------------------------------------------------------------------- */
 
+/* Orders entries by label, then by index. */
 static int label_entry_order(const void *a, const void *b)
 {
     const struct label_entry *p = a, *q = b;

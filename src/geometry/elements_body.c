@@ -1,4 +1,4 @@
-/* The body that elements fill: their faces, of which inner ones cancel, and the surfaces of their sets. */
+/* Makes the surface of the body that elements fill, in which inner faces cancel, and the surfaces of its sets. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -11,28 +11,28 @@ void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k)
     memcpy(b->face[b->n++], face, sizeof face);
 }
 
-/* Is place X before place Y, by the first coordinate in which they differ by more than a billionth of `size`? */
-static bool place_before(const real *X, const real *Y, real size)
+/* Returns true if X comes before Y, by the first coordinate in which they differ by more than 1e-9 of `size`. */
+static bool point_before(const real *X, const real *Y, real size)
 {
     for (int d = 0; d < DIM_MAX; d++)
         if (fabs(X[d] - Y[d]) > 1e-9 * size) return X[d] < Y[d];
     return false;
 }
 
-/* A side of 3 or 4 corners as triangles. A quadrilateral is halved at the corner whose place is first, so that the
- * elements on both sides of it halve it alike, also where each has nodes of its own. */
+/* Halves a quadrilateral at its first corner by position, so that the elements on both sides of it are halved alike
+ * even if each has its own nodes. */
 void builder_add_side(struct builder *b, const int32_t *node, int n)
 {
     int low = 0;
     real size = 0;
     for (int d = 0; d < DIM_MAX; d++) size += fabs(b->m->node[node[0]][d] - b->m->node[node[n / 2]][d]);
     for (int k = 1; k < n; k++)
-        if (place_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
+        if (point_before(b->m->node[node[k]], b->m->node[node[low]], size)) low = k;
     builder_add(b, node[low], node[(low + 1) % n], node[(low + 2) % n]);
     if (n == 4) builder_add(b, node[low], node[(low + 2) % n], node[(low + 3) % n]);
 }
 
-/* The sides of an element that fills a part of the body, or the element itself where it is a part of the surface. */
+/* Adds the sides of an element that fills a part of the body, or the element itself if it is a part of the surface. */
 static void builder_add_element(struct builder *b, const struct element *e)
 {
     const struct element_sides *sides = &element_sides[e->kind];
@@ -55,7 +55,7 @@ static void builder_add_element(struct builder *b, const struct element *e)
     }
 }
 
-/* Six times the volume of its faces from `first` on, or twice the area in the plane. */
+/* Returns six times the volume enclosed by the faces from `first` on, in 2D twice the area [file unit^dim]. */
 static real builder_volume(const struct builder *b, int64_t first)
 {
     const real *O = b->m->node[b->face[first][0]];
@@ -72,7 +72,7 @@ static real builder_volume(const struct builder *b, int64_t first)
     return sum;
 }
 
-/* Edge of an element between two of its corners. */
+/* Returns the number of an element's edge between corners i and j; -1 if there is none. */
 static int edge_between(enum element_kind kind, int i, int j)
 {
     const struct element_edges *edges = &element_edges[kind];
@@ -83,8 +83,8 @@ static int edge_between(enum element_kind kind, int i, int j)
     return -1;
 }
 
-/* The side of an element between `n` of its corners, with its middle nodes; centre: number of its own middle node, -1:
- * it has none. turned: seen from the other side. */
+/* Returns the side of an element with n corners and its middle nodes. centre: number of the side's own middle node, -1:
+ * none. turned: reverses the orientation. */
 static struct patch patch_of(const struct builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -101,7 +101,7 @@ static struct patch patch_of(const struct builder *b, const struct element *e, c
     return p;
 }
 
-/* Adds the sides of an element as patches; see builder_add_element. */
+/* Adds the sides of an element as patches, like builder_add_element. */
 static void builder_add_patches(struct builder *b, const struct element *e, bool turned)
 {
     static const signed char all[] = {0, 1, 2, 3};
@@ -120,8 +120,8 @@ static void builder_add_patches(struct builder *b, const struct element *e, bool
     }
 }
 
-/* Adds an element; one whose corners run the other way round is turned. */
-static void builder_take(struct builder *b, const struct element *e)
+/* Adds an element. If its corners have the opposite orientation, its sides are reversed. */
+static void builder_add_oriented(struct builder *b, const struct element *e)
 {
     const int64_t first = b->n;
     builder_add_element(b, e);
@@ -137,8 +137,8 @@ static void builder_take(struct builder *b, const struct element *e)
     }
 }
 
-/* Hands the faces over as a surface of the nodes that they use. node_of (may be NULL; to be freed): node of a corner.
- */
+/* Makes a hull of the collected faces and of the nodes they use, and clears the builder. node_of: receives the node of
+ * each corner, to be freed by the caller; if NULL, nodes added by subdivision are removed again. */
 static void builder_close(struct builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -167,18 +167,18 @@ static void builder_close(struct builder *b, struct hull *hull, bool closed, int
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Its elements that fill the body make a closed surface; where it has none, its faces, lines and points an open one. */
+/* Makes the surface of a set: closed if elements of it fill the body, else open, of its faces, lines and points. */
 static void set_of_elements(struct builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
     bool fills = false;
     for (int64_t k = 0; k < set->n; k++) fills = fills || element_dim[e[set->member[k]].kind] == b->dim;
     for (int64_t k = 0; k < set->n; k++)
-        if (!fills || element_dim[e[set->member[k]].kind] == b->dim) builder_take(b, &e[set->member[k]]);
+        if (!fills || element_dim[e[set->member[k]].kind] == b->dim) builder_add_oriented(b, &e[set->member[k]]);
     builder_close(b, hull, fills, NULL);
 }
 
-/* Its nodes, and the faces of the body between them. */
+/* Makes the surface of a set of nodes: the nodes, and the faces of the body whose nodes are all members. */
 static void set_of_nodes(struct builder *b, const struct element_set *set, const struct hull *whole,
                          const int32_t *node_of, struct hull *hull)
 {
@@ -201,6 +201,7 @@ static void set_of_nodes(struct builder *b, const struct element_set *set, const
     builder_close(b, hull, false, NULL);
 }
 
+/* Makes the surfaces of all sets that are not empty. */
 static void take_sets(struct builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
@@ -218,7 +219,8 @@ static void take_sets(struct builder *b, const int32_t *node_of, struct geometry
 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
-/* Which elements make the body: in the plane triangles and quadrilaterals; in space solids, else a surface of such. */
+/* Determines the dimension of the elements that make up the body: 2 in 2D; in 3D 3 if there are any solids, else 2.
+ * REFUSED if there is no such element. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};
@@ -236,7 +238,7 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
 
-/* REFUSED unless the elements of a plane body lie in one plane z = const, to a millionth of their extent. */
+/* REFUSED unless 2D elements have equal z to 1e-6 of their extent. */
 static status check_plane(const struct element_mesh *m, const char *path)
 {
     real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -264,7 +266,7 @@ status geometry_from_elements(struct geometry *g, struct element_mesh *m, const 
     if (dim == 2) TRY(check_plane(m, path));
     TRY(builder_fineness(&b, path, fine));
     for (int64_t k = 0; k < m->elements; k++)
-        if (element_dim[m->element[k].kind] == b.body_dim) builder_take(&b, &m->element[k]);
+        if (element_dim[m->element[k].kind] == b.body_dim) builder_add_oriented(&b, &m->element[k]);
     builder_close(&b, &g->whole, true, &node_of);
     take_sets(&b, node_of, g);
     memory_free(node_of);

@@ -1,19 +1,22 @@
-/* Curved sides of second-order elements: subdivided into straight edges and triangles, so finely that these lie
- * within a given distance of the curves. Neighbours share the nodes on their common edges. */
+/* Subdivides the curved sides of second-order elements into straight edges and triangles that stay within a given
+ * distance of the curves. Neighbours share the nodes on common edges. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "elements.h"
 
 enum { PIECES_MOST_SPACE = 64, PIECES_MOST_PLANE = 4096 };
-#define COARSE_MOST 10.0 /* times the wanted distance, up to which PIECES_MOST pieces are enough */
+#define COARSE_MOST 10.0 /* coarse curves are accepted up to this multiple of the wanted distance */
+/* default distance as a share of the largest sagitta */
 #define SAGITTA_SHARE (1.0 / 256)
-#define STRAIGHT 1e-6 /* share of its length by which the middle of an edge may lie beside its chord */
-#define FARTHEST 1e30 /* [m] where squares and products of three still are numbers */
+/* an edge is straight if its middle node is closer to its chord than this share of its length */
+#define STRAIGHT 1e-6
+#define FARTHEST 1e30 /* [m] squares and triple products stay finite */
 
 /* ---- edges ------------------------------------------------------------------------------------------------------- */
 
-/* Distance of a middle node from the line through the ends of its edge [unit of the file]; 0 without middle node. */
+/* Returns the distance of a middle node from the chord of its edge [unit of the file]; 0 without a middle node or if
+ * nearly straight. */
 static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle)
 {
     if (middle < 0) return 0;
@@ -25,7 +28,8 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Pieces of a curve of this sagitta whose chords lie within `wanted` of it: the distance falls with their square. */
+/* Returns the number of chords (at most `most`) that follow a curve of this sagitta to within `wanted`; their distance
+ * falls with the square of their number. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -54,7 +58,7 @@ status builder_fineness(struct builder *b, const char *path, real fine)
                       path, sagitta * b->scale, most);
 }
 
-/* A new node of the mesh between up to four corners. */
+/* Adds a node to the mesh and records the corners it is between (at most four). */
 static int32_t node_between(struct builder *b, const real *X, const int32_t *parent, int parents)
 {
     const int32_t node = mesh_node_append(b->m, X, -1);
@@ -64,21 +68,22 @@ static int32_t node_between(struct builder *b, const real *X, const int32_t *par
     return node;
 }
 
-/* Place of a middle node, or the middle between both ends where there is none. */
-static void middle_place(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
+/* Computes the position of a middle node, or the midpoint of the edge if it has none. */
+static void middle_point(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++)
         X[d] = middle >= 0 ? m->node[middle][d] : 0.5 * (m->node[from][d] + m->node[to][d]);
 }
 
-/* New nodes that divide an edge into so many pieces; returns the index of the first, in order from `from` to `to`. */
+/* Adds pieces - 1 nodes along an edge, by quadratic interpolation. Returns the index of the first, in order from `from`
+ * to `to`. */
 static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
 {
     const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
     for (int k = 1; k < pieces; k++) {
         const real t = (real)k / pieces;
         real X[DIM_MAX], M[DIM_MAX];
-        middle_place(b->m, from, to, middle, M);
+        middle_point(b->m, from, to, middle, M);
         for (int d = 0; d < DIM_MAX; d++)
             X[d] = (1 - t) * (1 - 2 * t) * b->m->node[from][d] + 4 * t * (1 - t) * M[d] +
                    t * (2 * t - 1) * b->m->node[to][d];
@@ -87,7 +92,7 @@ static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t 
     return first;
 }
 
-/* An edge of the plane, or a line in space, as straight pieces. */
+/* Adds an edge in 2D, or a line in 3D, as straight pieces. */
 static void line_add(struct builder *b, const struct patch *p)
 {
     const int32_t from = p->corner[0], to = p->corner[p->n - 1];
@@ -108,13 +113,14 @@ void builder_add_patch(struct builder *b, const struct patch *p)
     b->patch[b->patches++] = *p;
 }
 
-/* Corners of a patch in ascending order; turn: +1 or -1, which way it looks. */
+/* Corners of a patch in ascending order, to find patches that coincide. */
 struct patch_key {
     int32_t corner[4];
-    int turn;
-    int64_t of;
+    int turn;   /* orientation: +1 or -1 */
+    int64_t of; /* index of the patch */
 };
 
+/* Computes the key of patch number `of`. */
 static struct patch_key patch_key_of(const struct patch *p, int64_t of)
 {
     struct patch_key key = {.of = of};
@@ -133,6 +139,7 @@ static struct patch_key patch_key_of(const struct patch *p, int64_t of)
     return key;
 }
 
+/* Orders keys by corners, then by index. */
 static int key_order(const void *a, const void *b)
 {
     const struct patch_key *p = a, *q = b;
@@ -141,7 +148,7 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Keeps of patches between the same corners one, or none if as many look one way as the other. */
+/* Removes patches that coincide with opposite orientation; of those that remain between the same corners, keeps one. */
 static void patches_cancel(struct builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -168,16 +175,20 @@ static void patches_cancel(struct builder *b)
 
 /* ---- faces in space ---------------------------------------------------------------------------------------------- */
 
-/* An edge of patches; divided: it has nodes first .. between its ends, from the lower one on. */
+/* An edge shared by patches; if divided, its interior nodes have consecutive indices from `first` on, starting at the
+ * end `low`. */
 struct curve {
     int32_t low, high, middle, first;
     bool divided;
 };
+
+/* All edges, sorted by curve_order. */
 struct curves {
     int64_t n;
     struct curve *curve;
 };
 
+/* Orders edges by ends, then by middle node. */
 static int curve_order(const void *a, const void *b)
 {
     const struct curve *p = a, *q = b;
@@ -186,13 +197,14 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
+/* Returns edge k of a patch, not divided. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
     return (struct curve){.low = from < to ? from : to, .high = from < to ? to : from, .middle = p->middle[k]};
 }
 
-/* The edge k of a patch in the list. */
+/* Finds edge k of a patch in the list, by bisection. */
 static struct curve *curve_find(const struct curves *c, const struct patch *p, int k)
 {
     const struct curve wanted = curve_of(p, k);
@@ -207,7 +219,7 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
     return &c->curve[low];
 }
 
-/* Is an edge of a patch curved, or does its own middle node lie beside the middle of its corners? */
+/* Returns true if an edge of the patch is curved, or its own middle node is off the mean of its corners. */
 static bool patch_curved(const struct builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
@@ -223,7 +235,7 @@ static bool patch_curved(const struct builder *b, const struct patch *p)
     return curved || off2 > square(b->sagitta);
 }
 
-/* Lists the edges of all patches; those of curved ones are divided. */
+/* Lists the edges of all patches and divides those of curved patches. The caller frees c->curve. */
 static void curves_make(struct curves *c, struct builder *b)
 {
     int64_t kept = 0;
@@ -246,7 +258,7 @@ static void curves_make(struct curves *c, struct builder *b)
     }
 }
 
-/* Node number `at` of 0 .. pieces on edge k of a patch, from its corner k on. */
+/* Returns node `at` (0..pieces) along edge k of a patch, starting at its corner k. */
 static int32_t curve_node(const struct builder *b, const struct curves *c, const struct patch *p, int k, int at)
 {
     const struct curve *e = curve_find(c, p, k);
@@ -255,22 +267,22 @@ static int32_t curve_node(const struct builder *b, const struct curves *c, const
     return e->first + (p->corner[k] == e->low ? at : b->pieces - at) - 1;
 }
 
-/* A place on a triangle of six nodes; u, v: shares of its corners 1 and 2. */
-static void triangle_place(const struct element_mesh *m, const struct patch *p, real u, real v, real X[DIM_MAX])
+/* Computes a point of a triangle with six nodes; u, v: area coordinates of corners 1 and 2. */
+static void triangle_point(const struct element_mesh *m, const struct patch *p, real u, real v, real X[DIM_MAX])
 {
     const real L[3] = {1 - u - v, u, v};
     real M[DIM_MAX];
     for (int d = 0; d < DIM_MAX; d++) X[d] = 0;
     for (int k = 0; k < 3; k++) {
         const int next = (k + 1) % 3;
-        middle_place(m, p->corner[k], p->corner[next], p->middle[k], M);
+        middle_point(m, p->corner[k], p->corner[next], p->middle[k], M);
         for (int d = 0; d < DIM_MAX; d++)
             X[d] += L[k] * (2 * L[k] - 1) * m->node[p->corner[k]][d] + 4 * L[k] * L[next] * M[d];
     }
 }
 
-/* A place on a quadrilateral of eight nodes, each of whose coordinates goes from -1 to 1. */
-static void quad_place(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
+/* Computes a point of a quadrilateral with eight nodes; x, y: reference coordinates in [-1, 1]. */
+static void quad_point(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     static const int at[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, side[4][2] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
     real M[DIM_MAX];
@@ -279,22 +291,23 @@ static void quad_place(const struct element_mesh *m, const struct patch *p, real
         const real a = x * at[k][0], b = y * at[k][1], along = side[k][0] == 0 ? x : y;
         const real corner = 0.25 * (1 + a) * (1 + b) * (a + b - 1);
         const real middle = 0.5 * (1 - along * along) * (1 + x * side[k][0] + y * side[k][1]);
-        middle_place(m, p->corner[k], p->corner[(k + 1) % 4], p->middle[k], M);
+        middle_point(m, p->corner[k], p->corner[(k + 1) % 4], p->middle[k], M);
         for (int d = 0; d < DIM_MAX; d++) X[d] += corner * m->node[p->corner[k]][d] + middle * M[d];
     }
 }
 
-/* The same with its own middle node, if it has one. */
-static void quad_place_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
+/* Like quad_point, but also interpolates the quadrilateral's own middle node if it has one. */
+static void quad_point_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     real middle[DIM_MAX];
-    quad_place(m, p, x, y, X);
+    quad_point(m, p, x, y, X);
     if (p->centre < 0) return;
-    quad_place(m, p, 0, 0, middle);
+    quad_point(m, p, 0, 0, middle);
     for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
 }
 
-/* The node i, j of 0 .. pieces on a curved patch: on its edges theirs, within it a new one. */
+/* Returns the node at grid position (i, j), 0..pieces, of a curved patch: on its edges the shared node, inside a new
+ * one. */
 static int32_t grid_node(struct builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
@@ -305,13 +318,13 @@ static int32_t grid_node(struct builder *b, const struct curves *c, const struct
     if (p->n == 4 && i == n) return curve_node(b, c, p, 1, j);
     if (p->n == 4 && j == n) return curve_node(b, c, p, 2, n - i);
     if (p->n == 3)
-        triangle_place(b->m, p, (real)i / n, (real)j / n, X);
+        triangle_point(b->m, p, (real)i / n, (real)j / n, X);
     else
-        quad_place_whole(b->m, p, 2.0 * i / n - 1, 2.0 * j / n - 1, X);
+        quad_point_whole(b->m, p, 2.0 * i / n - 1, 2.0 * j / n - 1, X);
     return node_between(b, X, p->corner, p->n);
 }
 
-/* Triangles of a curved patch; row: room for two rows of nodes. */
+/* Adds the triangles of a curved patch; row: buffer for two rows of nodes. */
 static void patch_divide(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     const int n = b->pieces;
@@ -329,7 +342,7 @@ static void patch_divide(struct builder *b, const struct curves *c, const struct
     }
 }
 
-/* Triangles of a plane patch some of whose edges are divided: round a new node in its middle. */
+/* Adds a flat patch with divided edges as triangles around a new node at its centre. */
 static void patch_star(struct builder *b, const struct curves *c, const struct patch *p)
 {
     real X[DIM_MAX] = {0};
@@ -344,6 +357,7 @@ static void patch_star(struct builder *b, const struct curves *c, const struct p
     }
 }
 
+/* Adds a patch as faces, subdivided where needed. */
 static void patch_add(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;

@@ -1,4 +1,4 @@
-/* Which reader a file needs, and whether what it holds has an inside. */
+/* Selects the reader for a file and checks that its content encloses a volume. */
 #include "geometry/geometry.h"
 
 #include <math.h>
@@ -7,14 +7,16 @@
 #include "base/memory.h"
 #include "elements.h"
 
-#define DOUBT_MOST 0.02 /* share of places that may not be known to be inside or outside */
-#define FARTHEST 1e30   /* [m] where squares and products of three still are numbers */
+#define DOUBT_MOST 0.02 /* share of sample points that may be neither inside nor outside */
+#define FARTHEST 1e30   /* [m] squares and triple products stay finite */
 
+/* Readers by extension. */
 static const struct format {
     const char *ending;
     status (*read)(struct element_mesh *, struct source *);
 } formats[] = {{".stl", stl_read}, {".msh", gmsh_read}, {".inp", abaqus_read}};
 
+/* Returns the format for a path, ignoring case; NULL: unknown extension. */
 static const struct format *format_of(const char *path)
 {
     const size_t length = strlen(path);
@@ -23,7 +25,7 @@ static const struct format *format_of(const char *path)
     return NULL;
 }
 
-/* REFUSED where it encloses nothing, or is so open that places inside and outside cannot be told apart. */
+/* REFUSED if the surface encloses nothing, or is so open that inside and outside cannot be told apart. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;
@@ -44,6 +46,7 @@ static status check_closed(const struct hull *s, const char *path)
     return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
 }
 
+/* Reads a file into g. After a failure g may be partly filled. */
 static status read_elements(struct geometry *g, const char *path, int dim, real scale, real fine)
 {
     const struct format *format = format_of(path);

@@ -1,5 +1,5 @@
-/* Gmsh .msh, formats 2.2 and 4.1, in words or bytes (Gmsh reference manual, "File formats"). Physical groups become
- * sets by their names, those without one by their number. */
+/* Reads Gmsh .msh files, formats 2.2 and 4.1, text or binary (Gmsh reference manual, "File formats"). Physical groups
+ * become sets with the group's name, or its number if it has none. */
 #include <ctype.h>
 #include <stdio.h>
 #include <strings.h>
@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "elements.h"
 
-/* Gmsh's types: what they are by their corners, which come first; how many nodes they have; their order. */
+/* Gmsh's element types: shape, number of nodes (the corners come first) and polynomial order. */
 static const struct gmsh_type {
     int type;
     enum element_kind kind;
@@ -24,8 +24,8 @@ static const struct gmsh_type {
              {6, ELEMENT_PRISM, 6, 1},         {13, ELEMENT_PRISM, 18, 2},       {18, ELEMENT_PRISM, 15, 2},
              {7, ELEMENT_PYRAMID, 5, 1},       {14, ELEMENT_PYRAMID, 14, 2},     {19, ELEMENT_PYRAMID, 13, 2}};
 
-/* Places of Gmsh's nodes behind the corners among the middle nodes of an element (elements.h); the first lie on edges.
- * Also edges of higher order come in this order. -1: inside. */
+/* For Gmsh's nodes after the corners: position among the middle nodes of elements.h; nodes of edges come first, also in
+ * elements of higher order, whose edges have this order. -1: interior node, ignored. */
 static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_LINE] = {0},
     [ELEMENT_TRIANGLE] = {0, 1, 2, 3},
@@ -34,29 +34,32 @@ static const signed char middle_at[ELEMENT_KINDS][1 + ELEMENT_MIDDLES_MAX] = {
     [ELEMENT_PYRAMID] = {0, 3, 4, 1, 5, 2, 6, 7, 8},
     [ELEMENT_PRISM] = {0, 2, 6, 1, 7, 8, 3, 5, 4, 11, 13, 12},
     [ELEMENT_HEXAHEDRON] = {0, 3, 8, 1, 9, 2, 10, 11, 4, 7, 5, 6, 12, 14, 17, 15, 16, 13, -1}};
-#define STRAIGHT 1e-6 /* [length of the edge] distance of nodes on an edge from its chord */
+#define STRAIGHT 1e-6 /* a node of an edge may be off the chord by this share of the edge's length */
 
-enum { GROUPS_MAX = 16 }; /* that an entity may belong to */
+enum { GROUPS_MAX = 16 }; /* most groups per entity */
 
+/* A Gmsh file while it is read. */
 struct gmsh {
     struct source *s;
     struct element_mesh *m;
-    bool bytes, old;       /* numbers are bytes; format 2.2 */
-    struct label_map node; /* its labels, once the nodes are read */
-    int64_t names;         /* of physical groups */
+    bool bytes, old;       /* numbers are binary; format 2.2 */
+    struct label_map node; /* index of each node label, once the nodes are read */
+    int64_t names;         /* physical groups that have a name */
     struct group_name {
         int64_t dim, tag;
         char text[NAME_MAX_LENGTH];
     } * name;
-    int64_t links;           /* entities and the physical groups that they belong to */
-    int64_t *entity, *group; /* dimension and tag as one number; tag of the group */
-    struct label_map of_entity;
-    int64_t last_dim, last_tag; /* the group that was met last, and its set */
+    int64_t links;              /* pairs of an entity and a physical group it belongs to */
+    int64_t *entity, *group;    /* key of the entity (entity_key); tag of the group */
+    struct label_map of_entity; /* pairs of each entity */
+    int64_t last_dim, last_tag; /* the group of the last element added; its set is last_set */
     int last_set;
 };
 
+/* Combines dimension and tag of an entity into one number. */
 static int64_t entity_key(int64_t dim, int64_t tag) { return tag * 4 + dim; }
 
+/* Returns the element type with Gmsh's number. REFUSED: unsupported type. */
 static status type_of(const struct source *s, int64_t number, const struct gmsh_type **type)
 {
     for (size_t k = 0; k < COUNT_OF(types); k++)
@@ -70,7 +73,7 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
                         (long long)number);
 }
 
-/* Adds an element to the set of a physical group. */
+/* Adds an element to the set of a physical group. REFUSED: too many groups. */
 static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t element)
 {
     if (g->last_set < 0 || dim != g->last_dim || tag != g->last_tag) {
@@ -85,7 +88,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
     return OK;
 }
 
-/* The index of a node by its label, the next number of the file. */
+/* Reads a node label and returns its index. REFUSED: unknown node. */
 static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
@@ -97,7 +100,7 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* REFUSED unless a node on edge number `edge` in Gmsh's order lies on its chord. */
+/* REFUSED unless a node of edge number `edge` (Gmsh's order) is on the edge's chord. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -113,7 +116,8 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
                         type->order);
 }
 
-/* Nodes of an element: corners, and of second-order elements those between them; edges of higher ones are straight. */
+/* Reads the nodes of an element and appends it. Middle nodes are kept in second-order elements only; edges of higher
+ * order must be straight. */
 static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t label)
 {
     const int corners = element_corners[type->kind], edges = element_edges[type->kind].n;
@@ -132,6 +136,7 @@ static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t
     return OK;
 }
 
+/* Maps node labels to indices. REFUSED: a label occurs twice. */
 static status nodes_known(struct gmsh *g)
 {
     int64_t twice;
@@ -142,7 +147,7 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* A text in quotes, as the next of the line. */
+/* Reads a text in quotes, truncated to `room` bytes. REFUSED: no quotes, or no end on the line. */
 static status quoted_next(struct source *s, char *text, size_t room)
 {
     size_t n = 0;
@@ -155,6 +160,7 @@ static status quoted_next(struct source *s, char *text, size_t room)
     return OK;
 }
 
+/* Reads the names of physical groups. */
 static status names_read(struct gmsh *g)
 {
     int64_t n;
@@ -171,6 +177,7 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
+/* Records that an entity belongs to a physical group. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
     GROW("gmsh.entities", g->entity, g->links + 1);
@@ -178,7 +185,7 @@ static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
     g->entity[g->links] = entity, g->group[g->links++] = group;
 }
 
-/* An entity: its tag, its box (of a point its place), its groups and, but for a point, what bounds it. */
+/* Reads an entity: tag, bounding box (for a point its position), groups and, except for points, bounding entities. */
 static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
@@ -198,6 +205,7 @@ static status entity_read(struct gmsh *g, int64_t dim)
     return OK;
 }
 
+/* Reads all entities, with their physical groups. */
 static status entities_read(struct gmsh *g)
 {
     int64_t n[1 + DIM_MAX];
@@ -213,7 +221,7 @@ static status entities_read(struct gmsh *g)
 
 /* ---- format 2.2 ----------------------------------------------------------------------------------------------- */
 
-/* A count stands in words also before bytes, at the end of its line. */
+/* Reads a count, which is text even in binary files, to the end of its line. */
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
@@ -223,6 +231,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     return source_counted(g->s, what, *n, bytes);
 }
 
+/* Reads all nodes. */
 static status old_nodes(struct gmsh *g)
 {
     int64_t n, label;
@@ -236,7 +245,7 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* An element of 2.2: its tags, of which the first is the physical group, and nodes. */
+/* Reads an element's tags, of which the first is its physical group (0: none), and its nodes. */
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
@@ -246,7 +255,8 @@ static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t 
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
 
-/* In bytes elements of one type come in blocks behind a header; in words each says what it is. */
+/* Reads all elements. In binary files, elements of one type are in blocks with a header; in text files each element has
+ * its type. */
 static status old_elements(struct gmsh *g)
 {
     int64_t n, label = 0, number, tags, block = 1;
@@ -270,7 +280,8 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Blocks, things in all, least and largest label. */
+/* Reads the head of a section: number of blocks, number of items, smallest and largest label. Only the first is
+ * kept. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t skipped;
@@ -279,7 +290,8 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
     return source_counted(g->s, "blocks", *blocks, 8);
 }
 
-/* A block of nodes: their labels, then their places, with coordinates on their entity behind them. */
+/* Reads a block of nodes: their labels, then their coordinates, followed by parameters on the entity, which are
+ * ignored. */
 static status new_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
@@ -302,6 +314,7 @@ static status new_node_block(struct gmsh *g)
     return OK;
 }
 
+/* Reads all nodes. */
 static status new_nodes(struct gmsh *g)
 {
     int64_t blocks;
@@ -310,6 +323,7 @@ static status new_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
+/* Reads a block of elements of one type on one entity and adds them to the entity's physical groups. */
 static status new_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
@@ -330,6 +344,7 @@ static status new_element_block(struct gmsh *g)
     return OK;
 }
 
+/* Reads all elements. */
 static status new_elements(struct gmsh *g)
 {
     int64_t blocks;
@@ -340,6 +355,7 @@ static status new_elements(struct gmsh *g)
 
 /* ---- sections ------------------------------------------------------------------------------------------------- */
 
+/* Reads the header. REFUSED: another version, number size or byte order. */
 static status format_read(struct gmsh *g)
 {
     char version[16];
@@ -361,7 +377,7 @@ static status format_read(struct gmsh *g)
     return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
-/* Goes behind the line $EndNAME of a section that is not read. */
+/* Skips to the end of the line $EndNAME of a section. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];
@@ -370,6 +386,7 @@ static void section_skip(struct source *s, const char *name)
     s->at = found ? found - s->text + length : s->length;
 }
 
+/* Reads a section, or skips it if it is not needed. */
 static status section_read(struct gmsh *g, const char *name)
 {
     static const struct section {
@@ -385,7 +402,7 @@ static status section_read(struct gmsh *g, const char *name)
     for (size_t k = 0; k < COUNT_OF(sections); k++) {
         if (strcmp(name, sections[k].name) != 0 || (g->old && !sections[k].old)) continue;
         if (!g->old && g->bytes && k > 0) source_next_line(g->s);
-        g->s->binary = !g->old && g->bytes && k > 0; /* names are words */
+        g->s->binary = !g->old && g->bytes && k > 0; /* names are text also in binary files */
         const status s = (g->old ? sections[k].old : sections[k].new)(g);
         g->s->binary = false;
         if (s != OK) return s;
@@ -394,6 +411,7 @@ static status section_read(struct gmsh *g, const char *name)
     return OK;
 }
 
+/* Reads all sections. REFUSED: malformed, without nodes or without elements. */
 static status sections_read(struct gmsh *g)
 {
     char name[40];

@@ -1,12 +1,12 @@
-/* Images to voxels. */
+/* Reads image files into voxels. */
 #include "geometry/image.h"
 
 #include "base/memory.h"
 #include "base/team.h"
 #include "pages.h"
 
-enum { SHRINKS_MOST = 1100, BITS = 8 }; /* deflate by 1032 at the most; a byte may hold eight pixels */
-enum { BYTES_A_VOXEL = 16 };            /* grey values and levels while they are made */
+enum { SHRINKS_MOST = 1100, BITS = 8 }; /* largest compression (deflate reaches 1032); pixels per byte at 1 bit */
+enum { BYTES_A_VOXEL = 16 };            /* memory for grey values and levels per voxel while they are made */
 
 int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152 * green + 0.0722 * blue + 0.5); }
 
@@ -31,6 +31,7 @@ status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t
     return OK;
 }
 
+/* Appends all pages of a PNG or TIFF file. REFUSED: neither, or malformed. */
 static status file_read(struct pages *p, const char *path)
 {
     struct source s;
@@ -44,6 +45,7 @@ static status file_read(struct pages *p, const char *path)
     return result;
 }
 
+/* Appends the pages of all files. REFUSED: more than one page in 2D. */
 static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
@@ -51,8 +53,8 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
     return status_set(REFUSED, "%s: %lld images; in the plane one is expected", path[0], (long long)p->n);
 }
 
-/* Turns the rows of each page round: y goes up. */
-static void rows_turn(struct pages *p)
+/* Reverses the row order of each page, so that y increases with the row. */
+static void rows_flip(struct pages *p)
 {
     for (int64_t k = 0; k < p->n; k++)
         for (int64_t j = 0; j < p->height / 2; j++) {
@@ -74,7 +76,7 @@ status image_read(struct voxels *v, int files, char *const *path, int dim, const
         memory_free(p.grey);
         return result;
     }
-    rows_turn(&p);
+    rows_flip(&p);
     *v = (struct voxels){.dim = dim, .n = {p.width, p.height, p.n}, .grey = p.grey};
     for (int d = 0; d < dim; d++) v->size[d] = size[d], v->from[d] = from[d];
     return OK;

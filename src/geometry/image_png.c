@@ -1,4 +1,5 @@
-/* PNG by libpng. Its faults jump; what must be freed after a jump is static to the call that set it. */
+/* Reads PNG with libpng, which reports errors by longjmp: what must be freed afterwards is kept in volatile variables
+ * outside setjmp. */
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -6,7 +7,7 @@
 #include "base/memory.h"
 #include "pages.h"
 
-/* libpng reads from the bytes of the file. */
+/* Gives libpng the next n bytes of the file. */
 static void bytes_next(png_structp png, png_bytep to, size_t n)
 {
     struct source *s = png_get_io_ptr(png);
@@ -15,15 +16,17 @@ static void bytes_next(png_structp png, png_bytep to, size_t n)
     s->at += (int64_t)n;
 }
 
+/* Keeps the message of an error and jumps back to png_read_pages. */
 static void fault_kept(png_structp png, png_const_charp what)
 {
     snprintf(png_get_error_ptr(png), 128, "%s", what);
     png_longjmp(png, 1);
 }
 
+/* Ignores a warning. */
 static void warning_dropped(png_structp png, png_const_charp what) { (void)png, (void)what; }
 
-/* Any kind of image becomes grey values of 8 or 16 bits, the high byte first. */
+/* Makes libpng convert any image to grey values of 8 or 16 bits, big-endian. */
 static void make_grey(png_structp png, png_infop info)
 {
     const int colour = png_get_color_type(png, info);
@@ -35,7 +38,7 @@ static void make_grey(png_structp png, png_infop info)
     png_read_update_info(png, info);
 }
 
-/* A place for a page and rows of bytes; `rows` is freed by the caller, also after a fault. */
+/* Reads the image into a new page. The caller frees *rows and *bytes, also after a failure. */
 static status page_read(png_structp png, png_infop info, struct pages *p, const struct source *s,
                         png_bytep *volatile *rows, png_bytep volatile *bytes)
 {

@@ -1,13 +1,14 @@
-/* TIFF by libtiff, from the bytes of the file: pages of grey values or colours of 8 or 16 bits by their samples, others
- * (palettes, fewer bits, YCbCr) by their colours of 8 bits. */
+/* Reads TIFF with libtiff from the bytes in memory. Pages with 8 or 16 bits per sample, grey or RGB, are read by
+ * sample; others (palettes, fewer bits, YCbCr) as RGBA with 8 bits. */
 #include <stdio.h>
 #include <tiffio.h>
 
 #include "base/memory.h"
 #include "pages.h"
 
-/* ---- libtiff reads from memory ----------------------------------------------------------------------------------- */
+/* ---- callbacks that let libtiff read from memory ----------------------------------------------------------------- */
 
+/* Copies up to n bytes; returns how many. */
 static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
 {
     struct source *s = handle;
@@ -18,12 +19,14 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     return taken;
 }
 
+/* Refuses to write. */
 static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
 {
     (void)handle, (void)from, (void)n;
     return -1;
 }
 
+/* Sets the reading position; returns it, or -1 if outside the file. */
 static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
 {
     struct source *s = handle;
@@ -33,26 +36,31 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
     return (toff_t)to;
 }
 
+/* Does nothing: the bytes belong to the caller. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
+
+/* Returns the file size [byte]. */
 static toff_t tiff_size(thandle_t handle) { return (toff_t)((struct source *)handle)->length; }
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the value of a 16-bit tag, or its default, or 0. */
 static int tag_of(TIFF *tiff, uint32_t tag)
 {
     uint16_t value = 0;
     return TIFFGetFieldDefaulted(tiff, tag, &value) ? value : 0;
 }
 
-enum { SAMPLES_MOST = 64, TILE_MOST = 1 << 22 }; /* of a pixel; pixels of a tile of a small image */
+enum { SAMPLES_MOST = 64, TILE_MOST = 1 << 22 }; /* samples per pixel; pixels of a tile of a small image */
 
-/* What the samples of a page are. */
+/* Layout of a page's samples. */
 struct samples {
     int bits, format, photometric, count, orientation;
-    bool tiled, separate; /* in tiles; each sample in a plane of its own */
+    bool tiled, separate; /* stored in tiles; each sample in its own plane */
     int64_t width, height;
 };
 
+/* Reads the layout of the current page from its tags. */
 static struct samples samples_of(TIFF *tiff)
 {
     uint32_t width = 0, height = 0;
@@ -71,15 +79,15 @@ static struct samples samples_of(TIFF *tiff)
                             .height = height};
 }
 
-/* Number of samples that are looked at where they are whole bytes of grey values or of red, green and blue; what
- * follows them is transparency. 0: another kind, which libtiff turns into colours of 8 bits. */
+/* Returns how many samples per pixel are read directly: 1 for grey, 3 for RGB (further ones are transparency); 0:
+ * another kind, which libtiff converts to RGBA. */
 static int samples_used(const struct samples *a)
 {
     const int used = a->photometric <= PHOTOMETRIC_MINISBLACK ? 1 : a->photometric == PHOTOMETRIC_RGB ? 3 : 0;
     return (a->bits == 8 || a->bits == 16) && a->count >= used ? used : 0;
 }
 
-/* REFUSED for samples that are no grey values of up to 16 bits without a sign. */
+/* REFUSED unless the samples are unsigned integers of up to 16 bits, with rows from left to right or right to left. */
 static status check_samples(const struct samples *a, const char *path)
 {
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
@@ -107,12 +115,12 @@ static status check_samples(const struct samples *a, const char *path)
 /* Samples of a page while they are read. */
 struct planes {
     const struct samples *of;
-    int used;         /* of each pixel */
-    uint16_t *sample; /* [used][height][width], the upper row first, from the left */
+    int used;         /* samples per pixel that are kept */
+    uint16_t *sample; /* [used][height][width], top row first, left to right */
 };
 
-/* Puts n pixels from column x of row y on into their places; `from`: samples `first` .. of each pixel, `stride` of
- * them. */
+/* Stores n pixels of file row y from column x on, applying the page's orientation. from: `stride` samples per pixel, of
+ * which the first is sample number `first`. */
 static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y, int64_t n, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -128,7 +136,8 @@ static void planes_take(struct planes *p, const void *from, int64_t x, int64_t y
         }
 }
 
-/* Reads the rows, or tiles, that hold the samples from `first` on, `stride` of each pixel. */
+/* Reads all rows or tiles with `stride` samples per pixel from sample `first` on. Returns false if the file is
+ * malformed. */
 static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
 {
     const struct samples *a = p->of;
@@ -152,7 +161,7 @@ static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
     return good;
 }
 
-/* Grey values of a page whose samples are whole bytes. */
+/* Fills a page whose samples can be read directly. Returns false if the file is malformed. */
 static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
 {
     const int64_t size = a->width * a->height;
@@ -169,6 +178,7 @@ static bool samples_read(TIFF *tiff, uint16_t *page, const struct samples *a)
     return good;
 }
 
+/* Fills a page from libtiff's RGBA conversion. Returns false if the file is malformed. */
 static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t height)
 {
     uint32_t *colour = BARE("image.colours", width * height, uint32_t);
@@ -182,6 +192,7 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
     return good;
 }
 
+/* Appends the current page. REFUSED: unsupported or malformed. */
 static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
 {
     const struct samples a = samples_of(tiff);

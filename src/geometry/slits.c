@@ -1,30 +1,34 @@
-/* Free surfaces inside a mesh of elements: faces in one place whose nodes are doubled. They become cracks, in the plane
- * segments as long as they are straight, in space plane polygons where several faces make a convex one. */
+/* Finds free surfaces inside an element mesh: coincident faces, whose nodes are doubled. They become cracks: in 2D
+ * straight segments, in 3D planar polygons; coplanar faces that form a convex polygon become one. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "geometry/geometry.h"
 
-#define SAME 1e-6 /* [length of a face] corners so near are in one place */
+#define SAME 1e-6 /* corners closer than this share of a face's size coincide */
 
-/* A face of a mesh: its corners, centre and size. */
+/* A face of a mesh: corners, centre, and longest distance from its first corner [m]. */
 struct sheet {
     real corner[DIM_MAX][DIM_MAX], centre[DIM_MAX], size;
 };
+
+/* Faces found to be slits, owned by the caller. */
 struct sheets {
     int dim;
     int64_t n;
     struct sheet *at;
 };
 
-static real corners_apart(const real *a, const real *b, int dim)
+/* Returns the distance of two corners. */
+static real corner_distance(const real *a, const real *b, int dim)
 {
     real r2 = 0;
     for (int d = 0; d < dim; d++) r2 += square(a[d] - b[d]);
     return sqrt(r2);
 }
 
+/* Copies a face of a hull. */
 static struct sheet sheet_of(const struct hull *h, int64_t face)
 {
     struct sheet s = {.size = 0};
@@ -33,28 +37,29 @@ static struct sheet sheet_of(const struct hull *h, int64_t face)
             s.corner[c][d] = h->corner[h->face[face][c]][d];
             s.centre[d] += s.corner[c][d] / h->dim;
         }
-    for (int c = 1; c < h->dim; c++) s.size = real_max(s.size, corners_apart(s.corner[0], s.corner[c], h->dim));
+    for (int c = 1; c < h->dim; c++) s.size = real_max(s.size, corner_distance(s.corner[0], s.corner[c], h->dim));
     return s;
 }
 
+/* Orders faces by x of their centres. */
 static int by_centre(const void *a, const void *b)
 {
     const struct sheet *p = a, *q = b;
     return (p->centre[0] > q->centre[0]) - (p->centre[0] < q->centre[0]);
 }
 
-/* Do two faces have their corners in the same places? */
-static bool sheets_same(const struct sheet *p, const struct sheet *q, int dim)
+/* Returns true if two faces have the same corners, in any order. */
+static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int dim)
 {
     for (int c = 0; c < dim; c++) {
         bool met = false;
-        for (int k = 0; k < dim; k++) met |= corners_apart(p->corner[c], q->corner[k], dim) < SAME * p->size;
+        for (int k = 0; k < dim; k++) met |= corner_distance(p->corner[c], q->corner[k], dim) < SAME * p->size;
         if (!met) return false;
     }
     return true;
 }
 
-/* The faces that lie on another one, each place once. The caller frees them. */
+/* Returns one face of each coincident pair; the caller frees s.at. */
 static struct sheets sheets_doubled(const struct hull *h)
 {
     struct sheets s = {.dim = h->dim};
@@ -64,7 +69,7 @@ static struct sheets sheets_doubled(const struct hull *h)
     s.at = BARE("slits.doubled", h->faces, struct sheet);
     for (int64_t k = 0; k < h->faces; k++)
         for (int64_t j = k + 1; j < h->faces && all[j].centre[0] - all[k].centre[0] < SAME * all[k].size; j++)
-            if (sheets_same(&all[k], &all[j], s.dim)) {
+            if (sheets_coincide(&all[k], &all[j], s.dim)) {
                 s.at[s.n++] = all[k];
                 break;
             }
@@ -74,14 +79,14 @@ static struct sheets sheets_doubled(const struct hull *h)
 
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
-/* Lengthens segment `to` by segment `by` if both lie on one line and share an end. */
+/* Extends segment `to` by segment `by` if they share an end and are collinear; returns whether it did. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
     const real near = SAME * fmin(to->size, by->size);
     for (int e = 0; e < 4; e++) {
         const real *end = to->corner[e / 2], *other = to->corner[1 - e / 2], *far = by->corner[1 - e % 2];
         const real along[2] = {end[0] - other[0], end[1] - other[1]}, on[2] = {far[0] - end[0], far[1] - end[1]};
-        if (corners_apart(end, by->corner[e % 2], 2) > near || along[0] * on[0] + along[1] * on[1] <= 0 ||
+        if (corner_distance(end, by->corner[e % 2], 2) > near || along[0] * on[0] + along[1] * on[1] <= 0 ||
             fabs(along[0] * on[1] - along[1] * on[0]) > near * to->size)
             continue;
         for (int d = 0; d < 2; d++) to->corner[e / 2][d] = far[d];
@@ -91,6 +96,7 @@ static bool segments_join(struct sheet *to, const struct sheet *by)
     return false;
 }
 
+/* Joins segments until no two can be joined. */
 static void segments_merge(struct sheets *s)
 {
     for (int64_t k = 0; k < s->n; k++)
@@ -100,13 +106,14 @@ static void segments_merge(struct sheets *s)
 
 /* ---- in space ---------------------------------------------------------------------------------------------------- */
 
-/* Faces of one plane: two directions in the plane, and the corners of the faces there. */
+/* Points in the plane of a face: origin, two unit vectors in the plane, and n points in these coordinates. */
 struct flat {
     real from[3], u[3], v[3];
     int n;
     real (*at)[2];
 };
 
+/* Sets origin and axes from the corners of a face. */
 static void flat_axes(struct flat *f, const struct sheet *s)
 {
     real w[3], normal[3];
@@ -118,6 +125,7 @@ static void flat_axes(struct flat *f, const struct sheet *s)
     for (int d = 0; d < 3; d++) f->u[d] /= u, f->v[d] /= v;
 }
 
+/* Computes the coordinates of X in the plane. */
 static void flat_place(const struct flat *f, const real *X, real at[2])
 {
     real arm[3];
@@ -125,19 +133,22 @@ static void flat_place(const struct flat *f, const real *X, real at[2])
     at[0] = dot(arm, f->u, 3), at[1] = dot(arm, f->v, 3);
 }
 
-static real flat_turn(const real *a, const real *b, const real *c)
+/* Returns twice the signed area of triangle a, b, c: positive if counter-clockwise. */
+static real triangle_twice_area(const real *a, const real *b, const real *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/* Orders points by the first, then the second coordinate. */
 static int by_place(const void *a, const void *b)
 {
     const real *p = a, *q = b;
     return p[0] != q[0] ? (p[0] > q[0]) - (p[0] < q[0]) : (p[1] > q[1]) - (p[1] < q[1]);
 }
 
-/* Corners of the convex polygon round the places (Andrew's monotone chain); returns their number, and the area. */
-static int flat_round(struct flat *f, real (*corner)[2], real size, real *area)
+/* Computes the convex hull of the points (Andrew's monotone chain) and its area. corner: buffer for twice the points
+ * plus 2. Returns the number of corners. */
+static int flat_convex_hull(struct flat *f, real (*corner)[2], real size, real *area)
 {
     int n = 0;
     array_sort(f->at, f->n, sizeof *f->at, by_place);
@@ -145,16 +156,18 @@ static int flat_round(struct flat *f, real (*corner)[2], real size, real *area)
         const int first = n;
         for (int k = 0; k < f->n; k++) {
             const real *next = f->at[pass == 0 ? k : f->n - 1 - k];
-            while (n >= first + 2 && flat_turn(corner[n - 2], corner[n - 1], next) <= SAME * square(size)) n--;
+            while (n >= first + 2 && triangle_twice_area(corner[n - 2], corner[n - 1], next) <= SAME * square(size))
+                n--;
             corner[n][0] = next[0], corner[n++][1] = next[1];
         }
-        n--; /* where the other side begins */
+        n--; /* the last corner begins the other chain */
     }
     *area = 0;
-    for (int k = 1; k + 1 < n; k++) *area += 0.5 * flat_turn(corner[0], corner[k], corner[k + 1]);
+    for (int k = 1; k + 1 < n; k++) *area += 0.5 * triangle_twice_area(corner[0], corner[k], corner[k + 1]);
     return n;
 }
 
+/* Returns the area of a face in 3D [m²]. */
 static real sheet_area(const struct sheet *s)
 {
     real u[3], w[3], twice[3];
@@ -163,7 +176,7 @@ static real sheet_area(const struct sheet *s)
     return 0.5 * sqrt(dot(twice, twice, 3));
 }
 
-/* Is face `other` in the plane of a face, and has it two corners in common with it? */
+/* Returns true if face `other` is coplanar with s and shares two corners with it. */
 static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
 {
     struct flat f;
@@ -175,12 +188,13 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
         real arm[3];
         for (int d = 0; d < 3; d++) arm[d] = other->corner[c][d] - f.from[d];
         if (fabs(dot(arm, normal, 3)) > SAME * s->size) return false;
-        for (int k = 0; k < 3; k++) common += corners_apart(other->corner[c], s->corner[k], 3) < SAME * s->size;
+        for (int k = 0; k < 3; k++) common += corner_distance(other->corner[c], s->corner[k], 3) < SAME * s->size;
     }
     return common == 2;
 }
 
-/* Puts what adjoins face `first`, directly or by others, behind it. Returns how many faces that are. */
+/* Moves the faces connected to face `first`, directly or through others, right after it. Returns the number of faces in
+ * this group. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;
@@ -195,6 +209,7 @@ static int64_t group_gather(struct sheets *s, int64_t first)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
+/* Appends a crack, whose corners the caller sets. */
 static void slit_add(struct crack **crack, int *n, int corners)
 {
     GROW("cracks", *crack, *n + 1);
@@ -202,6 +217,7 @@ static void slit_add(struct crack **crack, int *n, int corners)
     (*n)++;
 }
 
+/* Appends a face as a crack. */
 static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, int dim)
 {
     slit_add(crack, n, dim);
@@ -209,7 +225,7 @@ static void crack_of_sheet(struct crack **crack, int *n, const struct sheet *s, 
         for (int d = 0; d < dim; d++) (*crack)[*n - 1].corner[c][d] = s->corner[c][d];
 }
 
-/* One crack of faces of one plane if they make a convex polygon; else one of each. */
+/* Appends the coplanar faces of a group as one crack if they form a convex polygon, else one crack per face. */
 static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s, int64_t sheets)
 {
     struct flat f = {.n = 0};
@@ -221,7 +237,7 @@ static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s,
         sum += sheet_area(&s[k]);
         for (int c = 0; c < 3; c++) flat_place(&f, s[k].corner[c], f.at[f.n++]);
     }
-    const int corners = flat_round(&f, corner, s->size, &area);
+    const int corners = flat_convex_hull(&f, corner, s->size, &area);
     if (fabs(area - sum) < SAME * sum) {
         slit_add(crack, n, corners);
         for (int c = 0; c < corners; c++)

@@ -1,4 +1,4 @@
-/* Bytes of a foreign file; nothing is believed of them. */
+/* Reading of external files; their content is not trusted. */
 #include "source.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-enum { FILE_SHARE = 8 }; /* a file takes an eighth of the memory at the most: what it holds needs more */
+enum { FILE_SHARE = 8 }; /* a file may take up to an eighth of the memory, because its data need more */
 
 status source_open(struct source *s, const char *path)
 {
@@ -71,7 +71,7 @@ void source_word(struct source *s, char *word, size_t room)
     word[n] = '\0';
 }
 
-/* The next word as a number; a word is short, so that a long file without blanks costs no time. */
+/* Parses the next word as a number. Words are limited, so that a long file without blanks costs no time. */
 static status text_real(struct source *s, const char *what, real *value)
 {
     char word[64], *end;
@@ -84,7 +84,7 @@ static status text_real(struct source *s, const char *what, real *value)
     return source_fault(s, "%.40s is no %s; a number is expected", word, what);
 }
 
-/* `size` bytes of a binary file. */
+/* Copies `size` bytes of a binary file. REFUSED if the file ends before. */
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
     if (s->length - s->at < size) return source_fault(s, "ends where %s is expected: it is cut off", what);

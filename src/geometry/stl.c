@@ -1,4 +1,4 @@
-/* STL: triangles without units, names or neighbours, in bytes or in words. */
+/* Reads STL: triangles without units, names or connectivity, as text or binary. */
 #include <math.h>
 #include <stdlib.h>
 #include <strings.h>
@@ -6,8 +6,9 @@
 #include "base/memory.h"
 #include "elements.h"
 
-enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* [byte] */
+enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
+/* Appends a corner; every third one completes a triangle. */
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
@@ -15,20 +16,23 @@ static status corner_add(struct element_mesh *m, const struct source *s, const r
     return m->nodes % 3 == 0 ? mesh_element_add(m, s, ELEMENT_TRIANGLE, node, m->elements) : OK;
 }
 
-/* ---- bytes ---------------------------------------------------------------------------------------------------- */
+/* ---- binary --------------------------------------------------------------------------------------------------- */
 
+/* Reads a little-endian integer at byte `at`. */
 static uint32_t word_at(const struct source *s, int64_t at)
 {
     const unsigned char *c = (const unsigned char *)s->text + at;
     return (uint32_t)c[0] | (uint32_t)c[1] << 8 | (uint32_t)c[2] << 16 | (uint32_t)c[3] << 24;
 }
 
-/* A file of bytes is as long as its count says; some begin with the word solid, too. */
+/* Returns true if the file has the length that its binary triangle count implies. Binary files may also begin with
+ * "solid". */
 static bool is_binary(const struct source *s)
 {
     return s->length >= HEADER + COUNT && s->length == HEADER + COUNT + FACET * (int64_t)word_at(s, HEADER);
 }
 
+/* Reads all triangles of a binary file. REFUSED: a coordinate is not finite. */
 static status binary_read(struct element_mesh *m, struct source *s)
 {
     const int64_t n = word_at(s, HEADER);
@@ -41,7 +45,7 @@ static status binary_read(struct element_mesh *m, struct source *s)
                 float value;
                 memcpy(&value, &bits, sizeof value);
                 X[d] = value;
-                /* of a number that is none, all bits of the exponent are set */
+                /* infinite or NaN: all exponent bits are set */
                 if ((bits & 0x7F800000u) == 0x7F800000u)
                     return source_fault(s, "triangle %lld: a coordinate is not finite", (long long)k);
             }
@@ -50,13 +54,14 @@ static status binary_read(struct element_mesh *m, struct source *s)
     return OK;
 }
 
-/* ---- words ---------------------------------------------------------------------------------------------------- */
+/* ---- text ----------------------------------------------------------------------------------------------------- */
 
+/* Reads all triangles of a text file. REFUSED: a facet without three corners, or no endsolid. */
 static status words_read(struct element_mesh *m, struct source *s)
 {
     char word[32];
     bool ended = false;
-    source_next_line(s); /* solid NAME, of any words */
+    source_next_line(s); /* solid NAME, possibly several words */
     while (source_more(s)) {
         source_word(s, word, sizeof word);
         if (strcasecmp(word, "vertex") == 0) {
@@ -74,13 +79,15 @@ static status words_read(struct element_mesh *m, struct source *s)
     return OK;
 }
 
-/* ---- one corner for one place --------------------------------------------------------------------------------- */
+/* ---- merging of corners --------------------------------------------------------------------------------------- */
 
+/* Rounded coordinates of a corner, and its node. */
 struct corner_key {
     real X[DIM_MAX];
     int32_t at;
 };
 
+/* Orders corners by coordinates, then by node. */
 static int corner_order(const void *a, const void *b)
 {
     const struct corner_key *p = a, *q = b;
@@ -89,9 +96,11 @@ static int corner_order(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Part of the extent within which corners are one: programs write one corner with different last digits. */
+/* Corners closer than this share of the extent become one: programs write the same corner with different last
+ * digits. */
 #define SAME_PLACE 1e-6
 
+/* Returns the largest extent of the nodes over x, y and z. */
 static real extent_of(const struct element_mesh *m)
 {
     real extent = 0;
@@ -103,6 +112,7 @@ static real extent_of(const struct element_mesh *m)
     return extent;
 }
 
+/* Makes corners that coincide share one node, so that neighbours are connected. */
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);

@@ -96,8 +96,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
             if (!(components >> d & 1)) continue;
             const real target = driving_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
-            load->reaction[d] -=
-                p->f[d][i]; /* without the inertia of the driven particles: the reading of a load cell */
+            load->reaction[d] -= p->f[d][i]; /* without the driven particles' inertia: a load cell's reading */
             if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
             p->f[d][i] = needed;
             given[d] += reaction * dt_velocity;

@@ -27,13 +27,13 @@ enum { FINE = 4, SITES_SAMPLED = 1 << 16, TABLE_FIRST = 1 << 10 };
 
 struct columns {
     int body, axes, axis[DIM_MAX - 1]; /* the body, and the axes across its columns                  */
-    real middle[DIM_MAX - 1];          /* of column 0                            [m]                 */
-    real spacing;                      /* of the scene                           [m]                 */
-    real width, step;                  /* of the body's mean particle; from column to column [m]     */
+    real middle[DIM_MAX - 1];          /* middle line of column 0 [m]                                */
+    real spacing;                      /* spacing of the scene [m]                                   */
+    real width, step;                  /* mean width of the particles; distance of columns [m]       */
     bool even;                         /* all particles of the body have one volume                  */
-    int64_t n, room;                   /* columns; places in the table, a power of two               */
-    int64_t *key;                      /* [room] -1: free                                            */
-    int32_t *number;                   /* [room] 0 .. n-1                                            */
+    int64_t n, room;                   /* columns; size of the hash table, a power of two            */
+    int64_t *key;                      /* [room] key of the column's position, -1: free              */
+    int32_t *number;                   /* [room] number of the column, 0 .. n-1                      */
     int64_t *count;                    /* [room/2] particles in column c                             */
     int64_t *start;                    /* particles of column c, ascending along the normal:         */
     int32_t *order;                    /*    order[start[c] .. start[c+1]-1]                         */

@@ -49,7 +49,7 @@ status loads_finite(const struct loads *l, const struct particles *p, real t)
     return OK;
 }
 
-/* Gives each component shares of its own, times the formula at t if `with`. */
+/* Gives each component its own array of shares, multiplied by the formula at t if `with`. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {

@@ -56,7 +56,7 @@ struct site {
 /* The sites of all bodies with faces. */
 struct sites {
     const struct particles *p;
-    const struct boundary *all; /* [boundaries] of the scene, including mirrors */
+    const struct boundary *all; /* boundaries of the scene, including mirrors */
     int boundaries;
     real spacing;
     int32_t first[UINT8_MAX + 1]; /* a particle of each body, -1: none */
