@@ -1,11 +1,12 @@
-/* Waves at absorbing faces beside the closed form of Lysmer & Kuhlemeyer, as `cleave bench absorbing` measures them. */
+/* Waves at absorbing faces, compared with the closed form of Lysmer & Kuhlemeyer, as `cleave bench absorbing` measures
+ * them. */
 #include <math.h>
 
 #include "bench/absorbing/absorbing_bench.h"
 #include "tests/support/near.h"
 
-/* At right angles nothing comes back. Between, what does carries no more energy than came: of amplitudes A, energy
- * flows as A^2 c cos. At 45 degrees and Poisson's ratio 1/4: solved by hand. */
+/* The closed form itself: no reflection at normal incidence; at other angles the reflected energy does not exceed the
+ * incident one (energy flux of amplitude A: A^2 c cos); at 45 degrees and Poisson's ratio 1/4 the solution by hand. */
 static void test_theory(void **state)
 {
     (void)state;
@@ -25,7 +26,8 @@ static void test_theory(void **state)
     assert_near(absorbing_theory(true, M_PI / 4, ratio).as_p, 0.420, 1e-3);
 }
 
-/* 2 % of a pulse 32 spacings wide; of FLIP, whose steps are longer than a cell, and bonds in a line a little more. */
+/* Normal incidence: at most 2 % of a pulse 32 spacings wide is reflected; slightly more for FLIP, whose steps are
+ * longer than a cell, and for bonds in 1D. */
 static void test_right_angle(void **state)
 {
     (void)state;
@@ -37,7 +39,8 @@ static void test_right_angle(void **state)
     }
 }
 
-/* 32 spacings to a wavelength: what faces 0.15 spacings beside their place reflect, 0.015 of the amplitude. */
+/* Oblique incidence with 32 spacings per wavelength. Tolerance: a face displaced by 0.15 spacings reflects 0.015 of the
+ * amplitude. */
 static void test_angle(void **state)
 {
     (void)state;

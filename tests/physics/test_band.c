@@ -1,5 +1,5 @@
-/* The damaged band of the plate with a centre crack shrinks with the spacing while the crack it belongs to
- * stays (the paper's figure 16): the horizon is a length of the discretisation, the fracture energy is one of the
+/* The damaged band of a plate with a centre crack becomes narrower with the spacing while the crack length is constant
+ * (the paper's figure 16): the horizon is a length of the discretisation, the fracture energy a property of the
  * material. */
 #include <math.h>
 #include <setjmp.h>
@@ -15,21 +15,21 @@
 
 #define SCENE "inputs/plate_crack.yaml"
 
-/* Bonds that are lost at all: a particle of the band has lost one of 28, or 0.036. */
+/* Damage that counts: the loss of one of 28 bonds, 0.036. */
 #define DAMAGED 0.02
 
 struct band {
     real width, growth, fracture;
 }; /* [m], [m], [J] */
 
-/* Width of what is newly damaged: its area over the length by which both tips grew. Behind the ends of the
- * pre-crack, where particles are damaged from the start, nothing counts. */
+/* Returns the width of the new damage: its area over the growth of both tips. Particles behind the ends of the
+ * pre-crack, which are damaged from the start, are left out. */
 static real band_width(const struct run *e, real growth)
 {
     const struct particles *p = &e->part;
     real area = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        real ahead = fabs(p->X[0][i]) - 5e-3; /* of the pre-crack's end [m] */
+        real ahead = fabs(p->X[0][i]) - 5e-3; /* beyond the end of the pre-crack [m] */
         if (p->damage[i] > DAMAGED && ahead > 0 && ahead < growth) area += square(e->scene->spacing);
     }
     return area / (2 * growth);
@@ -50,10 +50,10 @@ static struct band band_of(const char *spacing, const char *method)
     return b;
 }
 
-/* Four spacings, coarse to fine. A crack cuts what reaches across it: two horizons of 3.015 spacings and what is
- * left to whole particles, 6 to 7.1 spacings measured. With the same G_c the fracture energy stays within 10 % of
- * the finest one. The end stays within 0.8 mm, less than the coarsest spacing: pd grows by 4.53, 4.08, 3.76, 4.22 mm,
- * adaptive by 3.54, 3.45, 3.76, 4.22 mm, and the same at any step up to 0.4 of the critical one. */
+/* Four spacings, coarse to fine. Width: a crack cuts the bonds across it, two horizons of 3.015 spacings rounded to
+ * whole particles; 6 to 7.1 spacings measured. Fracture energy: with equal G_c within 10 % of the finest spacing. End:
+ * within 0.8 mm, less than the coarsest spacing; pd grows by 4.53, 4.08, 3.76, 4.22 mm, adaptive by 3.54, 3.45, 3.76,
+ * 4.22 mm, equally for any step up to 0.4 of the critical one. */
 static void check_bands(const char *method)
 {
     static const struct {

@@ -1,4 +1,4 @@
-/* Collisions and squeezed faces beside closed forms: the cases of `cleave bench contact` that take a moment. */
+/* Collisions and compressed faces, compared with closed forms: the quick cases of `cleave bench contact`. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,7 +1,7 @@
-/* The linear step in the current frame is the leap-frog of one energy. FLIP: with forces F = -W u on
- * velocities that the grid hands out, u the displacement, the step is v' = Q v - dt W u, u' = u + dt v' (Q: the
- * interface damping), which stays bounded if m W is symmetric, W >= 0 and dt^2 W <= 2 (1 + Q): the spectral radius is
- * then 1. All are read off the engine's own steps, and a third step is what they predict: nothing but v' moves u. */
+/* The linear step in the current frame is the leap-frog integration of one energy. FLIP: with forces F = -W u on the
+ * grid velocities, u the displacement, the step is v' = Q v - dt W u, u' = u + dt v' (Q: the interface damping). It
+ * remains bounded (spectral radius 1) if m W is symmetric, W >= 0 and dt^2 W <= 2 (1 + Q). All matrices are measured
+ * from the engine's own steps, and a third step must agree with their prediction, which shows that only v' moves u. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -17,12 +17,16 @@
 #include "coupling/coupling_part.h"
 #include "probes/diagnostics.h"
 
-#define AMPLITUDE 1e-5 /* of c: bonds turn by its square, which a pair of opposite motions leaves of third order */
-#define SYMMETRIC 1e-8 /* of the largest entry: places have ten spacings, 1e-15/1e-5 of a motion, a few times */
+/* initial velocity over c: bonds rotate by its square, which pairs of opposite motions reduce to third order */
+#define AMPLITUDE 1e-5
+/* relative to the largest entry: positions span ten spacings, so that round-off is 1e-15/1e-5 of a motion, a few
+ * times */
+#define SYMMETRIC 1e-8
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Free blocks with nodes at odd places: for particles on the kinks of a shape forces depend on |u|. */
+/* Free blocks with nodes at irregular positions: for particles at the kinks of a shape function forces would depend on
+ * |u|. */
 struct block {
     const char *space, *edge, *origin, *region;
 };
@@ -43,7 +47,7 @@ struct held_run {
     struct scene s;
 };
 
-/* `poisson` NULL: that of bonds; `more`: further keys, one a line. */
+/* Creates a run. poisson: NULL for that of bonds; more: further keys, one per line. */
 static void run_make(struct held_run *r, const struct block *b, const char *method, const char *poisson,
                      const char *more)
 {
@@ -86,21 +90,21 @@ static void at_rest(struct held_run *r, const struct places *was)
     r->e.grid->sort_needed = true;
 }
 
-/* n x n each. */
+/* Matrices [n][n] of a step, and velocities after the third step. */
 struct operators {
     int n;
     real *Q, *W, *third;
 };
 
-/* Adds velocities of now over `unit` to column k. */
+/* Adds the current velocities over `unit` to column k. */
 static void add_column(const struct particles *p, real *to, int n, int k, real unit)
 {
     for (int j = 0; j < n; j++) to[j * n + k] += p->v[j % p->dim][j / p->dim] / unit;
 }
 
-/* After a step with one velocity of one particle, with interface damping, velocities are column k of Q; of steps
- * without, what they lose in the second is column k of dt^2 W, and those after the third are kept. Half of each
- * sign's. */
+/* Measures column k. With interface damping, the velocities after a step with unit velocity of one unknown are column k
+ * of Q; without damping, the velocity lost in the second step is column k of dt^2 W, and the velocities after the third
+ * step are stored. Half the difference of both signs is used. */
 static void column(struct held_run *r, const struct places *was, int k, real sign, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -119,7 +123,8 @@ static void column(struct held_run *r, const struct places *was, int k, real sig
     r->e.coupling->damping_share = share;
 }
 
-/* Q and dt^2 W of motions scaled by the root of the mass, so that symmetric in mass is symmetric. */
+/* Measures Q and dt^2 W, scaled by the square roots of the masses, so that symmetry in the mass metric becomes
+ * symmetry. */
 static void operators_make(struct held_run *r, struct operators *o)
 {
     struct particles *p = &r->e.part;
@@ -143,7 +148,7 @@ static void operators_make(struct held_run *r, struct operators *o)
     memory_free(was.volume);
 }
 
-/* Largest |A - A^T| over the largest entry; A is symmetric afterwards. */
+/* Returns the largest |A - A^T| over the largest entry, and symmetrises A. */
 static real asymmetry(real *A, int n)
 {
     real largest = 0, odd = 0;
@@ -156,8 +161,8 @@ static real asymmetry(real *A, int n)
     return odd / largest;
 }
 
-/* Largest entry of the third velocity less the one of the leap-frog, v2 - W (v1 + v2), v1 = 1, v2 = 1 - W, over the
- * largest of W. */
+/* Returns the largest difference between the third velocity and the leap-frog prediction v2 - W (v1 + v2), v1 = 1, v2 =
+ * 1 - W, over the largest entry of W. */
 static real unpredicted(const struct operators *o)
 {
     const int n = o->n;
@@ -172,7 +177,7 @@ static real unpredicted(const struct operators *o)
     return off / largest;
 }
 
-/* Is the symmetric A + shift 1 positive definite? By its Cholesky factor. */
+/* Returns true if the symmetric A + shift 1 is positive definite, by Cholesky factorisation. */
 static bool positive(const real *A, int n, real shift)
 {
     real *L = NEW("test.factor", (int64_t)n * n, real);
@@ -188,7 +193,7 @@ static bool positive(const real *A, int n, real shift)
     return all;
 }
 
-/* ---- the leap-frog of one energy --------------------------------------------------------------------------------- */
+/* ---- leap-frog of one energy ------------------------------------------------------------------------------------- */
 
 static const struct {
     const struct block *block;
@@ -249,8 +254,8 @@ static void test_one_energy(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Kinetic energy after so many steps from velocities at random, 1e-8 of c, over that at the start; infinite if
- * stopped. */
+/* Returns the kinetic energy after `steps` steps from random velocities of 1e-8 c over the initial one; infinite if the
+ * run stopped. */
 static real shaken(struct held_run *r, int steps)
 {
     struct particles *p = &r->e.part;
@@ -266,7 +271,8 @@ static real shaken(struct held_run *r, int steps)
     return most;
 }
 
-/* APIC takes energy and never gives any, near nu = 1/2 in space too: there the automatic step was 1.02 of the limit. */
+/* APIC dissipates energy and never gains any, also near nu = 1/2 in 3D, where an earlier automatic step was 1.02 of the
+ * limit. */
 static void test_apic(void **state)
 {
     (void)state;
@@ -286,7 +292,7 @@ static void test_apic(void **state)
         struct block at = *run[k].block;
         char keys[256];
         snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", run[k].more);
-        at.origin = at.space[0] == 's' ? "0, 0, 0" : "0, 0"; /* where limits are lowest */
+        at.origin = at.space[0] == 's' ? "0, 0, 0" : "0, 0"; /* where the limits are lowest */
         run_make(r, &at, run[k].method, run[k].poisson, keys);
         assert_true(shaken(r, 3000) <= 1);
         bench_engine_free(&r->e, &r->s);
@@ -294,8 +300,8 @@ static void test_apic(void **state)
     }
 }
 
-/* The coupled plate of the issue, 1e4 steps at 0.8: the energy balance closes, and what is left is less than at the
- * start. With the first velocity it was stopped at step 1516. */
+/* A coupled plate over 1e4 steps at 0.8 of the critical step: the energy balance closes, and the remaining energy is
+ * less than the initial one. A step with the velocities of the first map diverges at step 1516. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -310,13 +316,13 @@ static void test_plate(void **state)
         "initial: [{velocity_gradient: [10, 3, 0, -7]}]\noutput: {frames: 0, samples: 40}\n",
         bench_overrides_ready(&o), o.n));
     const real start = diagnostics_kinetic(&r->e.part);
-    assert_ok(bench_engine_run(&r->e, 1, NULL)); /* makes the record of samples */
+    assert_ok(bench_engine_run(&r->e, 1, NULL)); /* creates the record of samples */
     while (r->e.clock.step < 10000) {
         assert_ok(engine_step(&r->e));
-        if (r->e.clock.step < 1000) continue; /* what ended the record's first step is extrapolated */
+        if (r->e.clock.step < 1000) continue; /* the first step of the record is extrapolated */
         if (!(fabs(r->e.diagnostics->now.balance_error) < 1e-5))
             print_message("step %d: %g\n", (int)r->e.clock.step, r->e.diagnostics->now.balance_error);
-        /* weights change with strains of 2e-5 and turns of 0.4 degrees */
+        /* Weights change with strains of 2e-5 and rotations of 0.4 degrees. */
         assert_true(fabs(r->e.diagnostics->now.balance_error) < 1e-5);
     }
     const struct energy *u = &r->e.diagnostics->now.energy;
@@ -325,11 +331,10 @@ static void test_plate(void **state)
     memory_free(r);
 }
 
-/* Bodies that turn as a whole are not strained by it: bonds and points agree on what is unstrained, in the plane and
- * about an axis askew in space. Two turns; with strains of first order a body of points grows by pi w a turn, w =
- * 0.0016 the angle of a step, and these gained 13 to 32 % of their energy. The spins stretch bodies by (w r/c)^2 =
- * 1e-4 at the most, which vibrates: 1e-4 of the energy, and quadrature of points that enter other cells takes and
- * gives a share of that. */
+/* Rigidly rotating bodies are not strained: bonds and points agree on the unstrained state, in 2D and about an oblique
+ * axis in 3D. Two revolutions. With first-order strains a body of points would grow by pi w per revolution, w = 0.0016
+ * the angle per step, and gain 13 to 32 % of its energy. Tolerance 1e-4: centrifugal stretch of at most (w r/c)^2 =
+ * 1e-4, which vibrates, and quadrature errors of points that change cells. */
 static void test_turning(void **state)
 {
     (void)state;

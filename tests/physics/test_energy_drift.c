@@ -1,7 +1,7 @@
-/* Bodies that nothing breaks keep their energy for as long as a run lasts: a sample of pairs of the long map
- * (bench/stability/energy_drift*.c; `cleave bench stability` has all of them). Energies that change are found by their
- * rate per step, fitted over the second half of a run: 25,000 steps find 5e-8 a step as 1e5 do. long_energy.sh sets
- * LONG: 1e5 steps. Takes 20 s: 25 bodies of so many steps. */
+/* Unbreakable bodies keep their energy over arbitrarily long runs: a sample of pairs of the long map
+ * (bench/stability/energy_drift*.c; `cleave bench stability` has all). Drift is measured as the rate per step, fitted
+ * over the second half of a run: 25,000 steps detect 5e-8 per step as well as 1e5. long_energy.sh sets LONG: 1e5 steps.
+ * Takes 20 s: 25 bodies. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -13,7 +13,7 @@
 #include "../bench/stability/energy_drift.h"
 #include "tests/support/near.h"
 
-/* Number of steps of a run that takes `most` with LONG: a quarter of them without. */
+/* Returns the number of steps: `most` with LONG, else a quarter. */
 static int64_t steps_of(int64_t most) { return getenv("LONG") ? most : most / 4; }
 
 static const struct drift_case *named(const char *name)
@@ -43,10 +43,10 @@ static void all_hold(const struct drift_case *sample, int n, int64_t steps)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- what must grow is seen to grow ------------------------------------------------------------------------------ */
+/* ---- growth is detected ------------------------------------------------------------------------------------------ */
 
-/* A bar of bonds at a step 1.03 times the critical one, 2 sqrt(m/k) of its stiffest motion, that the scene knows to
- * 2 %: a sample in every step, since it is stopped soon. */
+/* Check of the test itself: a bar of bonds with 1.03 times the critical step, 2 sqrt(m/k) of its stiffest mode, which
+ * is known to 2 %, must be seen to grow. A sample in every step, since the run stops soon. */
 static void test_seen(void **state)
 {
     (void)state;
@@ -60,7 +60,7 @@ static void test_seen(void **state)
     assert_true(r.stopped > 0 && r.loudest > 10 && r.rate > 1e-3);
 }
 
-/* ---- energy is kept ---------------------------------------------------------------------------------------------- */
+/* ---- energy is constant ------------------------------------------------------------------------------------------ */
 
 #define PLATE .dim = 2, .edge = 12
 #define MESH(by, law, nu, where)                                                                                       \
@@ -106,9 +106,9 @@ static void test_held(void **state)
     all_hold(held, COUNT_OF(held), steps_of(100000));
 }
 
-/* Faces of a notch without width that ring on each other. Where contact begins and ends leap-frog gives and takes, and
- * accounts take back what is too much in the next contact (contact_balance.c): never more than 0.3 % above the start
- * measured, 6 % below; without accounts three times the energy. */
+/* Faces of a notch of zero width that repeatedly collide. At the beginning and end of contact leap-frog integration
+ * gains or loses energy; the accounts of contact_balance.c remove the excess at the next contact. Measured: at most 0.3
+ * % above the initial energy, 6 % below; without accounts three times the energy. */
 static const struct drift_case touching[] = {
     {.c = {MESH("partial stress", "ospd", 0.2, NOTCH), .contact = true}},
     {.c = {MESH("handshake", "mospd", 0.3, NOTCH), .contact = true}},
@@ -126,7 +126,7 @@ static void test_touching(void **state)
     }
 }
 
-/* ---- and never gained -------------------------------------------------------------------------------------------- */
+/* ---- energy is not gained ---------------------------------------------------------------------------------------- */
 
 #define GRID(by, law, nu, where, to)                                                                                   \
     PLATE, .method = "adaptive", .frame = "current", .transfer = to, .shape = "gimp", .coupling = by, .model = law,    \
@@ -136,7 +136,7 @@ static const struct drift_case current[] = {
     {.c = {GRID("handshake", "bond", 0, HALF, "flip")}},
     {.c = {GRID("partial stress", "ospd", 0.2, DISC, "flip")}},
     {.c = {GRID("partial stress", "mospd", 0.3, CORNER, "apic")}},
-    /* stopped within 1000 steps at any step */
+    /* Excluded: stopped within 1000 steps for any step size. */
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "flip"), .irregularity = 0.9}},
     {.c = {GRID("partial stress", "bond", 0, SQUARE, "apic"), .irregularity = 0.7}},
 };
@@ -148,9 +148,9 @@ static void test_current(void **state)
     assert_true(holds(named("solid, apic, nu 0.49"), 2000));
 }
 
-/* Noise in a bar of FLIP points alone: weights that move with the points between forces and strains give it energy,
- * in proportion to its velocities (about 0.013 v/c a step), and no linear step does. It is drawn as what it is; the
- * reference frame and APIC do not. */
+/* Noise in a bar of FLIP points gains energy in proportion to its velocities (about 0.013 v/c per step), because
+ * weights move with the points between forces and strains; no linear step gains energy. The test checks this known
+ * property; the reference frame and APIC do not gain. */
 static void test_noise(void **state)
 {
     (void)state;
@@ -165,7 +165,7 @@ static void test_noise(void **state)
     assert_true(holds(&apic, steps_of(50000)) && holds(&mesh, steps_of(50000)));
 }
 
-/* A plate with a slit between its cells or inside them, which nothing breaks: 1e5 steps keep its energy as 1e4 do. */
+/* A plate with a slit between its cells or inside them, without breaking: energy over 1e5 steps. */
 #define SLIT(height)                                                                                                   \
     {                                                                                                                  \
         .name = "slit at " height, .c = {                                                                              \
@@ -185,7 +185,7 @@ static void test_slit(void **state)
     all_hold(slit, COUNT_OF(slit), 10000);
 }
 
-/* Scenes that grew once, as far as they needed to be stopped. */
+/* Scenes in which an earlier version gained energy, for as many steps as it needed to stop. */
 static void test_named(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* What `cleave bench experiments` rests on: the vortex of which the motion is known, a crack led by a moving field, the
- * place and angle at which cracks branch. */
+/* Foundations of `cleave bench experiments`: the vortex with known motion, a crack driven by a moving field, position
+ * and angle of branching. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@ static struct vortex vortex_of(enum vortex_law law)
     return v;
 }
 
-/* F = dx/dX, by differences: 1e-9 at a distance of 1e-5. */
+/* F = dx/dX, compared with finite differences: error 1e-9 at a distance of 1e-5. */
 static void test_vortex_gradient(void **state)
 {
     (void)state;
@@ -32,8 +32,8 @@ static void test_vortex_gradient(void **state)
     assert_near(F[0][0] * F[1][1] - F[0][1] * F[1][0], 1, 1e-14);
 }
 
-/* Hooke's law of small strains: mesh exactly, bonds within 1.2 % of C11 and 3.5 % of the others (the anisotropy of a
- * family of 3.015 spacings); a rotation of the body rotates the stress. */
+/* For small strains the laws agree with Hooke's law: mesh exactly, bonds within 1.2 % of C11 and 3.5 % of the others
+ * (anisotropy of a family of 3.015 spacings); a rotation of the body rotates the stress. */
 static void test_vortex_laws(void **state)
 {
     (void)state;
@@ -54,7 +54,7 @@ static void test_vortex_laws(void **state)
     }
 }
 
-/* Half the spacing, a quarter of the error: 3.8 to 4.4 times less between 0.1 and 0.05. */
+/* Second order: half the spacing reduces the error by a factor of 3.8 to 4.4 between 0.1 and 0.05. */
 static void test_vortex_order(void **state)
 {
     (void)state;
@@ -66,7 +66,8 @@ static void test_vortex_order(void **state)
     }
 }
 
-/* Bonds that cross the plane of the crack take G_c, some beside it a little more: 1.00 to 1.05 in 30 runs. */
+/* Fracture energy: bonds that cross the plane of the crack dissipate G_c, some beside it slightly more: 1.00 to 1.05 in
+ * 30 runs. */
 static void test_surfing(void **state)
 {
     (void)state;
@@ -77,7 +78,7 @@ static void test_surfing(void **state)
     assert_near(f.speed / rayleigh, 0.2, 0.02);
 }
 
-/* A line of damage that forks at 50 mm into two at +-20 degrees. */
+/* A line of damage that branches at 50 mm into two lines at +-20 degrees: position and angle are found. */
 static void test_branching(void **state)
 {
     (void)state;
@@ -94,7 +95,7 @@ static void test_branching(void **state)
     }
     const struct branching b = branching_find(&f, spacing);
     assert_int_equal(b.branches, 2);
-    assert_near(b.x, 52e-3, 1e-3); /* seen once they are 3.5 spacings apart */
+    assert_near(b.x, 52e-3, 1e-3); /* detected when the lines are 3.5 spacings apart */
     assert_near(b.angle, 40, 1);
     for (int d = 0; d < 2; d++) free(f.X[d]);
     free(f.damage);

@@ -1,7 +1,7 @@
-/* Scenes in which methods fail: each figure lies where it is known to lie, and what fails is what is said
- * to fail (bench/stability/limits.h has the table, `cleave bench stability` draws it). Some rows are left to
- * long_energy.sh, which sets LONG. Takes 25 s: most of it shear at constant volume near nu = 1/2, where each method
- * needs many small steps. */
+/* Scenes in which methods fail: each quantity is in its known range, and exactly the methods with a remedy fail
+ * (bench/stability/limits.h has the table, `cleave bench stability` draws it). Some rows are left to long_energy.sh,
+ * which sets LONG. Takes 25 s: mostly shear at constant volume near nu = 1/2, where every method needs many small
+ * steps. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -33,8 +33,8 @@ static bool row_is_as_known(const struct limits_scene *s, const struct limits_ro
     return false;
 }
 
-/* Returns true for rows that take long and whose kind has a quicker one: a million steps of a plate, and squares that
- * spin at 100 m/s in place of 10. */
+/* Returns true for rows that take long and have a quicker equivalent: a million steps of a plate, and squares that
+ * rotate at 100 m/s instead of 10. */
 static bool is_for_long(const struct limits_scene *s, const struct limits_row *r)
 {
     return s == &limits_million || (s == &limits_spin && r->given == 100);

@@ -1,12 +1,11 @@
-/* Every internal force of bodies of bonds, states, cells of the reference frame and supports is the
- * gradient of one energy that is never negative: the linearised operator is symmetric, has no negative eigenvalue,
- * and nothing but what bonds or cells alone let go costs nothing; and that energy is the energy balance's. A line
- * for each case;
+/* Every internal force of bonds, states, cells of the reference frame and supports is the gradient of one non-negative
+ * energy: the linearised operator is symmetric, has no negative eigenvalue and no zero eigenvalues besides those of the
+ * bonds or cells alone; and that energy is the one in the energy balance. A line for each case;
  *
  *     build/tests/test_operator [part of a case's name] ...
  *
- * takes some of them. OPERATOR_DUMP=folder writes every K there (operator_dump), OPERATOR_FLUTTER=1 also looks for
- * complex eigenvalues, OPERATOR_SHOW=1 gives points their stress before each evaluation, as a sample does. */
+ * runs some of them. OPERATOR_DUMP=folder writes every K there (operator_dump), OPERATOR_FLUTTER=1 also computes
+ * complex eigenvalues, OPERATOR_SHOW=1 updates the stress of points before each evaluation, as a sample does. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <omp.h>
@@ -18,11 +17,11 @@
 #include "mesh/mesh_part.h"
 #include "step/step.h"
 
-#define SYMMETRIC 1e-8   /* of the largest entry: differences leave 1e-11 */
+#define SYMMETRIC 1e-8   /* relative to the largest entry: differences leave 1e-11 */
 #define LEDGER 1e-6      /* terms of third order at displacements of 1e-6 spacings */
-#define NEGATIVE (-1e-8) /* of the highest eigenvalue: differences leave 1e-11 */
+#define NEGATIVE (-1e-8) /* relative to the highest eigenvalue: differences leave 1e-11 */
 
-/* `loose`: motions that bonds or cells alone let go, besides rigid ones. */
+/* A case. loose: number of zero-energy modes of the bonds or cells alone, besides rigid motions. */
 struct body {
     const char *name;
     struct stability_case c;
@@ -91,17 +90,16 @@ static void check_all(const struct body *b, int n)
     for (int k = 0; k < n; k++) check(b[k].name, &b[k].c, b[k].loose);
 }
 
-/* Every test begins like this and ends with the count of what is wrong in it. */
+/* Every test starts with this function and ends with the number of its failures. */
 static void begin(void)
 {
     omp_set_num_threads(1); /* bodies are small */
     wrong = 0;
 }
 
-/* ---- the tools --------------------------------------------------------------------------------------------------- */
+/* ---- eigenvalue routines ----------------------------------------------------------------------------------------- */
 
-/* A free chain of springs has the eigenvalues 2 - 2 cos(k pi/n); a shift in a ring has the n-th roots
- * of 1. */
+/* Known eigenvalues: a free chain of springs has 2 - 2 cos(k pi/n); a cyclic shift has the n-th roots of 1. */
 static void test_tools(void **state)
 {
     (void)state;
@@ -111,7 +109,7 @@ static void test_tools(void **state)
         for (int j = 0; j < N; j++) A[i * N + j] = i == j ? (i == 0 || i == N - 1 ? 1 : 2) : abs(i - j) == 1 ? -1 : 0;
     eigen_symmetric(A, N, d, scratch);
     for (int k = 0; k < N; k++) assert_near(d[k], 2 - 2 * cos(k * M_PI / N), 1e-14);
-    for (int i = 0; i < N; i++) /* a dense one: 1 + n on the diagonal, else 1 */
+    for (int i = 0; i < N; i++) /* a dense matrix: 1 + n on the diagonal, else 1 */
         for (int j = 0; j < N; j++) A[i * N + j] = 1 + (i == j) * N;
     eigen_symmetric(A, N, d, scratch);
     for (int k = 0; k < N; k++) assert_near(d[k], k < N - 1 ? N : 2 * N, 1e-12);
@@ -121,7 +119,7 @@ static void test_tools(void **state)
     assert_near(least, -1, 1e-13);
 }
 
-/* ---- bonds and states alone -------------------------------------------------------------------------------------- */
+/* ---- bonds and states -------------------------------------------------------------------------------------------- */
 
 #define PLANE .dim = 2, .edge = 10
 #define BONDS PLANE, .method = "pd", .model = "bond"
@@ -160,7 +158,7 @@ static void test_alone(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- cells alone ------------------------------------------------------------------------------------------------- */
+/* ---- cells ------------------------------------------------------------------------------------------------------- */
 
 #define CELLS .method = "mpm", .frame = "reference"
 static const struct body cells[] = {
@@ -185,7 +183,7 @@ static void test_cells(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* A block with a slit into it, between cells or inside them (5 spacings up), or oblique. In space through its depth. */
+/* A block with a slit from its edge, between cells, inside them (at 5 spacings) or oblique; in 3D through its depth. */
 #define SLIT(height, end, more)                                                                                        \
     "space: plane stress\nthickness: 1e-3\nduration: 1\nmethod: adaptive\n"                                            \
     "material: {young: 72e9, density: 2440}\nbody: {box: {from: [0, 0], to: [14e-3, 10e-3]}}\n"                        \
@@ -215,7 +213,7 @@ static void test_slits(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* A body of two materials: the one across the other's cells, and across the place where bonds begin. */
+/* A body of two materials, with the interface across cells and across the start of the bonds. */
 #define PARTS(at, more)                                                                                                \
     "space: plane stress\nthickness: 1e-3\nduration: 1\nmaterials: [{name: a, young: 72e9, density: 2440}, "           \
     "{name: b, young: 9e9, density: 1200}]\nbody: {box: {from: [0, 0], to: [12e-3, 10e-3]}}\n"                         \
@@ -240,7 +238,7 @@ static void test_parts(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* ---- both -------------------------------------------------------------------------------------------------------- */
+/* ---- coupled ----------------------------------------------------------------------------------------------------- */
 
 static const struct {
     const char *name;
@@ -284,7 +282,7 @@ static struct stability_case coupled(struct stability_case law)
     return law;
 }
 
-/* Every law with every shape, by partial stress; every third by hand-shake. */
+/* Every law with every shape of the region: partial stress; every third one: handshake. */
 static void test_coupled(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-/* Patch tests of each method alone: uniform strain must leave a body at rest and cost the energy of
- * elasticity. Numbers from closed forms on the lattice. Both methods together:
- * test_coupling.c. */
+/* Patch tests of each method alone: uniform strain must cause no motion and have the elastic energy. Expected values
+ * are from closed forms on the lattice. Coupled methods: test_coupling.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -9,9 +8,9 @@
 #include "tests/support/patch.h"
 #include "base/team.h"
 
-#define STRAIN 1e-6 /* bonds stretch by finite geometry: relative deviations from linear theory of this order */
+#define STRAIN 1e-6 /* bonds stretch with finite deformation: relative deviations from linear theory of this order */
 
-/* Farther than `reach` spacings from every face of the lattice. */
+/* Returns true if a particle is farther than `reach` spacings from every face of the lattice. */
 static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
 {
     for (int d = 0; d < p->dim; d++)
@@ -28,8 +27,8 @@ static const struct cloud_plan lattice[] = {
     {.space = SPACE_SOLID, .count = {9, 9, 9}, .horizon = 3.015},
 };
 
-/* Forces on inner particles, as a share of the sum of the magnitudes of the bonds'. Stretches have the round-off of
- * positions, 1e-15 of a spacing, against strains of 1e-2. */
+/* Forces on inner particles over the sum of the magnitudes of bond forces. Tolerance: round-off of positions, 1e-15 of
+ * a spacing, over strains of 1e-2. */
 static void test_pd_rest(void **state)
 {
     (void)state;
@@ -56,7 +55,7 @@ static void test_pd_rest(void **state)
         }
 }
 
-/* Stress that the bonds of the middle particle amount to over C11 strain, component by component. */
+/* Computes the stress of the bonds of the middle particle over C11 times the strain, component by component. */
 static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct cloud c;
@@ -68,7 +67,7 @@ static void lattice_stress(const struct cloud_plan *plan, const real strain[DIM_
     cloud_free(&c);
 }
 
-/* C11, C12, C66 of the lattice and its answer to dilatation, over those of the material. */
+/* Elastic constants C11, C12, C66 of the lattice and its dilatational stiffness, over those of the material. */
 struct constants {
     real dilatation, c11, c12, c66;
 };
@@ -96,8 +95,7 @@ static struct constants lattice_constants(const struct cloud_plan *plan)
     return result;
 }
 
-/* Calibrated on the lattice: dilatation exact, what remains is the lattice's anisotropy.
- */
+/* Lattice calibration: dilatational stiffness exact; the constants deviate only by the anisotropy of the lattice. */
 static void test_pd_lattice(void **state)
 {
     (void)state;
@@ -106,14 +104,15 @@ static void test_pd_lattice(void **state)
     for (size_t k = 0; k < COUNT_OF(lattice); k++) {
         struct constants c = lattice_constants(&lattice[k]);
         is_near("dilatation", c.dilatation, 1, 3 * STRAIN);
-        /* plane strain has other C11 : C12 than plane stress, 3 : 1 both times as in every bond-based body in 2D */
+        /* Plane strain has another C11 : C12 than plane stress, but bonds have 3 : 1 in both, as in every bond-based
+         * body in 2D. */
         is_near("C11", c.c11, expected[k].c11, 6e-4);
         is_near("C12", c.c12, expected[k].c12, 6e-4);
         is_near("C66", c.c66, expected[k].c66, 6e-4);
     }
 }
 
-/* Two weights for the directions make the lattice isotropic. */
+/* Isotropic weights: two weights for the directions make the lattice isotropic. */
 static void test_pd_isotropic(void **state)
 {
     (void)state;
@@ -124,7 +123,7 @@ static void test_pd_isotropic(void **state)
             plan.volume = (enum volume_rule)volume;
             for (int d = 0; d < space_dim(plan.space); d++) plan.count[d] += 2;
             struct constants c = lattice_constants(&plan);
-            /* weights are single precision: 6e-8 each */
+            /* Weights are stored in single precision, with round-off 6e-8 each. */
             is_near("dilatation", c.dilatation, 1, 3 * STRAIN);
             is_near("C11", c.c11, 1, 3 * STRAIN);
             is_near("C12", c.c12, 1, 3 * STRAIN);
@@ -132,8 +131,7 @@ static void test_pd_isotropic(void **state)
         }
 }
 
-/* Continuum constants and the volume-modified rule: energy of dilatation over the classical one.
- */
+/* Continuum and volume-modified calibration: dilatational energy over the classical one. */
 static void test_pd_calibrations(void **state)
 {
     (void)state;
@@ -159,12 +157,12 @@ static void test_pd_calibrations(void **state)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Two points per cell and direction, cells and points aligned, uniform stress: nothing moves an inner node. */
+/* Two points per cell and direction, aligned with the cells, under uniform stress: no force on inner nodes. */
 static void test_mpm_rest(void **state)
 {
     (void)state;
     static const real from[DIM_MAX] = {4, 4, 4},
-                      to[DIM_MAX] = {8, 8, 8}; /* two cells from the edge: the cubic's reach */
+                      to[DIM_MAX] = {8, 8, 8}; /* two cells from the edge: the reach of the cubic shape */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int shape = 0; shape < SHAPES; shape++) {
             struct patch s = {0};
@@ -179,17 +177,18 @@ static void test_mpm_rest(void **state)
             patch_grid(&s, 2, 0);
             patch_map(&s, (enum shape)shape);
             real face = 1e6 * pow(2 * CLOUD_SPACING, dim - 1) * s.c.source.family.section;
-            at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12); /* of about six stresses */
+            at_most("inner nodal force", patch_residual(&s, from, to) / face, 1e-12); /* relative to about six
+                                                                                       * stresses */
             assert_true(patch_residual(&s, (real[]){-9, -9, -9}, (real[]){99, 99, 99}) >
-                        0.4 * face); /* the edge is felt */
+                        0.4 * face); /* check: the edge has a force */
             patch_free(&s);
         }
 }
 
-/* Points stretched by lambda under uniform stress: the worst residual of an inner node over sigma A, for the worst
- * position of the points in their cells. 1D, two points per cell before the stretch. With the exact mean of the hat
- * functions cpGIMP has none up to lambda = 4, where its width is two cells; beyond, it keeps that width and points
- * part. */
+/* Points stretched by lambda under uniform stress: returns the largest residual of an inner node over sigma A, for the
+ * worst position of the points in their cells. 1D, two points per cell initially. cpGIMP, with the exact mean of the
+ * hat functions, has none up to lambda = 4, where its width is two cells; beyond, the width stays constant and points
+ * separate. */
 static real crossing_residual(enum shape shape, real lambda)
 {
     real worst = 0;
@@ -221,8 +220,8 @@ static void test_mpm_crossing(void **state)
         real lambda, linear, gimp, cpgimp, quadratic;
     } row[] = {{1.0, 0, 0, 0, 0}, {1.1, 0.55, 0.055, 0, 0.055}, {1.5, 0.75, 0.375, 0, 0.19}, {3.0, 1.5, 1.5, 0, 0.75}};
     for (size_t k = 0; k < COUNT_OF(row); k++) {
-        /* printed to two digits, and 1 % for sampling the positions; exact zeros to round-off of places of up to 60
-         * cells */
+        /* Tolerance: published to two digits, and 1 % for sampling the positions; exact zeros up to the round-off of
+         * positions of up to 60 cells. */
         is_near("linear", crossing_residual(SHAPE_LINEAR, row[k].lambda), row[k].linear, 0.02 * row[k].linear + 1e-13);
         is_near("uGIMP", crossing_residual(SHAPE_GIMP, row[k].lambda), row[k].gimp, 0.02 * row[k].gimp + 1e-13);
         is_near("cpGIMP", crossing_residual(SHAPE_CPGIMP, row[k].lambda), row[k].cpgimp, 0.02 * row[k].cpgimp + 1e-13);

@@ -1,5 +1,5 @@
-/* The stress across the plane of bodies in plane strain, as frames, probes and profiles tell it: uniform
- * strain, and flow, against closed forms, in every method. */
+/* Out-of-plane stress in plane strain, as frames, probes and profiles report it: uniform strain and plastic flow,
+ * compared with closed forms, for every method. */
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 #define FOLDER "run"
 enum { ROW_KEYS = 6 };
 
-/* Two blocks of two materials, far apart, strained alike. In 0.3 us a wave runs 1.8 mm in from their edges (nu 0.4:
+/* Two distant blocks of two materials under equal strain. In 0.3 us a wave travels 1.8 mm from their edges (nu = 0.4:
  * 2.2 mm). */
 #define BLOCKS(space)                                                                                                  \
     "space: " space "\nthickness: 1 mm\nduration: 0.3 us\nmethod: mpm\n"                                               \
@@ -25,15 +25,15 @@ enum { ROW_KEYS = 6 };
     "output: {frames: 1, samples: 1}\n"                                                                                \
     "probes: [{point: {name: gauge, at: [50.5 mm, 0.5 mm]}}, "                                                         \
     "{line: {name: across, from: [-50 mm, 0.5 mm], to: [-49 mm, 0.5 mm], points: 2}}]\n"
-#define TRACE 3e-5 /* eps_xx + eps_yy of it */
-/* half width of the undisturbed middle of a block: 12 mm less two horizons, which corrected surfaces reach, or
- * less the wave [m] */
+#define TRACE 3e-5 /* eps_xx + eps_yy of the initial strain */
+/* Half width of the undisturbed middle of a block: 12 mm minus two horizons, which surface corrections affect, or minus
+ * the distance travelled by the wave [m]. */
 #define INSIDE 3.6e-3
 
-/* Frames hold single precision, and sigma_zz is a tenth of a difference of stresses at the least. */
+/* Tolerance of frames in single precision; sigma_zz is at least a tenth of a difference of stresses. */
 #define SINGLE 1e-6
-/* What is linear is so to the strain, some 1e-5: stretches of bonds, the reference frame's stress that turns with
- * its cell. */
+/* Tolerance of linear quantities: the strain of about 1e-5 causes deviations in bond stretches and in stresses of the
+ * reference frame that rotate with their cell. */
 #define SMALL 1e-4
 
 struct row {
@@ -68,7 +68,7 @@ static void run(struct ran *r, const char *text, const struct scene_override *ke
 {
     int keys = 0;
     *r = (struct ran){0};
-    assert_int_equal(system("rm -rf " FOLDER), 0); /* of a test that failed */
+    assert_int_equal(system("rm -rf " FOLDER), 0); /* left by a failed test */
     while (keys < ROW_KEYS && key && key[keys].key) keys++;
     if (scene_read_text(&r->s, text, strlen(text), "test.yaml", key, keys) != OK) fail_msg("%s", status_message());
     assert_ok(engine_make(&r->e, &r->s, &r->o));
@@ -85,7 +85,7 @@ static void done(struct ran *r)
     assert_int_equal(system("rm -rf " FOLDER), 0);
 }
 
-/* Value of a column at the end of history.csv or of a profile; NAN: there is none. */
+/* Returns the value of a column in the last row of history.csv or of a profile; NAN if there is none. */
 static double last_value(const char *file, const char *name)
 {
     char head[4096], line[4096], last[4096] = "";
@@ -102,7 +102,7 @@ static double last_value(const char *file, const char *name)
     return title ? strtod(value, NULL) : NAN;
 }
 
-/* lambda (eps_xx + eps_yy), with lambda = E nu/((1 + nu)(1 - 2 nu)). */
+/* Returns the exact sigma_zz = lambda (eps_xx + eps_yy), with lambda = E nu/((1 + nu)(1 - 2 nu)). */
 static real across_of(const struct material *m)
 {
     return m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)) * TRACE;
@@ -114,7 +114,8 @@ static bool inside(const struct frame *f, int64_t i)
     return fabs(f->X[0][i] - centre) < INSIDE && fabs(f->X[1][i]) < INSIDE;
 }
 
-/* `exact`: the inside has its initial strain; else sigma_zz goes with the frame's own stress. */
+/* Checks sigma_zz in a frame. exact: the interior has its initial strain; else sigma_zz is compared with the in-plane
+ * stress of the frame. */
 static void frame_holds(const struct ran *r, const char *name, bool exact, int64_t *kinds)
 {
     struct frame f;
@@ -130,8 +131,8 @@ static void frame_holds(const struct ran *r, const char *name, bool exact, int64
     frame_free(&f);
 }
 
-/* Ghost forces of couplings move what lies beside them, and bonds carry news of the edges farther than a wave: there
- * a frame after some steps has its own strain. */
+/* Uniform strain in every method. Ghost forces of couplings move particles near an interface, and bonds transmit
+ * disturbances of the edges faster than a wave: there a later frame is compared with its own strain. */
 static void uniform_strain(void **state)
 {
     const struct row *row = *state;
@@ -154,7 +155,7 @@ static void uniform_strain(void **state)
     done(&r);
 }
 
-/* Where the plane is free of stress, nothing is across it, and nothing is said of it. */
+/* Plane stress: sigma_zz is 0, and no column reports it. */
 static void plane_stress_has_none(void **state)
 {
     (void)state;
@@ -169,10 +170,9 @@ static void plane_stress_has_none(void **state)
     done(&r);
 }
 
-/* A block drawn out along x alone flows without hardening as soon as 2 G e = sigma_y: then y and z are alike, so that
- *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the stretch of the
- *     whole way,
- * 9 sigma_y/E at the end: an elastic sigma_zz would be a fifth too small. A wave runs 1.2 mm in from the edges. */
+/* A block extended along x flows without hardening as soon as 2 G e = sigma_y; then y and z are equivalent, so that
+ *     sigma_xx - sigma_yy = sigma_y,   sigma_zz = sigma_yy = K e - sigma_y/3,   e = ln(1 + G t), the total extension,
+ * 9 sigma_y/E at the end; an elastic sigma_zz would be a fifth too small. A wave travels 1.2 mm from the edges. */
 #define FLOWS                                                                                                          \
     "space: plane strain\nthickness: 1 mm\nduration: 0.2 us\nmethod: mpm\n"                                            \
     "material: {young: 200 GPa, poisson: 1/4, density: 7800, yield_stress: 400 MPa}\n"                                 \
@@ -195,7 +195,7 @@ static void flow(void **state)
         assert_near(f.stress[3][i], f.stress[1][i], 1e-4 * yield);
         assert_near(f.stress[0][i] - f.stress[1][i], yield, 1e-4 * yield);
         assert_near(f.stress[3][i], wanted, 1e-3 * wanted);
-        assert_true(f.stress[3][i] > 1.1 * 0.25 * (f.stress[0][i] + f.stress[1][i])); /* no elastic one */
+        assert_true(f.stress[3][i] > 1.1 * 0.25 * (f.stress[0][i] + f.stress[1][i])); /* excludes the elastic value */
         seen++;
     }
     assert_int_equal(seen, 64);

@@ -1,5 +1,6 @@
-/* Load steps of fracture specimens beside linear elastic fracture mechanics: the scenes of inputs/ at twice their
- * spacing, where the crack is 0.3 to 0.5 of 40 spacings. `cleave bench slow` has finer ones and their convergence. */
+/* Load steps of fracture specimens, compared with linear elastic fracture mechanics: the scenes of inputs/ at twice
+ * their spacing, where the crack is 0.3 to 0.5 of 40 spacings. `cleave bench slow` has finer ones and their
+ * convergence. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +15,7 @@
 
 static const double young = 3e9, toughness = 300; /* of the scenes [Pa], [J/m^2] */
 
-static const char pulled[] = "upper", pressed[] = "roller"; /* boundaries of the scenes */
+static const char pulled[] = "upper", pressed[] = "roller"; /* names of boundaries in the scenes */
 
 struct outcome {
     double peak, last, crack, released;
@@ -39,8 +40,9 @@ static struct outcome outcome_of(const char *scene, struct bench_overrides *o, c
     return found;
 }
 
-/* Largest and last load, and G, beside the reference: to 3 %, to `last`, to 3 % (bonds of a lattice that cross a plane
- * hold 0.987 G_c, and the first advance counts with the one that would have come before it). Returns the largest. */
+/* Compares the largest load (tolerance 3 %), the last load (tolerance `last`) and the released energy G (3 %: bonds
+ * that cross a lattice plane dissipate 0.987 G_c, and the first increment includes an earlier one) with the reference.
+ * Returns the largest load. */
 static double check(const char *scene, struct bench_overrides *o, const struct specimen *specimen, double last)
 {
     const struct outcome found = outcome_of(scene, o, specimen);
@@ -53,7 +55,7 @@ static double check(const char *scene, struct bench_overrides *o, const struct s
     return found.peak;
 }
 
-/* To a/W = 0.65; measured +1.8, -5.1 %: of first order in the spacing, with 80 across 0.0 and -1.6. */
+/* To a/W = 0.65. Measured +1.8 and -5.1 %: first order in the spacing; 0.0 and -1.6 % with 80 spacings. */
 static void test_compact_tension(void **state)
 {
     const struct specimen specimen = {COMPACT_TENSION, 50e-3, 0, 10e-3, 25e-3, young, toughness};
@@ -63,7 +65,7 @@ static void test_compact_tension(void **state)
     check("inputs/compact_tension.yaml", &o, &specimen, 0.06);
 }
 
-/* Measured -2.3, +0.9 %; grips go back. */
+/* Measured -2.3 and +0.9 %; the grips move back. */
 static void test_edge_crack_in_grips(void **state)
 {
     const struct specimen specimen = {EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness};
@@ -73,7 +75,7 @@ static void test_edge_crack_in_grips(void **state)
     check("inputs/edge_crack_grips.yaml", &o, &specimen, 0.03);
 }
 
-/* Measured -1.0, -1.4 %. */
+/* Measured -1.0 and -1.4 %. */
 static void test_three_point_bend(void **state)
 {
     const struct specimen specimen = {THREE_POINT_BEND, 40e-3, 160e-3, 10e-3, 16e-3, young, toughness};
@@ -84,7 +86,7 @@ static void test_three_point_bend(void **state)
     check("inputs/bend_offset_notch.yaml", &o, &specimen, 0.03);
 }
 
-/* Arms of ten spacings: measured 0.0, -0.8 %. */
+/* Arms of ten spacings. Measured 0.0 and -0.8 %. */
 static void test_double_cantilever(void **state)
 {
     const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
@@ -94,8 +96,8 @@ static void test_double_cantilever(void **state)
     check("inputs/cantilevers.yaml", &o, &specimen, 0.03);
 }
 
-/* Opened by 4 mm in load steps of any size: the same largest load, at which the crack begins, and no energy left over
- * by coming late. In between loads swing by half an advance, 4 % in arms of ten spacings. */
+/* Opening of 4 mm in load steps of different sizes: equal largest load, at the start of the crack, and no excess energy
+ * from a late increment. In between loads vary by half an increment, 4 % for arms of ten spacings. */
 static void test_control_load(void **state)
 {
     const struct specimen specimen = {DOUBLE_CANTILEVER, 10e-3, 0, 10e-3, 40e-3, young, toughness};
@@ -113,12 +115,13 @@ static void test_control_load(void **state)
     assert_true(fabs(peak[1] / peak[0] - 1) < 0.005 && fabs(peak[2] / peak[0] - 1) < 0.005);
 }
 
-/* Bonds that yield at a half of their critical stretch, with a tenth of their stiffness from there: the load of a body
- * whose G_c is the area under that curve over that of the elastic one, as where yielding is small (Rice 1968: J is the
- * work of separation). Measured -2.2 % at 40 spacings, as of elastic bonds. */
+/* Bonds that yield at half of their critical stretch and harden with a tenth of their stiffness: the load is that of an
+ * elastic body with G_c equal to the area under this curve, as in small-scale yielding (Rice 1968: J is the work of
+ * separation). Measured -2.2 % at 40 spacings, as for elastic bonds. */
 static void test_yielding(void **state)
 {
-    const double critical = 6.805e-3, yield = 10e6 / young, beyond = critical - yield; /* stretches at 1 mm */
+    const double critical = 6.805e-3, yield = 10e6 / young, beyond = critical - yield; /* stretches at a spacing of 1
+                                                                                        * mm */
     const double area = 0.5 * yield * yield + beyond * (yield + 0.05 * beyond);
     const struct specimen specimen = {
         EDGE_CRACK_IN_GRIPS, 40e-3, 120e-3, 5e-3, 12e-3, young, toughness * area / (0.5 * critical * critical)};

@@ -1,5 +1,5 @@
-/* The automatic time step against the limit of growth; steps beyond it are caught; bodies at the edge of what
- * an automatic step can mean. */
+/* The automatic time step relative to the observed limit; steps beyond the limit are detected; bodies with unusual
+ * limits. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -51,7 +51,7 @@ static const struct stability_case bounds[] = {
     {.dim = 2, .method = "adaptive", .frame = "reference", .coupling = "handshake", .region = ISLANDS},
 };
 
-/* Not more than 0.95 of what grows, and no less than 0.6 of it. */
+/* The automatic step is between 0.6 and 0.95 of the observed limit. */
 static void test_bounds(void **state)
 {
     (void)state;
@@ -66,7 +66,7 @@ static void test_bounds(void **state)
     }
 }
 
-/* Strains of velocities that are not mapped again, with linear shapes, have no limit above 0: refused. */
+/* Strains from velocities of the first map with linear shapes are unstable for any step: refused. */
 static void test_no_limit(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void test_no_limit(void **state)
     assert_non_null(strstr(status_message(), "strains from velocities that are not mapped again"));
 }
 
-/* Points drift through their cells: each place has another limit, and the automatic step holds in all of them. */
+/* Points that move through their cells: each position has another limit, and the automatic step is stable in all. */
 static void test_drift(void **state)
 {
     (void)state;
@@ -92,8 +92,9 @@ static void test_drift(void **state)
 
 /* ---- beyond the limit -------------------------------------------------------------------------------------------- */
 
-/* 1.2 times the limit: stopped within 1000 steps, with place, step and remedy. Of APIC with edges on nodes, where its
- * limit is that of the inside: a little beyond, growth moves the edge to where the limit is another. */
+/* 1.2 times the limit: the run stops within 1000 steps, with position, step and remedy. APIC with edges on nodes,
+ * where the limit is that of the interior; slightly beyond nodes growth would move the edge to positions with
+ * another limit. */
 static void test_caught(void **state)
 {
     (void)state;
@@ -121,8 +122,7 @@ static double automatic_of(const char *text, const char *key, const char *value)
     return critical;
 }
 
-/* The step goes with the length over any scale; a body without bonds has one, too; so has one whose bonds are all
- * cut. */
+/* The step scales with the length; a body without bonds has a step, and so has one whose bonds are all cut. */
 static void test_scales(void **state)
 {
     (void)state;
@@ -150,8 +150,8 @@ static void test_scales(void **state)
     }
 }
 
-/* Rows between mirrors, where images go against their sources; a thin plate; a stiff light material in a soft
- * heavy one: all modes are seen. */
+/* Rows between mirrors, where images move against their sources; a thin plate; a stiff light material in a soft heavy
+ * one: the estimate includes all modes. */
 static void test_odd_bodies(void **state)
 {
     (void)state;
@@ -179,7 +179,8 @@ static void test_odd_bodies(void **state)
     }
 }
 
-/* A row between mirrors that are closer than its bonds reach grew at a third of the predicted step: it is refused. */
+/* A row between mirrors closer than the reach of its bonds, for which an earlier estimate was three times the limit:
+ * refused. */
 static void test_close_mirrors(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-/* Bulk viscosity against a front behind a piston, whose closed form is a jump from rest to the piston's speed v: behind
- * it the velocity is v, the stress rho c v. Then what it must keep: momentum, angular momentum, energy but for what it
- * books. */
+/* Bulk viscosity at a front caused by a piston, whose closed form is a jump from rest to the piston's speed v with
+ * stress rho c v. Further: conservation of momentum, angular momentum and energy (except for the dissipated part). */
 #include "tests/support/near.h"
 
 #include "base/memory.h"
@@ -34,8 +33,8 @@ struct front {
     const char *name, *scene, *method;
 };
 
-/* The largest velocity, and the largest difference from v behind the front, but for a tenth of the way at the piston
- * and the last spacings before the front, over v. */
+/* Computes the largest velocity and the largest difference from v behind the front, over v, without a tenth of the
+ * distance at the piston and the last spacings before the front. */
 static void behind(const struct run *e, real *most, real *off)
 {
     const struct material *m = &e->scene->material[0];
@@ -48,9 +47,8 @@ static void behind(const struct run *e, real *most, real *off)
     }
 }
 
-/* Without it a front rings by a fifth and more; with it (the defaults) it passes v by less than 2e-3, and what it
- * leaves behind is v to 3e-3. The balance is off by what the first half step, in which the piston jumps, does not see.
- */
+/* Without viscosity a front oscillates by 20 % or more; with the default viscosity the overshoot is below 2e-3 and the
+ * velocity behind it is v to 3e-3. The energy balance omits the first half step, in which the piston starts. */
 static void front_does_not_ring(void **state)
 {
     const struct front *f = *state;
@@ -74,7 +72,8 @@ static void front_does_not_ring(void **state)
     solution_free(&a);
 }
 
-/* Two blocks that hit each other off centre, all peridynamic: forces of bonds are pairs along the bonds. */
+/* Two peridynamic blocks in an eccentric collision: momentum and angular momentum are constant, because bond forces act
+ * in pairs along the bonds. */
 static void momenta_are_kept(void **state)
 {
     (void)state;
@@ -92,11 +91,11 @@ static void momenta_are_kept(void **state)
     assert_true(now->energy.viscous > 0.02 * a.e.diagnostics->energy_scale);
     assert_near(now->momentum_error, 0, 1e-12);
     assert_near(now->spin_error, 0, 1e-12);
-    assert_near(now->balance_error, 0, 2e-3); /* of the contact, without viscosity as with it */
+    assert_near(now->balance_error, 0, 2e-3); /* error of the contact, equal with and without viscosity */
     solution_free(&a);
 }
 
-/* Bodies that swarm: whatever the motion, it takes energy and gives none, at 0.95 of its critical step. */
+/* Random motion at 0.95 of the critical step: viscosity only dissipates energy. */
 static void only_takes(void **state)
 {
     static const char *const block =

@@ -1,5 +1,4 @@
-/* Runs of the program in a child process whose calls are watched and disturbed: what test_faults.c does before each of
- * its checks. */
+/* Runs of the program in a child process whose calls are counted and disturbed, for test_faults.c. */
 #ifndef CLEAVE_TEST_FAULT_RUNS
 #define CLEAVE_TEST_FAULT_RUNS
 
@@ -19,12 +18,17 @@
 #include "scene/scene.h"
 #include "trees.h"
 
-enum { NAME = 256, SIGNAL = 1000, PATIENCE = 20 }; /* SIGNAL + 9: ended by signal 9; seconds until a run hangs */
+enum {
+    NAME = 256,
+    SIGNAL = 1000,
+    PATIENCE = 20
+}; /* SIGNAL + 9: ended by signal 9; PATIENCE: seconds after which a
+    * run counts as hanging */
 
 static const struct fault_plan undisturbed = {.deed = DO_NOTHING};
 
-static long *count; /* of the last run, in shared memory */
-static int wrong;   /* what this process complained about */
+static long *count; /* counters of the last run, in shared memory */
+static int wrong;   /* number of failures of this process */
 
 static void complain(const char *format, ...)
 {
@@ -39,7 +43,7 @@ static void complain(const char *format, ...)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* A run: the folder it is in, its scene and what it said. */
+/* A run: its folder, its scene and the file with its messages. */
 struct place {
     char folder[NAME], scene[NAME], said[NAME];
 };
@@ -59,7 +63,7 @@ static void scene_put(const struct fault_scene *s)
     if (!f || fputs(s->text, f) < 0 || fclose(f) != 0) complain("cannot write %s", place_of("", s).scene);
 }
 
-/* The run's one line that is no warning; `lines`: how many such there are. */
+/* Returns the only line of the run's messages that is not a warning. lines: receives the number of such lines. */
 static const char *said(const struct place *p, int *lines)
 {
     static char line[1024];
@@ -96,7 +100,7 @@ static _Noreturn void run_here(const struct fault_plan *plan, const struct place
     _exit(program_main(resume ? 9 : 8, words));
 }
 
-/* A run in a process of its own: its exit status, or SIGNAL + the signal that ended it. */
+/* Runs the program in a child process. Returns its exit status, or SIGNAL + the signal that ended it. */
 static int run(const struct fault_plan *plan, const struct place *p, int threads, bool resume)
 {
     int ended = 0;
@@ -119,7 +123,7 @@ static struct place reference_of(const struct fault_scene *s)
     return p;
 }
 
-/* --resume, and all is there. */
+/* Resumes a run with --resume and compares the results with the reference. */
 static void resumes(const char *what, const struct place *reference, const struct place *p, int threads)
 {
     int lines;
@@ -130,7 +134,7 @@ static void resumes(const char *what, const struct place *reference, const struc
         complain("%s, then --resume: other results", what);
 }
 
-/* Work for two processes, for two processors: what they complain about. */
+/* Divides work between two processes; returns the number of their failures. */
 static int in_two(void (*share)(int worker))
 {
     int all = 0;

@@ -1,5 +1,5 @@
-/* Small scenes that are disturbed: among them every kind of probe, every method and model, conversion, return,
- * contact, growth; a sample in every step, and a checkpoint after it in scenes that are killed. */
+/* Small scenes to be disturbed: together they contain every kind of probe, every method and model, conversion,
+ * reversion, contact and growth. A sample in every step, and a checkpoint after it in scenes that are killed. */
 #ifndef CLEAVE_TESTS_FAULT_SCENES
 #define CLEAVE_TESTS_FAULT_SCENES
 
@@ -10,7 +10,7 @@ struct fault_scene {
     const char *name, *text;
 };
 
-/* The smallest that writes everything: for faults at every call. */
+/* The smallest scene with all kinds of output, for faults at every call. */
 static const struct fault_scene small_scene = {
     "small", "space: plane stress\nthickness: 1 mm\nduration: 1 us\n"
              "material: {young: 190 GPa, density: 7800, energy_release_rate: 100}\n"
@@ -20,7 +20,7 @@ static const struct fault_scene small_scene = {
              "output: {frames: 1, samples: 2, checkpoint: 0}\n"
              "probes: [tip, line: {from: [0, 1 mm], to: [8 mm, 1 mm], points: 3}]\n"};
 
-/* Two notches of a plate crack: material points convert in most of its steps. */
+/* A plate with a crack in which material points convert in most steps. */
 static const struct fault_scene converting_scene = {
     "converting",
     "space: plane stress\nthickness: 1 mm\nduration: 8 us\n"
@@ -34,8 +34,7 @@ static const struct fault_scene converting_scene = {
     "probes: [tip, break, energy, momentum, reaction: {boundary: top}, point: {at: [20 mm, 12 mm]},\n"
     "         line: {from: [1 mm, 5 mm], to: [29 mm, 5 mm], points: 9}]\n"};
 
-/* A pulse passes through a bar: its front turns points into peridynamic particles, which become points again behind
- * it. */
+/* A pulse in a bar: its front converts points to peridynamic particles, which revert behind it. */
 #define PASSING                                                                                                        \
     {                                                                                                                  \
         "passing",                                                                                                     \
@@ -46,7 +45,7 @@ static const struct fault_scene converting_scene = {
     }
 static const struct fault_scene passing_scene = PASSING;
 
-/* Load steps of a body that nothing holds, whose crack advances. */
+/* Load steps of a body without supports, with a growing crack. */
 #define IN_STEPS                                                                                                       \
     {                                                                                                                  \
         "steps",                                                                                                       \

@@ -1,5 +1,5 @@
-/* faults.h: the wrapped calls. A wrapped call of ours (__wrap_x) goes on to the x of this file, which every
- * library calls, too, and which goes on to that of the C library. */
+/* The wrapped calls of faults.h. A wrapped call of the program (__wrap_x) continues in x of this file, which all
+ * libraries also call, and x continues in the C library. */
 #include "faults.h"
 
 #include <stdio.h>
@@ -39,7 +39,7 @@ void faults_arm(const struct fault_plan *p, long *count)
     counts = count;
 }
 
-/* Counts a call; true: it fails, and errno says why. */
+/* Counts a call. Returns true if it must fail, with errno set. */
 static bool hit(enum fault_call call)
 {
     if (!counts) return false;
@@ -52,10 +52,10 @@ static bool hit(enum fault_call call)
     return plan.deed == DO_FAIL;
 }
 
-/* Standard input, output and error are left alone. */
+/* Counts a call on a file; standard input, output and error are never disturbed. */
 static bool hit_file(enum fault_call call, int fd) { return fd > STDERR_FILENO && hit(call); }
 
-/* The C library's function of this name. */
+/* Defines `next`, the C library's function of this name. */
 #define NEXT(type, name, ...)                                                                                          \
     static type (*next)(__VA_ARGS__);                                                                                  \
     if (!next) *(void **)&next = dlsym(RTLD_NEXT, name)
@@ -161,7 +161,7 @@ int close(int fd)
 {
     NEXT(int, "close", int);
     const bool fails = hit_file(ALL_CLOSE, fd);
-    const int closed = next(fd); /* a close that fails closes all the same */
+    const int closed = next(fd); /* a close that fails closes nevertheless */
     if (fails) errno = plan.cause;
     return fails ? -1 : closed;
 }
@@ -195,7 +195,7 @@ void *mmap(void *at, size_t length, int protection, int flags, int fd, off_t off
     return fd < 0 && hit(ALL_MMAP) ? MAP_FAILED : next(at, length, protection, flags, fd, offset);
 }
 
-/* dlsym itself allocates: the C library's own names are called. */
+/* dlsym itself allocates memory: therefore the C library's internal names are called. */
 #ifdef __GLIBC__
 void *__libc_malloc(size_t), *__libc_calloc(size_t, size_t), *__libc_realloc(void *, size_t),
     *__libc_memalign(size_t, size_t);
@@ -237,9 +237,9 @@ WRAP(int, mkdir, (const char *path, mode_t mode), (path, mode), hit(OWN_MKDIR), 
 WRAP(int, unlink, (const char *path), (path), hit(OWN_UNLINK), -1)
 WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = plan.cause), -1)
 
-/* ---- places of a run --------------------------------------------------------------------------------------------- */
+/* ---- stages of a run --------------------------------------------------------------------------------------------- */
 
-/* A moment in which the run may be stopped or killed, before the function does its work. */
+/* Defines a stage at which the run may be stopped or killed, before the function does its work. */
 #define PLACE(type, name, parameters, arguments, place)                                                                \
     type __real_##name parameters;                                                                                     \
     type __wrap_##name parameters;                                                                                     \

@@ -1,6 +1,5 @@
-/* Calls that are made to fail, to stop a run or to kill it, at the n-th time: of the program's own objects
- * (link-time wrapping, see Makefile) and of the whole process with its libraries (the symbols of the executable come
- * first). */
+/* Makes the n-th call of a kind fail, or stops or kills the run at it: calls of the program's own objects (link-time
+ * wrapping, see Makefile) and of the whole process with its libraries (symbols of the executable take precedence). */
 #ifndef CLEAVE_TESTS_FAULTS
 #define CLEAVE_TESTS_FAULTS
 
@@ -27,28 +26,29 @@ enum fault_call {
     AT_SAMPLE,
     AT_CONVERSION,
     AT_COUPLING,
-    AT_EQUILIBRIUM, /* functions of the engine: before they do their work */
+    AT_EQUILIBRIUM, /* AT_*: functions of the engine, before they do their work */
     FAULT_CALLS
 };
 
-/* DO_STOP: SIGINT, DO_KILL: SIGKILL, DO_BREAK: an invariant of the program is broken there */
+/* Action at the call. DO_STOP: SIGINT; DO_KILL: SIGKILL; DO_BREAK: an internal invariant fails. */
 enum fault_deed { DO_NOTHING, DO_FAIL, DO_STOP, DO_KILL, DO_BREAK };
 
+/* Which call is disturbed, and how. */
 struct fault_plan {
     enum fault_call call;
     enum fault_deed deed;
-    long number; /* the first call is 1 */
-    int cause;   /* errno of a call that fails */
-    int log;     /* descriptor for lines of fsync, rename and mkdir; 0: none */
+    long number; /* index of the call, from 1 */
+    int cause;   /* errno of a failing call */
+    int log;     /* descriptor for lines about fsync, rename and mkdir; 0: none */
 };
 
 extern const char *const fault_name[FAULT_CALLS];
 
-/* From now on calls are counted in count[FAULT_CALLS], which outlives the process (shared memory), and the plan
- * holds; files are no longer synced, but for the log, which is quick. */
+/* Starts to count calls in count[FAULT_CALLS], shared memory that outlives the process, and applies the plan. Files are
+ * no longer synced, except the log, to save time. */
 void faults_arm(const struct fault_plan *plan, long *count);
 
-/* Hash of a file's bytes; 0 where there is none. */
+/* Returns the hash of a file's bytes; 0 if there is no file. */
 unsigned long fault_hash(const char *path);
 
 int program_main(int argc, char **argv); /* main of the program */

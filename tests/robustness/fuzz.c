@@ -1,10 +1,10 @@
-/* A fuzzer of our own: inputs are changed at random, with words of a dictionary; those that reach new
- * branches are kept and changed further. The sources it runs are compiled with sanitizers and call
- * __sanitizer_cov_trace_pc() in each branch (Makefile).
+/* Fuzzer: changes inputs at random, using the words of a dictionary; inputs that reach new branches are kept and
+ * changed further. The sources under test are compiled with sanitizers and call __sanitizer_cov_trace_pc() in each
+ * branch (Makefile).
  *
- *     fuzz TARGET SECONDS SEED DICTIONARY FILE...      or, with 0 seconds: each file once, as it is
+ *     fuzz TARGET SECONDS SEED DICTIONARY FILE...      or, with 0 seconds: each file once, unchanged
  *
- * The input in use stands in TARGET.input, also after the end of the process. */
+ * The current input is in TARGET.input, also after the end of the process. */
 #include "fuzz.h"
 
 #include <fcntl.h>
@@ -40,9 +40,9 @@ static struct input pool[POOL];
 static int pooled;
 static char *word[WORDS];
 static int words;
-static unsigned char branch[BRANCHES]; /* was there */
+static unsigned char branch[BRANCHES]; /* branches reached so far */
 static int branches;
-static bool running, found; /* in a target; it was where none has been */
+static bool running, found; /* inside a target; a new branch was reached */
 static uint64_t state;
 
 void __sanitizer_cov_trace_pc(void);
@@ -66,7 +66,7 @@ static void leave(void)
     if (running) fuzz_fail("the program ends in the midst of a target", "");
 }
 
-/* Xorshift (Marsaglia 2003), multiplied. */
+/* Returns a pseudo-random number below `below`: xorshift (Marsaglia 2003) with multiplication. */
 static uint64_t draw(uint64_t below)
 {
     state ^= state >> 12, state ^= state << 25, state ^= state >> 27;
@@ -106,7 +106,7 @@ static void read_words(const char *path)
 
 /* ---- changes ----------------------------------------------------------------------------------------------------- */
 
-/* Makes room for `gap` bytes at `at`, or takes away -gap; returns whether it did. */
+/* Inserts `gap` bytes at `at`, or removes -gap bytes; returns true if it was possible. */
 static bool shift(uint8_t *bytes, size_t *n, size_t at, long gap, size_t most)
 {
     if (gap > 0 && *n + (size_t)gap > most) return false;
@@ -124,7 +124,7 @@ static void put(uint8_t *bytes, size_t *n, size_t at, const void *piece, size_t 
     memmove(bytes + at, piece, length);
 }
 
-/* Numbers at the edges of what integers and reals can be. */
+/* Writes a number at the limits of integers and reals. */
 static void put_number(uint8_t *bytes, size_t n, size_t at)
 {
     static const int64_t number[] = {
@@ -174,7 +174,7 @@ static void change(uint8_t *bytes, size_t *n, size_t most)
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Bytes of a file, which stays behind. */
+/* Returns memory for the bytes of a file, mapped so that they remain after a crash. */
 static uint8_t *make_room(const char *target)
 {
     char path[64];
@@ -189,7 +189,7 @@ static uint8_t *make_room(const char *target)
 
 static void run_one(int target, const uint8_t *bytes, size_t n)
 {
-    uint8_t *copy = malloc(n + 1); /* of this size: what is read behind its end is found */
+    uint8_t *copy = malloc(n + 1); /* of this exact size, so that reads beyond its end are detected */
     if (!copy) fuzz_fail("no memory", "");
     memcpy(copy, bytes, n);
     alarm(PATIENCE);

@@ -1,5 +1,5 @@
-/* fuzz.h: checkpoints with any bytes and the right footer. They are refused in one line, or the run goes on
- * for a few steps. */
+/* Target of fuzz.h: checkpoints with arbitrary bytes and a correct footer. They must be refused in one line, or the run
+ * must continue for some steps. */
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ static const char text[] =
 static struct scene scene;
 static struct output out;
 
-/* An engine of the scene whose output is in the folder `fuzz_run`. */
+/* Creates a run of the scene with output in the folder `fuzz_run`. */
 static void begin(struct run *e)
 {
     if (!scene.text && scene_read_text(&scene, text, strlen(text), "fuzz", NULL, 0) != OK)
@@ -50,7 +50,7 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     return seed;
 }
 
-/* The bytes and a footer that fits become checkpoint.h5; there is no other. */
+/* Writes the bytes with a matching footer as checkpoint.h5; there is no other checkpoint. */
 static void put_checkpoint(const uint8_t *bytes, size_t n)
 {
     static const char path[] = "fuzz_run/checkpoint.h5";

@@ -1,5 +1,5 @@
-/* fuzz.h: particle lists. What is refused says so in one line; of what is read every place and volume is a
- * number. */
+/* Target of fuzz.h: particle lists. A refusal must be one line; in an accepted list every position and volume must be a
+ * finite number. */
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>

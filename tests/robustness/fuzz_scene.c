@@ -1,5 +1,5 @@
-/* fuzz.h: scenes and overrides. What is refused says where and why in one line; what is accepted is written
- * out, read back and written out the same. */
+/* Targets of fuzz.h: scenes and overrides. A refusal must state position and reason in one line; an accepted scene is
+ * written out, read back and must be written out identically. */
 #include <stdlib.h>
 #include <string.h>
 

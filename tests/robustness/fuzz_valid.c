@@ -1,5 +1,5 @@
-/* fuzz.h: scenes of every space, method, model, shape, load and probe, chosen by the bytes: mostly
- * sensible, some odd. A run ends with numbers, or says in one line why not. */
+/* Target of fuzz.h: scenes of every space, method, model, shape, load and probe, chosen by the bytes: mostly
+ * reasonable, some unusual. A run must end with finite numbers or state in one line why not. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ struct maker {
     int dim;
 };
 
-/* A number below `below`, by the next byte; 0 when they are used up. */
+/* Returns a number less than `below` from the next byte; 0 when the bytes are used up. */
 static int choose(struct maker *m, int below) { return m->at < m->n ? m->bytes[m->at++] % below : 0; }
 
 static void add(struct maker *m, const char *format, ...)
@@ -34,7 +34,7 @@ static void add(struct maker *m, const char *format, ...)
     if (length > 0) m->length += (size_t)length < TEXT - m->length ? (size_t)length : TEXT - m->length - 1;
 }
 
-/* One of several texts, separated by |. */
+/* Appends one of several texts separated by |. */
 static void add_one(struct maker *m, const char *choices)
 {
     int count = 1;
@@ -43,7 +43,7 @@ static void add_one(struct maker *m, const char *choices)
     add(m, "%.*s", (int)strcspn(choices, "|"), choices);
 }
 
-/* [a, b, ..]: components between low and high. */
+/* Appends [a, b, ..] with components between low and high. */
 static void add_vector(struct maker *m, double low, double high)
 {
     for (int d = 0; d < m->dim; d++) add(m, "%s%g", d ? ", " : "[", low + (high - low) * choose(m, 17) / 16);
@@ -59,7 +59,7 @@ static void add_box(struct maker *m, const double *from, const double *to)
     add(m, "]}}");
 }
 
-/* A solid that is cut out or stays, and perhaps moves and repeats. */
+/* Appends a solid that is subtracted or kept, possibly moved and repeated. */
 static void add_cut(struct maker *m)
 {
     add(m, ", {"), add_one(m, "subtract|subtract|intersect"), add(m, ": {");
@@ -80,7 +80,7 @@ static void add_cut(struct maker *m)
     add(m, "}"), add_one(m, turns[m->dim - 1]), add(m, "}");
 }
 
-/* Lengths are in spacings of 1 m; waves take about a second for one. */
+/* Appends the bodies. Lengths are in spacings of 1 m; waves travel about one spacing per second. */
 static void add_bodies(struct maker *m, double *edge)
 {
     static const double zero[DIM_MAX];
@@ -153,7 +153,7 @@ static void add_loads(struct maker *m, const double *edge)
     add(m, "output: {frames: 2, samples: 1000000}\n");
 }
 
-/* Nothing that is no number, unless the run said so. */
+/* Fails if a result is not finite, unless the run reported it. */
 static void judge(const struct run *e, const char *when)
 {
     const struct particles *p = &e->part;

@@ -1,4 +1,4 @@
-/* Compares the folders of two runs, file by file, for test_faults.c. */
+/* Compares the folders of two runs file by file, for test_faults.c. */
 #ifndef CLEAVE_TESTS_SAME_FILES
 #define CLEAVE_TESTS_SAME_FILES
 
@@ -10,7 +10,7 @@
 
 #include "faults.h"
 
-/* Two summaries agree as far as the machine has no part in them. */
+/* Returns true if two summaries agree up to the figures about the machine. */
 static bool same_figures(const char *a, const char *b)
 {
     char x[1024], y[1024];
@@ -23,12 +23,12 @@ static bool same_figures(const char *a, const char *b)
     return same;
 }
 
-/* The walk over a reference: each of its files must be in the other folder, with the same bytes. */
+/* State of the walk over a reference folder: each of its files must be in the other folder with equal bytes. */
 static const char *other;
 static size_t reference_length;
 static int files, differing;
 
-/* Checkpoints hold times taken; a lock that cannot be removed does not bind. */
+/* Returns true for files that may differ: checkpoints contain times; a lock that could not be removed has no effect. */
 static bool is_beside(const char *name) { return name[0] == '.' || strncmp(name, "checkpoint", 10) == 0; }
 
 static int compare_one(const char *path, const struct stat *s, int type, struct FTW *walk)
@@ -53,7 +53,7 @@ static int count_one(const char *path, const struct stat *s, int type, struct FT
     return 0;
 }
 
-/* Are there files in the folder that have not got their names? */
+/* Returns true if the folder has files under temporary names. */
 static bool half_written(const char *folder)
 {
     files = 0;
@@ -61,7 +61,7 @@ static bool half_written(const char *folder)
     return files > 0;
 }
 
-/* The same files with the same bytes, and none besides. */
+/* Returns true if both folders have the same files with equal bytes. */
 static bool same_files(const char *reference, const char *folder)
 {
     other = folder, reference_length = strlen(reference), files = differing = 0;

@@ -1,8 +1,8 @@
-/* Nothing is lost: every call of ours fails once, runs are stopped and killed in the midst of what they do,
- * checkpoints are damaged; --resume always gets to the bits of an undisturbed run. `test_faults whole` does
- * the same with the calls of the whole process, libraries included (tests/robustness/long_faults.sh).
- * Runs alone: it is two processes, and takes a run that is not over within PATIENCE for one that hangs.
- * Takes 30 s: some 2000 runs, one for each call that fails. */
+/* No data are lost: each call of the program fails once, runs are stopped and killed at any stage, checkpoints are
+ * damaged; --resume must always reach results bitwise equal to those of an undisturbed run. `test_faults whole` does so
+ * for the calls of the whole process, libraries included (tests/robustness/long_faults.sh). Runs alone: it consists of
+ * two processes, and a run that exceeds PATIENCE counts as hanging. Takes 30 s: about 2000 runs, one for each failing
+ * call. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -29,9 +29,9 @@ int __wrap_main(int argc, char **argv);
 
 /* ---- every call fails once --------------------------------------------------------------------------------------- */
 
-/* Every `step`-th call of a run fails. A run that fails here is resumed for each `look`-th of these, and a resumed
- * one, stopped at sample 2 before, meets them only then, too. `lossy`: libraries do not survive it; the test is only
- * that nothing is lost. */
+/* Every `step`-th call of a run fails. A failed run is resumed for each `look`-th of these; for these also a resumed
+ * run, previously stopped at sample 2, fails. lossy: libraries do not survive the fault; only loss of data is
+ * tested. */
 struct sweep {
     enum fault_call call;
     int cause, step, look;
@@ -54,7 +54,7 @@ static const struct sweep *sweeps = own_sweeps;
 static int sweep_count = COUNT_OF(own_sweeps);
 static struct place small_reference;
 
-/* What a run that met a fault may do: finish as if there were none, or say in one line what failed. */
+/* Checks the end of a run after a fault: success, or one line that states what failed. */
 static void outcome(const char *what, const struct place *p, int end, int cause)
 {
     int lines;
@@ -114,7 +114,7 @@ static void failing_calls_lose_nothing(void **state)
     assert_int_equal(in_two(sweep_share), 0);
 }
 
-/* A text in memory is whole, or its end says that it is not, whichever allocation fails. */
+/* A text in memory is complete, or its end reports the loss, whichever allocation fails. */
 static void texts_in_memory_are_whole_or_refused(void **state)
 {
     enum { NUMBERS = 3000, EACH = 7 };
@@ -141,7 +141,7 @@ static void texts_in_memory_are_whole_or_refused(void **state)
     assert_int_equal(wrong, 0);
 }
 
-/* An invariant is broken as a file gets its name, at each of these in turn, in the stepping or the writing thread. */
+/* Breaks an invariant while a file is renamed, for each rename in turn, in the stepping or the writing thread. */
 static void break_share(int worker)
 {
     const struct place p = place_of(worker ? "b" : "a", &small_scene);
@@ -186,8 +186,8 @@ static void every_probe_is_watched(void **state)
         if (!watched[kind]) fail_msg("no scene has probe %d", kind);
 }
 
-/* A run that is ended `times` times, each time by `deed` at the `number`-th call of `place` (0: such that it gets
- * through), and goes on each time on another number of threads. */
+/* Ends a run `times` times by `deed` at the `number`-th call of `place` (0: a number for which the run completes), and
+ * resumes it each time on another number of threads. */
 static void disturb(const struct fault_scene *s, enum fault_call place, long number, enum fault_deed deed, int times)
 {
     const struct place reference = reference_of(s), p = place_of("disturbed", s);
@@ -219,7 +219,7 @@ static void stopped_runs_resume(void **state)
     assert_int_equal(in_two(stop_share), 0);
 }
 
-/* A resumed run couples once when it starts, and once more where it was killed. */
+/* A resumed run couples once at its start, and again where it was killed. */
 static void kill_share(int worker)
 {
     if (worker == 0)
@@ -252,8 +252,8 @@ struct log_line {
     unsigned long hash;
 };
 
-/* Line `from` and those before it (`step` -1) or behind it (1): the first sync of this path, -1 where there is none
- * before a line of `end` (NULL: none ends it). */
+/* Returns the line of the first sync of a path before line `from` (step -1) or after it (step 1); -1 if there is none
+ * before a line of `end` (NULL: no limit). */
 static int find_sync(const struct log_line *line, int lines, int from, int step, const char *path, const char *end)
 {
     for (int k = from; k >= 0 && k < lines; k += step) {
@@ -263,7 +263,8 @@ static int find_sync(const struct log_line *line, int lines, int from, int step,
     return -1;
 }
 
-/* Renamed files are whole on the disk before, and their new names after, before the next of that name. */
+/* Checks a rename: the file was synced before, and its folder is synced afterwards, before the next file of that
+ * name. */
 static void check_rename(const struct log_line *line, int lines, int k)
 {
     char folder[NAME], history[2 * NAME];
@@ -271,7 +272,7 @@ static void check_rename(const struct log_line *line, int lines, int k)
     const int synced = find_sync(line, lines, k, -1, line[k].path, NULL);
     folder_of(line[k].to, folder);
     snprintf(history, sizeof history, "%s/history.csv", folder);
-    if (strcmp(name, "checkpoint.previous.h5") == 0) return; /* was synced under its first name */
+    if (strcmp(name, "checkpoint.previous.h5") == 0) return; /* synced under its first name */
     if (synced < 0 || line[synced].hash != line[k].hash) complain("%s is not on the disk when it gets its name", name);
     if (find_sync(line, lines, k, 1, folder, line[k].to) < 0) complain("the name of %s is not on the disk", name);
     if (strcmp(name, "checkpoint.h5") == 0 && line[k].hash && find_sync(line, lines, k, -1, history, line[k].to) < 0)
@@ -301,7 +302,7 @@ static void files_are_synced_in_order(void **state)
     remove_tree("new");
     scene_put(&small_scene);
     assert_non_null(getcwd(here, sizeof here));
-    snprintf(p.folder, sizeof p.folder, "%s/new/below", here); /* two new folders, and frames in it */
+    snprintf(p.folder, sizeof p.folder, "%s/new/below", here); /* two new folders, and frames inside */
     const struct fault_plan plan = {.log = open("log", O_CREAT | O_TRUNC | O_WRONLY | O_APPEND, 0666)};
     assert_int_equal(run(&plan, &p, 1, false), 0);
     close(plan.log);
@@ -340,7 +341,8 @@ static bool flip(const char *path, uint64_t at)
     return done;
 }
 
-/* Half of 60 bits of the checkpoint of a run, all over it: none passes for whole, the one before it serves. */
+/* Inverts half of 60 bits spread over the checkpoint of a run: none is accepted as whole, and the previous checkpoint
+ * is used. */
 static void flip_share(int worker)
 {
     static const struct fault_plan stop = {AT_SAMPLE, DO_STOP, 2, 0, 0};
@@ -366,7 +368,7 @@ static void damaged_checkpoints_are_found(void **state)
     assert_int_equal(in_two(flip_share), 0);
 }
 
-/* All files of the tests lie in a folder of this process in TMPDIR, else beside the program. */
+/* Creates a folder of this process in TMPDIR, or beside the program, for all files of the tests. */
 static int enter(char *program, char *folder)
 {
     const char *place = getenv("TMPDIR");
@@ -388,11 +390,11 @@ int __wrap_main(int argc, char **argv)
         cmocka_unit_test(broken_invariants_lose_nothing),
     };
     const bool of_all = argc > 1 && strcmp(argv[1], "whole") == 0;
-    if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]); /* one of them: its name */
+    if (argc > 1 && !of_all) cmocka_set_test_filter(argv[1]); /* name of a single test */
     char folder[NAME];
     if (enter(argv[0], folder) != 0) return 1;
-    setenv("GOMP_SPINCOUNT", "2000", 1);         /* the program would run itself again */
-    setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1); /* to look at the machine takes longer than these runs */
+    setenv("GOMP_SPINCOUNT", "2000", 1);         /* the program would restart itself to set it */
+    setenv("HWLOC_SYNTHETIC", "core:2 pu:1", 1); /* probing the machine would take longer than these runs */
     count = mmap(NULL, FAULT_CALLS * sizeof *count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (of_all) sweeps = whole_sweeps, sweep_count = COUNT_OF(whole_sweeps);
     const int failed = of_all ? cmocka_run_group_tests(whole, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,6 @@
-/* The small scenes that are run under sanitizers (small_scenes.txt) have every key and every word that a scene may
- * contain, and the other commands (small_commands.txt) are all there: what is added to the table of keys or of commands
- * fails here until a small scene or command has it. */
+/* Coverage of the small scenes run under sanitizers (small_scenes.txt): they contain every key and every word of
+ * scenes, and all other commands are in small_commands.txt. A key or command added to the tables fails here until a
+ * small scene or command has it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,23 +16,24 @@
 
 enum { SCENES_MOST = 400, SETTINGS_MOST = 24, LINE_MOST = 2000, WORDS_MOST = 40, KEYS_MOST = 2000 };
 
-/* seen[k][0]: key k of the table stands in a scene; seen[k][1 + w]: so does word w of it. */
+/* seen[k][0]: key k of the table occurs in a scene; seen[k][1 + w]: its word w occurs. */
 static bool seen[KEYS_MOST][1 + WORDS_MOST];
-static bool here[KEYS_MOST]; /* key k stands in the scene at hand */
+static bool here[KEYS_MOST]; /* key k occurs in the current scene */
 
 /* ---- the list ---------------------------------------------------------------------------------------------------- */
 
-/* A line of the list: settings are overrides, first those of the scene that it changes. */
+/* A line of the list: settings are overrides, first those of the scene from which it is derived. */
 struct small_scene {
     char name[64], file[256];
     int n;
     struct scene_override setting[SETTINGS_MOST];
 };
 
-/* Is checked by small_commands.txt: its pilot runs would take minutes under a tool (test_pilot.sh makes some). */
+/* Checked by small_commands.txt only: its pilot runs would take minutes under a sanitizer (test_pilot.sh makes
+ * some). */
 static const struct small_scene auto_scene = {.name = "auto", .file = "tests/robustness/scenes/auto.yaml"};
 
-/* Cuts blanks off both ends of a text and returns its new beginning. */
+/* Removes blanks at both ends of a text and returns its new beginning. */
 static char *trimmed(char *text)
 {
     while (*text == ' ') text++;
@@ -40,7 +41,7 @@ static char *trimmed(char *text)
     return text;
 }
 
-/* Reads the list; the texts of settings are never freed. Returns the number of scenes. */
+/* Reads the list and returns the number of scenes; the texts of settings are not freed. */
 static int list_read(struct small_scene *list)
 {
     FILE *f = fopen("tests/robustness/small_scenes.txt", "r");
@@ -72,9 +73,9 @@ static int list_read(struct small_scene *list)
     return n;
 }
 
-/* ---- what a scene has -------------------------------------------------------------------------------------------- */
+/* ---- content of a scene ------------------------------------------------------------------------------------------ */
 
-/* The words of key k that are features, as a|b|c; "": none. */
+/* Returns the words of key k that are features, as a|b|c; "" if there are none. */
 static const char *words_of(const struct key *k)
 {
     if (k->type == KEY_FLAG) return "true|false";
@@ -94,7 +95,7 @@ static void word_seen(const struct key *k, const char *word)
 
 static void group_walk(const struct node *n, const char *group);
 
-/* The group that the keys below key k belong to. */
+/* Returns the group to which the keys below key k belong. */
 static const char *group_below(const struct key *k)
 {
     if (k->type == KEY_REGION || (k->words && strncmp(k->words, "solid", 5) == 0)) return "solid";
@@ -116,7 +117,7 @@ static void key_walk(const struct key *k, const struct node *n)
         group_walk(n, group_below(k));
 }
 
-/* Notes the keys of a group that a node has; a word in a list stands for a kind, as of probes. */
+/* Records the keys of a group in a node; a word in a list stands for a kind, as for probes. */
 static void group_walk(const struct node *n, const char *group)
 {
     if (n->kind == NODE_LIST)
@@ -131,7 +132,7 @@ static void group_walk(const struct node *n, const char *group)
         }
 }
 
-/* Is the group of key k in force in the scene at hand, so that its default is what a missing key means? */
+/* Returns true if the group of key k applies to the current scene, so that a missing key has its default. */
 static bool group_is_here(const struct key *k)
 {
     char group[64];
@@ -144,7 +145,7 @@ static bool group_is_here(const struct key *k)
     return false;
 }
 
-/* Notes what stands in a scene, once its includes and settings are in place, and the words that its silence means. */
+/* Records the keys of a scene after its includes and settings, and the words of the defaults of missing keys. */
 static void scene_note(const struct small_scene *small)
 {
     char *text = NULL;
@@ -233,7 +234,7 @@ static int options_of(const struct command *c, char option[WORDS_MOST][32])
     return n;
 }
 
-/* Is there a line that calls the command, with this option if it is not ""? */
+/* Returns true if there is a line that calls the command, with this option unless it is "". */
 static bool is_called(const struct command *c, const char *option)
 {
     FILE *f = fopen("tests/robustness/small_commands.txt", "r");
@@ -248,7 +249,7 @@ static bool is_called(const struct command *c, const char *option)
     return found;
 }
 
-/* Every command, and every option of its usage but those of benches, which measure for minutes. */
+/* Every command and every option of its usage is called, except those of benches, which take minutes. */
 static void every_command_and_option_is_called(void **state)
 {
     (void)state;

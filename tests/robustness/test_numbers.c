@@ -1,5 +1,5 @@
-/* Every number of a frame is finite. `test_numbers FILE...` looks through frames, as
- * tests/support/summary.sh does with those of all scripts; without a file it looks whether it finds what it should. */
+/* All numbers of frames are finite. `test_numbers FILE...` checks frames, as tests/support/summary.sh does with those
+ * of all scripts; without a file it tests its own detection. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include <cmocka.h>
 #include <hdf5.h>
 
-/* Numbers of a list that are none. */
+/* Returns the number of values in a list that are not finite. */
 static hsize_t count_bad(const double *value, hsize_t n)
 {
     hsize_t bad = 0;
@@ -20,7 +20,7 @@ static hsize_t count_bad(const double *value, hsize_t n)
     return bad;
 }
 
-/* Reads all numbers of a list; NULL: it holds no real numbers. */
+/* Reads all values of a dataset, allocated; NULL if it has no real numbers. */
 static double *numbers_of(hid_t list, hsize_t *n)
 {
     const hid_t type = H5Dget_type(list), space = H5Dget_space(list);
@@ -58,7 +58,7 @@ static herr_t sync_near(hid_t file, const char *name, const H5O_info_t *info, vo
     return 0;
 }
 
-/* What is found in a file; a file that is none of HDF5 has nothing. */
+/* Counts the bad values of a file; a file that is not HDF5 has none. */
 static struct search look_through(const char *path)
 {
     struct search s = {.file = path};

@@ -1,4 +1,4 @@
-/* Folders of files, for tests that leave some: removed with all in them. */
+/* Removes folders with all files, for tests that create some. */
 #ifndef CLEAVE_TESTS_TREES
 #define CLEAVE_TESTS_TREES
 

@@ -1,4 +1,5 @@
-/* Small bodies set by hand, a notched plate, and archives in memory, for what watches a run. */
+/* Small bodies with positions set by hand, a notched plate, and archives in memory, for tests of crack tips and other
+ * observers. */
 #ifndef CLEAVE_TESTS_BODIES
 #define CLEAVE_TESTS_BODIES
 
@@ -11,17 +12,19 @@
 #include "near.h"
 #include "fracture/tips.h"
 
-/* Sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
+/* Tolerance of sums of a few hundred terms of order one: their round-off is below a hundred times 2^-53. */
 #define ROUND_OFF 1e-13
-#define BODY_MASS 1.7 /* of a particle [kg] */
+#define BODY_MASS 1.7 /* mass of a particle [kg] */
 
 /* ---- a lattice of spacing 1 m, particles at half-integers -------------------------------------------------------- */
 
+/* A lattice body and its cells. */
 struct body {
     struct particles p;
     struct cells c;
 };
 
+/* Creates a lattice of count[dim] particles with spacing 1 m. */
 static inline void body_make(struct body *b, int dim, const int *count)
 {
     int64_t n = 1;
@@ -42,6 +45,7 @@ static inline void body_free(struct body *b)
     particles_free(&b->p);
 }
 
+/* Returns the particle at a position, which must exist. */
 static inline int64_t particle_at(const struct body *b, real x, real y, real z)
 {
     const real X[DIM_MAX] = {x, y, z};
@@ -54,7 +58,7 @@ static inline int64_t particle_at(const struct body *b, real x, real y, real z)
     return -1;
 }
 
-/* Peridynamic particles alone lose bonds. */
+/* Damages the particle at a position and makes it peridynamic, since only peridynamic particles lose bonds. */
 static inline void hurt(struct body *b, real x, real y, real z)
 {
     const int64_t i = particle_at(b, x, y, z);
@@ -65,6 +69,8 @@ static inline void hurt(struct body *b, real x, real y, real z)
 /* ---- archives in memory ------------------------------------------------------------------------------------------ */
 
 enum { ENTRIES = 64 };
+
+/* An archive in memory. */
 struct store {
     int n;
     struct {
@@ -74,6 +80,7 @@ struct store {
     } entry[ENTRIES];
 };
 
+/* Saves or restores an entry; the archive function of a store. */
 static inline status store_exchange(struct archive *a, const char *name, void *data, size_t size)
 {
     struct store *s = a->file;
@@ -97,7 +104,8 @@ static inline void store_free(struct store *s)
     for (int k = 0; k < s->n; k++) free(s->entry[k].data);
 }
 
-/* A plate of 40 x 20 with a pre-crack from the left edge to (10, 10.5), along a row of particles. */
+/* Creates a plate of 40 x 20 particles with a pre-crack along a row of particles, from the left edge to (10, 10.5), and
+ * its tips. window: of the crack speed [s]. */
 static inline void notched_make(struct body *b, struct tips *t, real window)
 {
     body_make(b, 2, (const int[]){40, 20});

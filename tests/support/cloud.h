@@ -1,4 +1,4 @@
-/* Small bodies made by hand for tests: a lattice, shaken if wanted, with its family, cells and bonds. */
+/* Small bodies for tests of kernels: a regular or irregular lattice with its family, cells and bonds. */
 #ifndef CLEAVE_TESTS_CLOUD
 #define CLEAVE_TESTS_CLOUD
 
@@ -13,14 +13,14 @@
 enum { CLOUD_MATERIALS = 2 };
 #define CLOUD_SPACING 1e-3 /* [m] */
 
-/* What to make. Zeros are a regular lattice with whole volumes, calibrated on the lattice. */
+/* Parameters of a body. Zeros stand for a regular lattice with whole volumes, calibrated on the lattice. */
 struct cloud_plan {
     enum space space;
-    int count[DIM_MAX]; /* particles per direction; 0 is 1                      */
-    real horizon;       /* in spacings                                          */
-    real shake;         /* largest displacement in spacings; volumes vary as much */
+    int count[DIM_MAX]; /* particles per direction; 0 means 1 */
+    real horizon;       /* [spacings] */
+    real shake;         /* largest displacement [spacings]; volumes vary by the same factor */
     uint64_t seed;
-    int optional; /* WITH_* arrays                                        */
+    int optional; /* bit set of WITH_* arrays */
     enum volume_rule volume;
     enum calibration calibration;
     enum surface_rule surface;
@@ -28,11 +28,14 @@ struct cloud_plan {
     enum influence influence;
 };
 
+/* A body; its arrays are owned. */
 struct cloud {
     struct particles p;
     struct material material[CLOUD_MATERIALS];
     real limit[CLOUD_MATERIALS * CLOUD_MATERIALS];
-    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS]; /* never, 0 */
+    real yield[CLOUD_MATERIALS * CLOUD_MATERIALS], hardening[CLOUD_MATERIALS * CLOUD_MATERIALS]; /* yield stretch
+                                                                                                  * infinite,
+                                                                                                  * hardening 0 */
     struct cells cells;
     struct bond_source source;
     struct bonds bonds;
@@ -40,13 +43,15 @@ struct cloud {
     struct surface_weights surface;
 };
 
-/* Uniform in [0, 1); a linear congruence is random enough for shaking particles, and the same everywhere. */
+/* Returns a pseudo-random number, uniform in [0, 1) and equal on all machines, from a linear congruential generator,
+ * which suffices to perturb particles. */
 static inline real cloud_random(uint64_t *seed)
 {
     *seed = *seed * 6364136223846793005u + 1442695040888963407u;
     return (real)(*seed >> 11) * 0x1p-53;
 }
 
+/* Returns a pseudo-random number between low and high. */
 static inline real cloud_between(uint64_t *seed, real low, real high)
 {
     return low + (high - low) * cloud_random(seed);
@@ -65,7 +70,7 @@ static inline void cloud_materials(struct cloud *c, enum space space)
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
 
-/* All peridynamic, one body, material 0, at rest in the reference position. */
+/* Creates the particles: peridynamic, one body, material 0, at rest in the reference position. */
 static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
 {
     static const real section[DIM_MAX + 1] = {0, 4e-6, 2e-3, 1};
@@ -101,7 +106,7 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
     particles_list(p);
 }
 
-/* Places that are exact numbers, as fill.c makes them; not of a shaken cloud. */
+/* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
 static inline void cloud_exact(struct cloud *c)
 {
     const real half = nearbyint(0.5 * CLOUD_SPACING * 0x1p50) * 0x1p-50;
@@ -109,14 +114,14 @@ static inline void cloud_exact(struct cloud *c)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = c->p.X[d][i] = half * nearbyint(c->p.X[d][i] / half);
 }
 
-/* All bonds where they are stored. */
+/* Stores all bonds explicitly. */
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
         if (b->implicit[g]) row_block_expand(b, g);
 }
 
-/* What bonds are made from, once kinds, bodies and materials are set. */
+/* Sets the source of bonds. Call after kinds, bodies and materials are set. */
 static inline void cloud_source(struct cloud *c)
 {
     struct bond_source *s = &c->source;
@@ -135,13 +140,14 @@ static inline void cloud_source(struct cloud *c)
     s->neighbour_volume = c->neighbour_volume;
 }
 
+/* Creates the bonds. */
 static inline void cloud_bonds(struct cloud *c)
 {
     cloud_source(c);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* x = X + strain X. */
+/* Sets x = X + strain X. */
 static inline void cloud_strain(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     struct particles *p = &c->p;
@@ -162,7 +168,7 @@ static inline void cloud_free(struct cloud *c)
     memset(c, 0, sizeof *c);
 }
 
-/* A copy with arrays of its own. */
+/* Copies the particles into arrays of their own. */
 static inline void cloud_copy(struct particles *to, const struct particles *from, int optional)
 {
     particles_make(to, from->dim, from->n, optional);
@@ -174,7 +180,7 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
     particles_list(to);
 }
 
-/* Largest difference of two arrays over the largest entry of the second. */
+/* Returns the largest difference of two arrays over the largest magnitude in the second. */
 static inline real cloud_difference(const real *a, const real *b, int64_t n)
 {
     real difference = 0, largest = 0;

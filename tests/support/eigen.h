@@ -1,6 +1,6 @@
-/* Eigenvalues of small dense matrices, for tests: symmetric ones by Householder's reduction and QL (tred1,
- * tql1), any others by Hessenberg's form and QR (elmhes, hqr), after Wilkinson & Reinsch 1971. Matrices are row
- * major and are overwritten. */
+/* Eigenvalues of small dense matrices, for tests: symmetric matrices by Householder reduction and QL (tred1, tql1),
+ * others by Hessenberg form and QR (elmhes, hqr), after Wilkinson & Reinsch 1971. Matrices are row major and are
+ * overwritten. */
 #ifndef CLEAVE_TESTS_EIGEN
 #define CLEAVE_TESTS_EIGEN
 
@@ -12,7 +12,8 @@
 
 /* ---- symmetric --------------------------------------------------------------------------------------------------- */
 
-/* Row i of a symmetric matrix, of which the lower half is kept, loses all but one entry beside its diagonal. */
+/* Eliminates all but one off-diagonal entry of row i of a symmetric matrix, of which the lower half is stored. d, e:
+ * diagonal and off-diagonal. */
 static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real *e)
 {
     real *row = a + i * n, scale = 0, h = 0, f = 0;
@@ -37,7 +38,7 @@ static inline void eigen_reduce_row(real *a, int64_t n, int64_t i, real *d, real
         for (int64_t k = 0; k <= j; k++) a[j * n + k] -= row[j] * d[k] + d[j] * row[k];
 }
 
-/* One sweep of implicit QL from m down to l. */
+/* Performs one implicit QL sweep from m to l. */
 static inline void eigen_sweep(real *d, real *e, int64_t l, int64_t m)
 {
     real g = (d[l + 1] - d[l]) / (2 * e[l]), r = hypot(g, 1), s = 1, c = 1, p = 0;
@@ -67,7 +68,7 @@ static inline int eigen_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* All eigenvalues of a symmetric matrix into d [n], ascending; e [n] is scratch. */
+/* Computes all eigenvalues of a symmetric matrix in ascending order in d[n]; e[n] is scratch. */
 static inline void eigen_symmetric(real *a, int64_t n, real *d, real *e)
 {
     for (int64_t i = n - 1; i >= 0; i--) eigen_reduce_row(a, n, i, d, e);
@@ -84,9 +85,9 @@ static inline void eigen_symmetric(real *a, int64_t n, real *d, real *e)
     qsort(d, (size_t)n, sizeof *d, eigen_ascending);
 }
 
-/* ---- any other --------------------------------------------------------------------------------------------------- */
+/* ---- general ----------------------------------------------------------------------------------------------------- */
 
-/* Similar to it, and 0 below the first diagonal under the main one. */
+/* Transforms a matrix to Hessenberg form by similarity: zero below the first subdiagonal. */
 static inline void eigen_hessenberg(real *a, int64_t n)
 {
     for (int64_t m = 1; m < n - 1; m++) {
@@ -113,7 +114,7 @@ static inline void eigen_hessenberg(real *a, int64_t n)
     }
 }
 
-/* The double step of QR on rows l .. high, started by p, q, r at row m. */
+/* Performs the double QR step on rows l .. high, started by p, q, r at row m. */
 static inline void eigen_double_step(real *a, int64_t n, int64_t l, int64_t m, int64_t high, real p, real q, real r)
 {
     for (int64_t k = m; k < high; k++) {
@@ -149,7 +150,8 @@ static inline void eigen_double_step(real *a, int64_t n, int64_t l, int64_t m, i
     }
 }
 
-/* Where a double step on l .. high starts: two small entries under the diagonal in a row. */
+/* Finds the row at which a double step on l .. high starts, where two consecutive subdiagonal entries are small, and
+ * performs it. */
 static inline void eigen_start(real *a, int64_t n, int64_t l, int64_t high, real x, real y, real w)
 {
     int64_t m;
@@ -173,8 +175,8 @@ static inline void eigen_start(real *a, int64_t n, int64_t l, int64_t high, real
     eigen_double_step(a, n, l, m, high, p, q, r);
 }
 
-/* Largest |imaginary part| of the eigenvalues of any matrix, and in `real_least` the least real part; NAN where it
- * does not converge. */
+/* Returns the largest magnitude of the imaginary parts of the eigenvalues and stores the least real part in
+ * *real_least; NAN without convergence. */
 static inline real eigen_imaginary(real *a, int64_t n, real *real_least)
 {
     real most = 0, shift = 0, norm = 0;

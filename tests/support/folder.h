@@ -1,4 +1,4 @@
-/* A folder of a test's own, in which its tests run. Those who include this file pass folder_enter and folder_leave to
+/* A temporary folder in which the tests of a program run. Pass folder_enter and folder_leave to
  * cmocka_run_group_tests. */
 #ifndef CLEAVE_TESTS_FOLDER
 #define CLEAVE_TESTS_FOLDER
@@ -8,14 +8,14 @@
 
 static char folder[] = "/tmp/cleave-test-XXXXXX";
 
-/* Makes the folder and enters it. Returns 0 if that went well. */
+/* Creates the folder and enters it. Returns 0 on success. */
 static inline int folder_enter(void **state)
 {
     (void)state;
     return mkdtemp(folder) == NULL || chdir(folder) != 0;
 }
 
-/* Leaves the folder and removes it with a scene.yaml. Returns 0 if tests have left nothing else in it. */
+/* Leaves the folder and removes it with its scene.yaml. Returns 0 if tests have left nothing else in it. */
 static inline int folder_leave(void **state)
 {
     (void)state;

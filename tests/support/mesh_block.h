@@ -1,4 +1,5 @@
-/* A block of points in the reference frame for tests of its mesh, and the plain twin of its energy. */
+/* A block of points in the reference frame for tests of its mesh, and a plain reference implementation of its
+ * energy. */
 #ifndef CLEAVE_TESTS_MESH_BLOCK
 #define CLEAVE_TESTS_MESH_BLOCK
 
@@ -11,7 +12,7 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A block of points with a hole in one corner, so that it has whole and partial cells. */
+/* A block of points with a hole in one corner, so that it has complete and partial cells. */
 struct block {
     struct cloud c;
     struct mesh mesh;
@@ -19,6 +20,7 @@ struct block {
     struct mesh_source source;
 };
 
+/* Creates a block. hole: peridynamic corner; cubic: lower c12, an anisotropic material. */
 static void block_make_with(struct block *b, enum space space, bool hole, bool cubic, int optional)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {27, 0, 0}, {23, 12, 0}, {21, 6, 6}};
@@ -60,7 +62,7 @@ static void block_free(struct block *b)
     cloud_free(&b->c);
 }
 
-/* Displacement of every node that has mass. */
+/* Sets random displacements of at most `by` spacings at every node with mass. */
 static void shake(struct block *b, real by, uint64_t seed)
 {
     for (int64_t I = 0; I < b->mesh.grid.n; I++)
@@ -73,7 +75,7 @@ static real node_place(const struct mesh *mesh, int64_t I, int d)
     return grid_position(&mesh->grid, d, mesh_base(mesh, I) / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-/* u = (R - 1) X by an angle about z, then stretched along x. */
+/* Sets u = (R - 1) X, with R a rotation by `angle` about z after an extension along x by `stretch`. */
 static inline void rotation(struct block *b, real angle, real stretch)
 {
     const int dim = b->c.p.dim;
@@ -88,7 +90,7 @@ static inline void rotation(struct block *b, real angle, real stretch)
     }
 }
 
-/* ---- plain twin: energy point by point --------------------------------------------------------------------------- */
+/* ---- reference implementation: energy point by point ------------------------------------------------------------- */
 
 static real point_energy(const struct block *b, int64_t i, bool finite)
 {
@@ -101,7 +103,7 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
         for (int k = 0; k < dim; k++) {
             F[a * dim + k] = mean[a * dim + k] = a == k;
             for (int c = 0; c < 1 << dim; c++) {
-                real slope = 1, flat = 1; /* of the hat functions at the point, at the cell's centre */
+                real slope = 1, flat = 1; /* derivative of the hat functions at the point, at the cell's centre */
                 for (int d = 0; d < dim; d++) {
                     const real xi = place >> d & 1 ? 0.75 : 0.25, sign = c >> d & 1 ? 1 : -1;
                     slope *= d == k ? sign : c >> d & 1 ? xi : 1 - xi;
@@ -147,7 +149,7 @@ static real largest_force(const struct block *b)
     return most;
 }
 
-/* Partial stress of every point: any symmetric T up to `most` of the shear modulus, M = T C^-1. */
+/* Sets the partial stress of every point: a random symmetric T up to `most` times Young's modulus, M = T C^-1. */
 static inline void partial_of(struct partial_stress *partial, const struct particles *p,
                               const struct material *material, real most)
 {

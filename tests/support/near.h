@@ -1,4 +1,4 @@
-/* The few assertions that cmocka lacks: numbers with a tolerance, and statuses with their message. */
+/* Assertions that cmocka lacks: numbers with a tolerance, and statuses with their message. */
 #ifndef CLEAVE_TESTS_NEAR
 #define CLEAVE_TESTS_NEAR
 
@@ -14,7 +14,7 @@
 
 #include "base/base.h"
 
-/* |a - b| <= tolerance; infinities equal themselves, NAN nothing. */
+/* Fails unless |a - b| <= tolerance. Infinities equal themselves; NAN equals nothing. */
 static inline void near_check(double a, double b, double tolerance, const char *what, const char *file, int line)
 {
     if (a == b || fabs(a - b) <= tolerance) return;
@@ -22,6 +22,7 @@ static inline void near_check(double a, double b, double tolerance, const char *
     _fail(file, line);
 }
 
+/* Fails unless the status is as wanted and its message contains `part`. */
 static inline void status_check(status got, status wanted, const char *part, const char *file, int line)
 {
     if (got == wanted && (wanted == OK || part == NULL || strstr(status_message(), part) != NULL)) return;
@@ -31,11 +32,11 @@ static inline void status_check(status got, status wanted, const char *part, con
 }
 
 #define assert_near(a, b, tolerance) near_check(a, b, tolerance, #a, __FILE__, __LINE__)
-/* Relative to b. */
+/* Asserts |a - b| <= share |b|. */
 #define assert_close(a, b, share) near_check(a, b, fabs((double)(b)) * (share), #a, __FILE__, __LINE__)
 #define assert_exact(a, b) near_check(a, b, 0, #a, __FILE__, __LINE__)
 #define assert_ok(call) status_check(call, OK, NULL, __FILE__, __LINE__)
-/* REFUSED or FAILED, with a message that holds `part`. */
+/* Asserts REFUSED or FAILED with a message that contains `part`. */
 #define assert_refused(call, part) status_check(call, REFUSED, part, __FILE__, __LINE__)
 #define assert_failed(call, part) status_check(call, FAILED, part, __FILE__, __LINE__)
 

@@ -1,6 +1,6 @@
-/* The linearised operator of small bodies: the stiffness K of their internal forces by differences, through
- * the engine. Unknowns are the displacements of peridynamic particles and of the nodes of the reference frame's mesh
- * that nothing holds. */
+/* Linearised operator of small bodies: the stiffness matrix K of their internal forces, by finite differences of the
+ * engine's forces. Unknowns are the displacements of peridynamic particles and of unconstrained nodes of the mesh in
+ * the reference frame. */
 #ifndef CLEAVE_TESTS_OPERATOR
 #define CLEAVE_TESTS_OPERATOR
 
@@ -12,38 +12,44 @@
 #include "mesh/mesh_part.h"
 #include "step/step.h"
 
-/* Component d of particle `at`, or of a node of the mesh. */
+/* An unknown: component d of a particle or of a node of the mesh. */
 struct unknown {
     bool node;
     int32_t at;
     int d;
 };
 
+/* The operator and its run. */
 struct operator
 {
     struct run e;
     struct scene s;
     int64_t n;
     struct unknown *unknown; /* [n] */
-    real *mass;              /* [n] by unknown, with that of a node beyond a plane that follows it [kg] */
-    real *K;                 /* [n][n] force on a row's unknown over -displacement of a column's [N/m] */
+    real *mass;              /* [n] mass of each unknown, including that of a node beyond a symmetry plane that
+                              * follows it [kg] */
+    real *K;                 /* [n][n] minus the force on a row's unknown over the displacement of a column's unknown
+                              * [N/m] */
 };
 
-/* What is known of it. Eigenvalues of M^-1/2 K M^-1/2, of the symmetric part but for the imaginary ones. */
+/* Properties of the operator: eigenvalues of the symmetric part of M^-1/2 K M^-1/2, except for `imaginary`. */
 struct spectrum {
     real asymmetry;       /* max |K - K^T| over max |K| */
     real lowest, highest; /* [1/s^2] */
-    int64_t zeros;        /* eigenvalues below OPERATOR_ZERO of the highest */
-    real energy;          /* |energy that the energy balance has/(1/2 u K u) - 1| of a body shaken at random */
-    real imaginary;       /* largest |Im| of an eigenvalue of M^-1 K over the highest; NAN: not computed  */
+    int64_t zeros;        /* number of eigenvalues below OPERATOR_ZERO times the highest */
+    real energy;          /* |E/(1/2 u K u) - 1| for random displacements, with E of the energy balance */
+    real imaginary;       /* largest imaginary part of the eigenvalues of M^-1 K over the highest; NAN: not computed */
 };
 #define OPERATOR_ZERO 1e-9
-#define OPERATOR_SHAKE 1e-6 /* displacement [spacings]: terms of third order are as much of the energy */
-#define OPERATOR_STEP 2e-4  /* displacement [spacings]: four-point differences are off by 1e-14, round-off by 1e-11 */
+/* displacement [spacings]: terms of third order contribute this relative error of the energy */
+#define OPERATOR_SHAKE 1e-6
+/* displacement [spacings]: four-point differences have an error of 1e-14, round-off causes 1e-11 */
+#define OPERATOR_STEP 2e-4
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Components of particles that a driven region holds, and of nodes that walls hold or that follow others. */
+/* Returns bit sets of the components of particles that loads drive, or of nodes that walls hold or that follow
+ * others. */
 static inline uint8_t *operator_held(struct run *e, bool node)
 {
     const int64_t n = node ? e->frame->mesh.grid.n : e->part.n;
@@ -104,7 +110,8 @@ static inline void operator_place(struct operator* o, struct unknown q, real u)
         e->part.x[q.d][q.at] = e->part.X[q.d][q.at] + u;
 }
 
-/* Nodes beyond planes of symmetry follow their images, which take the forces on them: as mesh_move has it. */
+/* Computes the forces on the unknowns. Nodes beyond symmetry planes follow their images, to which their forces are
+ * added, as in mesh_move. */
 static inline void operator_forces(struct operator* o, real *f)
 {
     struct run *e = &o->e;
@@ -125,7 +132,7 @@ static inline void operator_forces(struct operator* o, real *f)
     }
 }
 
-/* Column by column: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h. */
+/* Computes K column by column: -df/du = (8 (f(-h) - f(h)) - (f(-2h) - f(2h)))/12 h. */
 static inline void operator_fill(struct operator* o)
 {
     const real h = OPERATOR_STEP * o->s.spacing;
@@ -144,8 +151,9 @@ static inline void operator_fill(struct operator* o)
     memory_free(f);
 }
 
-/* ---- the whole --------------------------------------------------------------------------------------------------- */
+/* ---- whole operator ---------------------------------------------------------------------------------------------- */
 
+/* Creates the run of a case and its operator. */
 static inline status operator_make(struct operator* o, const struct stability_case *c)
 {
     char text[4096];
@@ -165,7 +173,7 @@ static inline void operator_free(struct operator* o)
     bench_engine_free(&o->e, &o->s);
 }
 
-/* The energy balance's energy of bonds and cells beside half u K u. */
+/* Compares the energy of bonds and cells in the energy balance with 1/2 u K u; returns the relative difference. */
 static inline real operator_energy(struct operator* o)
 {
     struct run *e = &o->e;
@@ -185,6 +193,7 @@ static inline real operator_energy(struct operator* o)
     return fabs(W / half - 1);
 }
 
+/* Computes the properties of the operator. */
 static inline struct spectrum operator_spectrum(struct operator* o, bool imaginary)
 {
     const int64_t n = o->n;
@@ -209,8 +218,8 @@ static inline struct spectrum operator_spectrum(struct operator* o, bool imagina
     return s;
 }
 
-/* One line an unknown (node or particle, its number, component, reference place [m], mass [kg]), then K row by row
- * [N/m]. */
+/* Writes the operator to a file: a line for each unknown (node or particle, index, component, reference position [m],
+ * mass [kg]), then K row by row [N/m]. */
 static inline void operator_dump(const struct operator* o, const char *path)
 {
     FILE *to = fopen(path, "w");

@@ -6,17 +6,19 @@
 #include "coupling/conversion.h"
 #include "kernels/kernels.h"
 
+/* Fails with the name of a quantity if its magnitude exceeds `most`. */
 static inline void at_most(const char *what, real value, real most)
 {
     if (!(fabs(value) <= most)) fail_msg("%s: %g is more than %g", what, value, most);
 }
 
+/* Fails with the name of a quantity unless it is within `tolerance` of `expected`. */
 static inline void is_near(const char *what, real value, real expected, real tolerance)
 {
     if (!(fabs(value - expected) <= tolerance)) fail_msg("%s: %g, not %g +- %g", what, value, expected, tolerance);
 }
 
-/* What a patch of material points, or of both kinds, gives to its nodes. */
+/* A patch of material points, or of both kinds, and its grid. */
 struct patch {
     struct cloud c;
     struct grid g;
@@ -24,7 +26,7 @@ struct patch {
     struct partial_stress partial;
 };
 
-/* Cells of `ratio` spacings; their lower corners lie `offset` spacings right of the lattice's cells in x. */
+/* Creates the grid: cells of `ratio` spacings, shifted by `offset` spacings along x relative to the lattice. */
 static inline void patch_grid(struct patch *s, real ratio, real offset)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -37,6 +39,7 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
     assert_int_equal(grid_cover(&s->g, from, to, 1000000, &changed), OK);
 }
 
+/* Maps the points to the grid. */
 static inline void patch_map(struct patch *s, enum shape shape)
 {
     struct transfer_data t = {.order = &s->order, .partial = &s->partial, .half_width = 0.5 * CLOUD_SPACING};
@@ -45,7 +48,8 @@ static inline void patch_map(struct patch *s, enum shape shape)
     p2g_table[s->g.dim][shape][TRANSFER_FLIP](&s->g, &s->c.p, &t);
 }
 
-/* Largest force of a node between from and to [spacings] in every direction; assured to be of some node. */
+/* Returns the largest force on a node between `from` and `to` [spacings] in every direction; there must be such a
+ * node. */
 static inline real patch_residual(const struct patch *s, const real *from, const real *to)
 {
     real largest = -1;

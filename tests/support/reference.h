@@ -1,5 +1,5 @@
-/* Plain twins of the bond kernels, written from the formulas and not from the kernels: all pairs, one
- * particle at a time, whole tensors, no vectors, no threads. Slow and obvious, so that they can be believed. */
+/* Reference implementation of the bond kernels, written from the formulas and not from the kernels: all pairs, one
+ * particle at a time, full tensors, no vectors, no threads. */
 #ifndef CLEAVE_TESTS_REFERENCE
 #define CLEAVE_TESTS_REFERENCE
 
@@ -18,7 +18,7 @@ static inline real reference_relative(real *const *x, int dim, int64_t i, int64_
     return sqrt(r2);
 }
 
-/* Is j in the family of i? Points at exactly the cutoff are. */
+/* Returns true if j is in the family of i, including points exactly at the cutoff. */
 static inline bool reference_bonded(const struct particles *p, const struct family *f, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], cutoff = f->horizon + (f->volume == VOLUME_RAMP ? 0.5 * f->spacing : 0);
@@ -32,7 +32,8 @@ static inline real reference_beta(const struct family *f, real r)
     return fmax(0, fmin(1, (f->horizon + 0.5 * f->spacing - r) / f->spacing));
 }
 
-/* Bonds nearer the axes and nearer the diagonals may weigh differently: sum n^4 above or below its mean 3/(D + 2). */
+/* Returns the shell weight of a bond: those near the axes and those near the diagonals have different weights,
+ * separated by sum n^4 above or below its mean 3/(D + 2). */
 static inline real reference_shell(const struct family *f, const real *xi, real r, int dim)
 {
     real fourth = 0;
@@ -40,7 +41,8 @@ static inline real reference_shell(const struct family *f, const real *xi, real 
     return f->shell_weight[fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1];
 }
 
-/* Sum of r V beta over a full family on the lattice [m^4], and c from it [N/m^6]. */
+/* Returns the sum of r V beta over a full family on the lattice [m^4], from which the micro-modulus c [N/m^6]
+ * follows. */
 static inline real reference_sigma(const struct family *f)
 {
     int dim = space_dim(f->space), reach = (int)ceil(f->horizon / f->spacing) + 1;
@@ -81,9 +83,9 @@ static inline real reference_neighbour_volume(const struct particles *p, const s
     return sum;
 }
 
-/* Weight of bond i-j: c beta lambda V_i V_j over that of a bond between lattice particles of material 0. Across a
- * material interface two half bonds in series: harmonic mean of the moduli. `volume` as above for all particles, or
- * NULL; V0 is the sum of a full family. */
+/* Returns the weight of bond i-j: c beta lambda V_i V_j over that of a bond between lattice particles of material 0. At
+ * a material interface: harmonic mean of the moduli (two half bonds in series). volume: reference_neighbour_volume of
+ * all particles, or NULL; V0 is the sum over a full family. */
 static inline real reference_weight(const struct particles *p, const struct bond_source *s, const real *volume,
                                     int64_t i, int64_t j)
 {
@@ -95,14 +97,14 @@ static inline real reference_weight(const struct particles *p, const struct bond
     return volume ? w * 2 * f->full / (volume[i] + volume[j]) : w;
 }
 
-/* ==== cracks: general position only ================================================================= */
+/* ==== cracks, in general position only =========================================================================== */
 
 static inline real reference_turn(const real *a, const real *b, const real *c)
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Six times the volume of the tetrahedron a b c d. */
+/* Returns six times the volume of the tetrahedron a b c d. */
 static inline real reference_tetrahedron(const real *a, const real *b, const real *c, const real *d)
 {
     real u[3], v[3], w[3];
@@ -110,7 +112,8 @@ static inline real reference_tetrahedron(const real *a, const real *b, const rea
     return u[0] * (v[1] * w[2] - v[2] * w[1]) - u[1] * (v[0] * w[2] - v[2] * w[0]) + u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-/* The segment a-b pierces triangle t if its ends lie on both sides and the line turns one way round all edges. */
+/* Returns true if the segment a-b intersects triangle t: its ends are on different sides, and the line has the same
+ * orientation to all edges. */
 static inline bool reference_pierced(const real *t0, const real *t1, const real *t2, const real *a, const real *b)
 {
     if ((reference_tetrahedron(t0, t1, t2, a) > 0) == (reference_tetrahedron(t0, t1, t2, b) > 0)) return false;
@@ -132,7 +135,7 @@ static inline bool reference_cut(const struct crack *c, const real *a, const rea
 
 /* ==== bonds ============================================================= */
 
-/* The stored weights as a full matrix, w[i n + j]; 0 where the bond is broken, NAN where none is stored. */
+/* Returns the stored weights as a full matrix, w[i n + j], allocated; 0 for a broken bond, NAN for none. */
 static inline real *reference_table(const struct bonds *b, const struct particles *p)
 {
     real *w = NEW("reference.w", p->n * p->n, real);
@@ -143,7 +146,7 @@ static inline real *reference_table(const struct bonds *b, const struct particle
     return w;
 }
 
-/* Bond of i to j: stretch, unit vector from i to j, reference length [m]. */
+/* Bond from i to j: stretch, reference length [m], unit vector and vector in the current configuration. */
 struct reference_bond {
     real stretch, length, n[DIM_MAX], y[DIM_MAX];
 };
@@ -158,7 +161,7 @@ static inline struct reference_bond reference_bond(const struct particles *p, in
     return q;
 }
 
-/* What one particle gets from its bonds. */
+/* Contributions of its bonds to one particle. */
 struct reference_row {
     real force[DIM_MAX], energy, stress[DIM_MAX][DIM_MAX];
 };
@@ -181,7 +184,7 @@ static inline struct reference_row reference_row(const struct particles *p, cons
 
 /* ==== partial stress ===================================================== */
 
-/* Places of the symmetric components: xx yy zz xy yz zx in 3D. */
+/* Returns the index of a symmetric component: xx yy zz xy yz zx in 3D. */
 static inline int reference_symmetric(int dim, int a, int b)
 {
     if (a == b) return a;
@@ -195,7 +198,7 @@ static inline void reference_tensor(const real *symmetric, int dim, real tensor[
         for (int b = 0; b < dim; b++) tensor[a][b] = symmetric[reference_symmetric(dim, a, b)];
 }
 
-/* Fraction of the segment between two reference positions inside the cube of q. */
+/* Returns the fraction of the segment between two reference positions inside the cube of q. */
 static inline real reference_inside(const struct particles *p, real section, int64_t m, int64_t j, int64_t q)
 {
     real edge = pow(p->volume0[q] / section, 1.0 / p->dim), from = 0, to = 1;
@@ -211,7 +214,7 @@ static inline real reference_inside(const struct particles *p, real section, int
     return fmax(0, to - from);
 }
 
-/* T_q [Pa] of material point q from every intact bond between a peridynamic particle and a material point. `w` is the
+/* Computes T_q [Pa] of material point q from every intact bond between a peridynamic particle and a material point. w:
  * table of stored weights. */
 static inline void reference_partial(const struct particles *p, const real *w, real stiffness, real section, int64_t q,
                                      real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX])
@@ -232,7 +235,7 @@ static inline void reference_partial(const struct particles *p, const real *w, r
         }
 }
 
-/* T : C^-1 sigma, with C^-1 of the isotropic law written out. */
+/* Computes T : C^-1 sigma with C^-1 of the isotropic law. */
 static inline void reference_carried(const struct material *m, int dim, real T[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX],
                                      const real *sigma, real *grid_coupled)
 {

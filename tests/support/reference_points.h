@@ -1,5 +1,5 @@
-/* Plain twins of the transfer kernels, written from the formulas of the material point method and not
- * from the kernels: every particle meets every node, one node at a time, whole tensors, no threads. */
+/* Reference implementation of the transfer kernels, written from the formulas of the material point method and not from
+ * the kernels: every particle interacts with every node, one node at a time, full tensors, no threads. */
 #ifndef CLEAVE_TESTS_REFERENCE_POINTS
 #define CLEAVE_TESTS_REFERENCE_POINTS
 
@@ -15,7 +15,7 @@ struct reference_shape {
 
 static inline real reference_tent(real r, real h) { return fmax(0, 1 - fabs(r) / h); }
 
-/* Integral of the tent from -h to r. */
+/* Returns the integral of the tent function from -h to r. */
 static inline real reference_tent_integral(real r, real h)
 {
     if (r <= -h) return 0;
@@ -23,7 +23,7 @@ static inline real reference_tent_integral(real r, real h)
     return r < 0 ? 0.5 * (h + r) * (h + r) / h : h - 0.5 * (h - r) * (h - r) / h;
 }
 
-/* N and dN/dx at distance r = x_p - x_I; GIMP is the tent averaged over the particle's width 2 l. */
+/* Returns N and dN/dx at distance r = x_p - x_I; GIMP is the tent function averaged over the particle's width 2 l. */
 static inline struct reference_shape reference_shape(enum shape shape, real r, real h, real l)
 {
     real s = fabs(r) / h, sign = r < 0 ? -1 : 1;
@@ -51,16 +51,17 @@ static inline struct reference_shape reference_shape(enum shape shape, real r, r
 
 /* ==== one step of the material point method  =================================== */
 
+/* State of a step. */
 struct reference_step {
     enum shape shape;
     enum transfer transfer;
     real half_width, dt, dt_velocity, smallest_mass;
     const struct elastic *elastic;
     const struct partial_stress *partial;
-    const uint8_t *bonded;        /* not 0: bonds meet the point; NULL: none        */
-    struct particles *p;          /* overwritten step by step                       */
-    const struct grid *g;         /* where nodes are; its values are not touched    */
-    real *value, *slope[DIM_MAX]; /* N and grad N, [n][nodes], of the old positions */
+    const uint8_t *bonded;        /* nonzero: bonds end at the point; NULL: none */
+    struct particles *p;          /* updated step by step */
+    const struct grid *g;         /* positions of nodes; its values are not used */
+    real *value, *slope[DIM_MAX]; /* N and grad N, [n][nodes], at the old positions */
     real *mass, *momentum[DIM_MAX], *force[DIM_MAX], *velocity[DIM_MAX], *change[DIM_MAX];
 };
 
@@ -72,7 +73,7 @@ static inline void reference_node_position(const struct grid *g, int64_t node, r
     }
 }
 
-/* N and grad N of every particle at every node. */
+/* Computes N and grad N of every particle at every node. */
 static inline void reference_weights(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -123,7 +124,7 @@ static inline void reference_step_free(struct reference_step *s)
     }
 }
 
-/* The stress that a point gives to the grid. */
+/* Computes the stress that a point transfers to the grid. */
 static inline void reference_given(const struct reference_step *s, int64_t i, real tensor[DIM_MAX][DIM_MAX])
 {
     int n = symmetric_count(s->p->dim);
@@ -136,7 +137,7 @@ static inline void reference_given(const struct reference_step *s, int64_t i, re
     reference_tensor(given, s->p->dim, tensor);
 }
 
-/* Mass and momentum (step 1); affine: the velocity of a point varies with its gradient. */
+/* Maps mass and momentum (step 1). APIC: the velocity of a point varies with its gradient. */
 static inline void reference_map(struct reference_step *s, bool with_mass)
 {
     const struct particles *p = s->p;
@@ -159,7 +160,7 @@ static inline void reference_map(struct reference_step *s, bool with_mass)
     }
 }
 
-/* f = -sum V sigma . grad N + sum N f (step 3). */
+/* Computes f = -sum V sigma . grad N + sum N f (step 3). */
 static inline void reference_forces(struct reference_step *s)
 {
     const struct particles *p = s->p;
@@ -176,7 +177,8 @@ static inline void reference_forces(struct reference_step *s)
     }
 }
 
-/* End of step 3: what nodes move with; nodes lighter than the smallest mass rest. */
+/* Computes the velocities with which nodes move, at the end of step 3; nodes lighter than the smallest mass do not
+ * move. */
 static inline void reference_move(struct reference_step *s)
 {
     for (int64_t I = 0; I < s->g->n; I++)
@@ -194,8 +196,8 @@ static inline real reference_at(const struct reference_step *s, const real *weig
     return sum;
 }
 
-/* Steps 4 to 6 of FLIP: velocities of points, then the second map with the old weights; after it `momentum` holds its
- * velocity. */
+/* Performs steps 4 to 6 of FLIP: velocities of points, then the second map with the old weights; `momentum` holds its
+ * velocity afterwards. */
 static inline void reference_remap(struct reference_step *s)
 {
     for (int64_t i = 0; i < s->p->n; i++)
@@ -217,8 +219,8 @@ static inline void reference_product(real a[DIM_MAX][DIM_MAX], real b[DIM_MAX][D
         }
 }
 
-/* sigma + W s - s W, s the stress of before below 3e-5 rad, half-way up to 1e-3 rad; beyond R sigma R^T with R = exp
- * W, summed as its power series. */
+/* Rotates the stress: sigma + W s - s W, with s the previous stress for angles below 3e-5 rad and the half-rotated
+ * stress up to 1e-3 rad; beyond, R sigma R^T with R = exp W from its power series. */
 static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX][DIM_MAX], int dim)
 {
     real a[DIM_MAX][DIM_MAX], b[DIM_MAX][DIM_MAX], R[DIM_MAX][DIM_MAX] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, angle2 = 0;
@@ -247,8 +249,8 @@ static inline void reference_rotate(real sigma[DIM_MAX][DIM_MAX], real W[DIM_MAX
     memcpy(sigma, b, sizeof b);
 }
 
-/* Step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume, axial
- * stretch. */
+/* Performs step 7 of one point: rotation with the spin (Jaumann), Hooke's law on the strain sym(L) dt - W W/2, volume,
+ * axial stretch. */
 static inline void reference_stress(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
 {
     struct particles *p = s->p;
@@ -271,8 +273,8 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
-/* Positions with the nodal velocity or, where bonds meet a point, that of the second map; gradient from the second
- * map (FLIP) or the nodal velocity itself (APIC). */
+/* Updates positions with the nodal velocity or, if bonds end at a point, with that of the second map; computes the
+ * gradient from the second map (FLIP) or the nodal velocity (APIC). */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
@@ -296,7 +298,7 @@ static inline void reference_gather(struct reference_step *s)
     }
 }
 
-/* Largest principal stress: the largest n . sigma . n, by Jacobi rotations of the tensor. */
+/* Returns the largest principal stress, by Jacobi rotations of the tensor. */
 static inline real reference_principal(const real *symmetric, int dim)
 {
     real t[DIM_MAX][DIM_MAX], largest = -INFINITY;

@@ -1,11 +1,11 @@
-/* Two bodies of particles, to the last bit. */
+/* Bitwise comparison of two sets of particles. */
 #ifndef CLEAVE_TESTS_SAME
 #define CLEAVE_TESTS_SAME
 
 #include "near.h"
 #include "data/particles.h"
 
-/* Every array that both have; `optional` is a sum of WITH_*. */
+/* Asserts that all arrays of both are bitwise equal. optional: sum of WITH_*. */
 static inline void assert_same_particles(const struct particles *a, const struct particles *b, int optional)
 {
     assert_int_equal(a->n, b->n);

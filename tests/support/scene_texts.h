@@ -1,4 +1,4 @@
-/* Scenes that hold every key between them, and their reading, for tests of scenes. */
+/* Scenes that together contain every key, for tests of the scene reader. */
 #ifndef CLEAVE_TESTS_SCENE_TEXTS
 #define CLEAVE_TESTS_SCENE_TEXTS
 
@@ -136,6 +136,7 @@ static const char grown[] =
     "  - growth\n"
     "  - growth: {name: ruled, of: growth1, experiment: 70}\n";
 
+/* Reads a scene that must be valid, with n overrides. */
 static struct scene read_ok(const char *text, const struct scene_override *o, int n)
 {
     struct scene s;

@@ -1,4 +1,4 @@
-/* A scene as text, with overrides. */
+/* Reads a scene from a text with overrides. */
 #ifndef CLEAVE_TESTS_SCENE_WITH
 #define CLEAVE_TESTS_SCENE_WITH
 
@@ -8,7 +8,7 @@
 
 #include "scene/scene_read.h"
 
-/* Reads it with the overrides `key=value` of the list, up to NULL. */
+/* Reads the scene with the overrides `key=value` of the list, which ends with NULL. */
 static inline status scene_with(struct scene *s, const char *text, va_list list)
 {
     enum { MOST = 16 };

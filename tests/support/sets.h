@@ -1,4 +1,4 @@
-/* Every set of kernels that this processor can run, for tests of kernels:  FOR_EVERY_SET failures += ...; */
+/* Loop over the kernel sets that this processor can run:  FOR_EVERY_SET failures += ...; */
 #ifndef CLEAVE_TESTS_SETS
 #define CLEAVE_TESTS_SETS
 
@@ -6,7 +6,7 @@
 
 #include "simd/simd.h"
 
-/* Takes the next set that runs here; NULL at the end. Says which ones do not. */
+/* Selects the next set that this processor can run; returns NULL at the end. Prints which sets are skipped. */
 static inline const struct simd_set *sets_next(const struct simd_set *set)
 {
     for (; set < simd_sets + simd_set_count; set++) {

@@ -1,4 +1,4 @@
-/* A small scene made by hand: the ground that tests of filling stand on. */
+/* A small scene made by hand, for tests of the filling of bodies. */
 #ifndef CLEAVE_TESTS_SETTING
 #define CLEAVE_TESTS_SETTING
 
@@ -8,7 +8,7 @@
 
 enum { EVERYTHING = WITH_EVERYTHING, SOLIDS = 3, BODIES = 2, INITIALS = 3 };
 
-/* A scene with its parts in one place. */
+/* A scene with the parts that it refers to. */
 struct setting {
     struct scene scene;
     struct material material[2];
@@ -17,7 +17,7 @@ struct setting {
     struct scene_initial initial[INITIALS];
 };
 
-/* Two materials, one body that is the box 0 .. `edge`, spacing 0.5. */
+/* Initialises a scene with two materials and one body, the box 0 .. edge, at spacing 0.5. */
 static inline void setting_make(struct setting *s, enum space space, const real *edge)
 {
     static const char *const name[BODIES] = {"plate", "layer"};

@@ -1,4 +1,4 @@
-/* Runs of scenes as text with overrides, and what their particles do. */
+/* Runs of scenes given as text with overrides, and the displacements of their particles. */
 #ifndef CLEAVE_TESTS_SOLUTION
 #define CLEAVE_TESTS_SOLUTION
 
@@ -12,13 +12,14 @@
 #include "scene/scene_read.h"
 #include "tests/support/scene_with.h"
 
+/* A scene, its run, and the status of both. */
 struct solution {
     struct scene s;
     struct run e;
     status made, ran;
 };
 
-/* Makes a run of a scene with the overrides `key=value`, up to NULL. */
+/* Creates a run of a scene with the overrides `key=value` of the list, which ends with NULL. */
 static inline void solution_make_list(struct solution *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -28,6 +29,7 @@ static inline void solution_make_list(struct solution *a, const char *text, va_l
     a->ran = a->made;
 }
 
+/* Creates a run of a scene with the overrides `key=value`, which end with NULL. */
 static inline void solution_make(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -36,7 +38,7 @@ static inline void solution_make(struct solution *a, const char *text, ...)
     va_end(list);
 }
 
-/* The same, to its end. */
+/* Creates a run as solution_make does, and runs it to its end. */
 static inline void solution_run(struct solution *a, const char *text, ...)
 {
     va_list list;
@@ -46,6 +48,7 @@ static inline void solution_run(struct solution *a, const char *text, ...)
     if (a->made == OK) a->ran = engine_run(&a->e);
 }
 
+/* Fails with the message unless the run reached its end. */
 static inline void solution_done(const struct solution *a)
 {
     if (a->ran != OK) fail_msg("%s", status_message());
@@ -57,25 +60,27 @@ static inline void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
+/* Fails with the name of a quantity unless its relative error is within `tolerance`. */
 static inline void near_to(const char *what, real value, real expected, real tolerance)
 {
     if (!(fabs(value - expected) <= tolerance * fabs(expected)))
         fail_msg("%s: %.9g where %.9g +- %.2g is expected", what, value, expected, tolerance * fabs(expected));
 }
 
-/* The particle nearest to a place. */
+/* Returns the particle nearest to a position. */
 static inline int64_t solution_at(const struct solution *a, real x, real y, real z)
 {
     return particles_nearest(&a->e.part, (const real[DIM_MAX]){x, y, z});
 }
 
+/* Returns component d of the displacement of the particle nearest to a position [m]. */
 static inline real solution_moved(const struct solution *a, int d, real x, real y, real z)
 {
     const int64_t i = solution_at(a, x, y, z);
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Largest difference of two solutions over the largest displacement, at the particles of the second. */
+/* Returns the largest difference of two solutions over the largest displacement, at the particles of the second. */
 static inline real solution_difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
