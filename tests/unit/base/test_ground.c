@@ -1,4 +1,4 @@
-/* Tests of the ground: status, no memory, team, regions, functions of time, cracks, materials. */
+/* Tests of the base: status, exhausted memory, thread team, regions, functions of time, cracks, materials. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -28,13 +28,13 @@ static void status_keeps_its_message(void **state)
     char *text = memory_new("text", 5001, 1);
     memset(text, 'a', 5000);
     assert_int_equal(status_set(FAILED, "%s", text), FAILED);
-    assert_int_equal(strlen(status_message()), 1023); /* cut, not overrun */
+    assert_int_equal(strlen(status_message()), 1023); /* truncated, not overrun */
     memory_free(text);
 }
 
 static int ascending_ints(const void *a, const void *b) { return *(const int *)a - *(const int *)b; }
 
-/* Arrays without elements have no storage, others overlap. */
+/* Arrays without elements have no memory; copies may overlap. */
 static void arrays_may_be_empty_or_overlap(void **state)
 {
     (void)state;
@@ -55,15 +55,16 @@ static void refusals_have_one_place(void **state)
 {
     (void)state;
     assert_refused(status_at("x.yaml:3:1: ", status_set(REFUSED, "no particle")), "x.yaml:3:1: no particle");
-    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle"); /* the first place stays */
+    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle"); /* the first location is kept */
     assert_int_equal(strncmp(status_message(), "x.yaml:3:1: ", 12), 0);
     status_at("x.yaml: ", status_set(FAILED, "disk full"));
-    assert_string_equal(status_message(), "disk full"); /* a failure has none */
+    assert_string_equal(status_message(), "disk full"); /* a failure has no location */
     status_at("", status_set(REFUSED, "no particle"));
     assert_string_equal(status_message(), "no particle");
 }
 
-/* Exit status of a child that calls `deed`; what it says on standard error goes to `line`, cut to 511 bytes. */
+/* Runs `deed` in a child process. Returns its exit status; line: receives what it prints on standard error, truncated
+ * to 511 bytes. */
 static int exit_of(void (*deed)(void *), void *context, char line[512])
 {
     int channel[2], result;
@@ -110,7 +111,7 @@ static void out_of_memory_says_so(void **state)
     assert_true(memory_peak() > 1000000); /* a process with its libraries is larger than 1 MB */
 }
 
-/* Every thread of a team breaks the same invariant; returns the line on which it stands. */
+/* Breaks the same invariant in every thread of a team; returns the number of its line. */
 static int break_invariant(bool broken)
 {
 #pragma omp parallel num_threads(4)
@@ -120,7 +121,7 @@ static int break_invariant(bool broken)
 
 static void break_here(void *unused) { (void)unused, break_invariant(true); }
 
-/* Before any team of this process, which a child would lack. */
+/* Must run before any thread team of this process, which a child would lack. */
 static void broken_invariants_leave_one_line(void **state)
 {
     (void)state;
@@ -172,7 +173,7 @@ static void team_has_the_threads_asked_for(void **state)
         seen = omp_get_num_threads();
         assert_int_equal(seen, threads);
     }
-    struct machine m = team_machine(); /* binding helpers hides nothing from the next call */
+    struct machine m = team_machine(); /* binding the threads must not hide cores from the next call */
     assert_int_equal(m.cores, before.cores);
     assert_int_equal(m.threads_allowed, before.threads_allowed);
     assert_true(m.cores >= 1 && m.threads_allowed >= m.cores);
@@ -236,9 +237,9 @@ static void regions_build_in_order(void **state)
     assert_true(region_contains(&r, POINT(2, 2), 2, 0));
     assert_false(region_contains(&turned, POINT(2, 2), 2, 0));
     assert_false(region_contains(&r, POINT(2.7, 2), 2, 0));
-    assert_true(region_contains(&r, POINT(3, 2), 2, 0)); /* the hole's edge belongs to the plate */
+    assert_true(region_contains(&r, POINT(3, 2), 2, 0)); /* the edge of the hole belongs to the plate */
     assert_false(region_contains(&r, POINT(3, 2), 2, -1e-9));
-    assert_true(region_contains(&r, POINT(2.95, 2), 2, 0.06)); /* a grown plate has a smaller hole */
+    assert_true(region_contains(&r, POINT(2.95, 2), 2, 0.06)); /* an enlarged plate has a smaller hole */
     assert_false(region_contains(&r, POINT(5, 2), 2, 0));
     assert_true(region_contains(&(struct region){0}, POINT(1e9, -1e9), 2, 0));
     struct solid all = {.kind = SOLID_ALL};
@@ -306,7 +307,7 @@ static void cracks_cut_in_one_and_two_dimensions(void **state)
     struct crack point = {1, (real[][DIM_MAX]){{1}}}, edge = {2, (real[][DIM_MAX]){{0, 0}, {2, 0}}};
     check_cut(&point, POINT(0.5), POINT(1.5), 1, true);
     check_cut(&point, POINT(0.5), POINT(0.7), 1, false);
-    check_cut(&point, POINT(1), POINT(1.5), 1, false); /* on the crack: the positive side */
+    check_cut(&point, POINT(1), POINT(1.5), 1, false); /* on the crack counts as the positive side */
     check_cut(&point, POINT(1), POINT(0.5), 1, true);
     check_cut(&edge, POINT(1, -1), POINT(1.5, 1), 2, true);
     check_cut(&edge, POINT(2, -1), POINT(2, 1), 2, true); /* exactly through the tip */
@@ -315,11 +316,12 @@ static void cracks_cut_in_one_and_two_dimensions(void **state)
     check_cut(&edge, POINT(-0.001, -1), POINT(-0.001, 1), 2, false);
     check_cut(&edge, POINT(1, 0.1), POINT(1, 1), 2, false);
     check_cut(&edge, POINT(0.5, 0), POINT(1.5, 0), 2, false);   /* along the crack */
-    check_cut(&edge, POINT(0.5, 1e-10), POINT(1, -1), 2, true); /* 1e-10 on either side is the same side */
+    check_cut(&edge, POINT(0.5, 1e-10), POINT(1, -1), 2, true); /* positions 1e-10 on either side count as the same
+                                                                 * side */
     check_cut(&edge, POINT(0.5, -1e-10), POINT(1, -1), 2, true);
     check_cut(&edge, POINT(0.5, -1e-10), POINT(1, 1), 2, false);
-    check_cut(&edge, POINT(0.5, -1.9e-9), POINT(1, -2.1e-9), 2, true); /* cut between them, not far away */
-    check_cut(&edge, POINT(3, 0), POINT(3, -1), 2, false);             /* on the line, ahead of the tip */
+    check_cut(&edge, POINT(0.5, -1.9e-9), POINT(1, -2.1e-9), 2, true); /* cut between them, but not elsewhere */
+    check_cut(&edge, POINT(3, 0), POINT(3, -1), 2, false);             /* on the extension of the crack */
     check_cut(&edge, POINT(1, 1), POINT(1, 1), 2, false);
     struct crack nothing = {2, (real[][DIM_MAX]){{1, 1}, {1, 1}}};
     check_cut(&nothing, POINT(0, 1), POINT(2, 1), 2, false);
@@ -330,29 +332,29 @@ static void cracks_cut_in_three_dimensions(void **state)
     (void)state;
     real corner[][DIM_MAX] = {{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {1, 3, 1}, {0, 2, 1}}, back[5][DIM_MAX];
     for (int k = 0; k < 5; k++) memcpy(back[k], corner[4 - k], sizeof back[k]);
-    for (int rotation = 0; rotation < 2; rotation++) { /* either sense of rotation */
+    for (int rotation = 0; rotation < 2; rotation++) { /* either orientation */
         struct crack c = {5, rotation ? back : corner};
         check_cut(&c, POINT(1, 1, 0), POINT(1, 1, 2), 3, true);
         check_cut(&c, POINT(0.5, 2.5, 0), POINT(0.5, 2.5, 2), 3, true); /* on an oblique edge */
         check_cut(&c, POINT(0.4, 2.5, 0), POINT(0.4, 2.5, 2), 3, false);
         check_cut(&c, POINT(0, 0, 0), POINT(0, 0, 2), 3, true); /* on a corner */
-        check_cut(&c, POINT(3, 1, 0), POINT(0, 1, 3), 3, true); /* slanting, through (2, 1, 1) */
+        check_cut(&c, POINT(3, 1, 0), POINT(0, 1, 3), 3, true); /* obliquely through (2, 1, 1) */
         check_cut(&c, POINT(3.01, 1, 0), POINT(2.01, 1, 3), 3, false);
         check_cut(&c, POINT(1, 1, 1.5), POINT(1, 1, 2), 3, false);
     }
     check_cut(&(struct crack){2, corner}, POINT(1, 0, 0), POINT(1, 0, 2), 3, false);
 }
 
-/* Ends in either order give the same answer where round-off decides: bonds through the very end of the crack with its
- * tolerance of 1e-9 lengths. */
+/* A bond and its reverse give the same answer where round-off decides: bonds through the very end of the crack, which
+ * has a tolerance of 1e-9 lengths. */
 static void cracks_are_symmetric_at_their_tips(void **state)
 {
     (void)state;
     struct crack edge = {2, (real[][DIM_MAX]){{-0.1, 0.03}, {0.3, 0.7}}};
     int cut = 0;
     for (int k = 0; k < 20000; k++) {
-        real angle = 1.1 + 1e-4 * k, far = 0.4 + 1e-5 * k; /* never along the crack, which points to 1.03 */
-        real past = 1e-9 + 1e-16 * (k % 13 - 6);           /* a few roundings to either side of the limit */
+        real angle = 1.1 + 1e-4 * k, far = 0.4 + 1e-5 * k; /* never along the crack, whose angle is 1.03 */
+        real past = 1e-9 + 1e-16 * (k % 13 - 6);           /* a few units of round-off on either side of the limit */
         real end[2] = {0.3 + past * 0.4, 0.7 + past * 0.67};
         real a[2] = {end[0] + cos(angle), end[1] + sin(angle)};
         real b[2] = {end[0] - far * cos(angle), end[1] - far * sin(angle)};
@@ -360,7 +362,7 @@ static void cracks_are_symmetric_at_their_tips(void **state)
         assert_int_equal(forth, crack_cuts(&edge, b, a, 2));
         cut += forth;
     }
-    assert_in_range(cut, 1000, 19000); /* or round-off does not decide here */
+    assert_in_range(cut, 1000, 19000); /* check: round-off decides here */
 }
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
@@ -382,7 +384,7 @@ static void elastic_constants_agree_with_closed_forms(void **state)
     assert_exact(m.c11, 2e11);
     assert_close(m.wave_speed, 5000, 1e-15);
     assert_exact(m.c12 + m.shear_speed + m.rayleigh_speed, 0);
-    /* Imachi et al. 2019: speeds from the closed forms, to the digits given */
+    /* Wave speeds of Imachi et al. 2019 from the closed forms, to the digits given. */
     struct material glass = {.young = 75.629e9, .poisson = 0.286, .density = 2456};
     material_derive(&glass, SPACE_PLANE_STRAIN);
     assert_near(glass.wave_speed, 6320.3, 0.06);
@@ -407,7 +409,7 @@ static void compliance_inverts_stiffness(void **state)
                 for (int l = 0; l < n; l++) sum += C[i * n + l] * S[l * n + j];
                 assert_near(sum, i == j, 1e-14);
             }
-        if (dim > 1) assert_close(C[n * n - 1], 7e10 / 1.2, 1e-14); /* 2G on the tensor shear strain */
+        if (dim > 1) assert_close(C[n * n - 1], 7e10 / 1.2, 1e-14); /* 2G for the tensor shear strain */
     }
 }
 
@@ -429,7 +431,7 @@ static void bond_constants_agree_with_closed_forms(void **state)
         assert_close(material_micro_modulus_continuum(&m, want[k].space, d, want[k].section), want[k].c, 1e-13);
         assert_close(material_critical_stretch(&m, want[k].space, d, STRETCH_BOND), want[k].s, 1e-13);
         if (want[k].space != SPACE_LINE) assert_exact(material_bond_poisson(want[k].space), want[k].poisson);
-        /* the continuum value is the discrete formula with the integral of r over the horizon */
+        /* The continuum value is the discrete formula with the integral of r over the horizon. */
         real integral[] = {0, A * d * d, 2 * pi * h * d * d * d / 3, pi * d * d * d * d};
         assert_close(material_micro_modulus(&m, want[k].space, integral[space_dim(want[k].space)]), want[k].c, 1e-13);
     }

@@ -1,4 +1,4 @@
-/* Tests of arrays (base/memory.h): zeros, alignment, growth. What happens without memory: test_ground.c. */
+/* Tests of arrays (base/memory.h): zeros, alignment, growth. Exhausted memory is tested in test_ground.c. */
 #include "tests/support/near.h"
 
 #include "base/memory.h"
@@ -11,13 +11,13 @@ static void check_zero(void)
         assert_non_null(array);
         assert_int_equal((uintptr_t)array % 64, 0);
         for (int64_t i = 0; i < count[c]; i++) assert_exact(array[i], 0);
-        memset(array, 0xff, (size_t)count[c] * sizeof *array); /* the next array must not see it */
+        memset(array, 0xff, (size_t)count[c] * sizeof *array); /* the next array must not contain it */
         memory_free(array);
     }
     memory_free(NULL);
 }
 
-/* Also where an array finds a larger one that waits. */
+/* Arrays are aligned and zero, also when they reuse a larger block that was freed. */
 static void memory_is_aligned_and_zero(void **state)
 {
     (void)state;
@@ -56,12 +56,12 @@ static void memory_grows(void **state)
     GROW("test", array, 1000);
     assert_ptr_equal(array, before);
     memory_free(array);
-    for (int way = 0; way < 3; way++) { /* arrays that other functions have allocated */
+    for (int way = 0; way < 3; way++) { /* arrays allocated by other functions */
         char *text = way == 0 ? memory_new("test", 5, 1) : memory_bare("test", way == 1 ? 5 : 3, 1);
         if (way == 2) text = memory_extend("test", text, 3, 5, 1);
         memcpy(text, "abcde", 5);
         GROW("test", text, 6);
-        assert_memory_equal(text, "abcde\0\0\0\0", 10); /* twice as long, further elements are zero */
+        assert_memory_equal(text, "abcde\0\0\0\0", 10); /* twice as long, with new elements zero */
         memory_free(text);
     }
     char *pages = memory_extend("test", memory_sparse("test", 2 << 20, 1), 2 << 20, 3 << 20, 1), *same = pages;

@@ -1,4 +1,4 @@
-/* What the cost-accuracy table says of a cloud of points: its front, and the cheapest way to an error. */
+/* Tests of the cost-accuracy table: Pareto front of a set of points, and the cheapest method for an error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "scene/fill.h"
 #include "scene/scene_read.h"
 
-/* A staircase with points above it, two alike, one unstable and one that was not timed. */
+/* A staircase with points above it, two equal points, an unstable one and one without a time. */
 static const struct accuracy_dot cloud[] = {{4, 0.001}, {1, 0.1},   {2, 0.02},        {2, 0.03},   {3, 0.02},
                                             {1, 0.1},   {0.5, NAN}, {INFINITY, 1e-5}, {8, 0.0015}, {0.7, 0.3}};
 enum { DOTS = COUNT_OF(cloud) };
@@ -30,8 +30,8 @@ static void front_has_what_nothing_beats(void **state)
     assert_int_equal(accuracy_front(&cloud[6], 2, front), 0);
 }
 
-/* The definition, over random clouds: a point is on the front exactly if no other is as good in both and better in
- * one. */
+/* The front of random sets of points agrees with its definition: a point is on the front exactly if no other point is
+ * at least as good in both values and better in one. */
 static void front_of_random_clouds(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void cheapest_is_the_first_good_enough(void **state)
 
 struct motion {
     int dim;
-    real c12, shear, density, length, time; /* size of its features, for the steps of differences */
+    real c12, shear, density, length, time; /* length and time scales, for the steps of finite differences */
     void (*at)(const void *context, const real *X, real t, real *u);
     const void *context;
 };
@@ -97,7 +97,8 @@ static real acceleration(const struct motion *m, const real *X, real t, int comp
     return (before[component] - 2 * now[component] + after[component]) / (h * h);
 }
 
-/* What is left of the equation of motion with the force f, over its largest term: differences are good to 1e-5. */
+/* Asserts that the residual of the equation of motion with body force f is at most 1e-5 of its largest term, the error
+ * of the finite differences. */
 static void assert_moves(const struct motion *m, const real *X, real t, const real *f)
 {
     for (int a = 0; a < m->dim; a++) {
@@ -118,7 +119,7 @@ static void manufactured_motion(const void *context, const real *X, real t, real
     for (int d = 0; d < ((const struct manufactured *)context)->dim; d++) u[d] = v.displacement[d];
 }
 
-/* The sum of the scene's body forces at X and t, read back from its text. */
+/* Computes the sum of the body forces of a scene at X and t, parsed from its text. */
 static void force_of_scene(const struct manufactured *m, const real *X, real t, real *f)
 {
     char text[4096];
@@ -191,7 +192,7 @@ static void wave_motion(const void *context, const real *X, real t, real *u)
     for (int d = 0; d < w->dim; d++) u[d] = s.displacement * moved.polarisation[d];
 }
 
-/* Pulses as scenes read them, along and across their direction, without any force. */
+/* Pulses as scenes define them, along and across their direction, solve the equation of motion without body force. */
 static void pulses_are_solutions(void **state)
 {
     (void)state;
@@ -217,7 +218,7 @@ static void pulses_are_solutions(void **state)
     }
 }
 
-/* Particles start with the stress and the velocity of the wave: rho c v against the traction on its plane. */
+/* Initial stress and velocity of particles agree with the wave: rho c v equals the traction on its plane. */
 static void particles_start_in_a_transverse_wave(void **state)
 {
     (void)state;
@@ -272,7 +273,7 @@ static const struct accuracy_method *method_named(const char *name)
 enum { COLUMNS = 11, LINE_ROOM = 512 };
 enum { PROBLEM, CASE, METHOD, RESOLUTION, HORIZON, STEP, KEYS = COLUMNS - 1 };
 
-/* Returns true if `keys`, as key=value;key=value, has this key with this value. */
+/* Returns true if `keys`, as key=value;key=value, contains this key with this value. */
 static bool keys_have(const char *keys, const char *key, const char *value)
 {
     char pair[LINE_ROOM];
@@ -283,7 +284,7 @@ static bool keys_have(const char *keys, const char *key, const char *value)
     return has;
 }
 
-/* Checks that a line of the table is a run of the plan, and that the scene keys of its method are those of the line. */
+/* Checks that a line of the table is a run of the plan, with the scene keys of its method. */
 static void line_is_of_the_plan(char *const *column)
 {
     const struct accuracy_problem *q = problem_named(column[PROBLEM]);
@@ -311,8 +312,8 @@ static void line_is_of_the_plan(char *const *column)
     }
 }
 
-/* Every line of bench/accuracy/cost_accuracy.csv is a run that the bench knows, of a method with the scene keys that it
- * has now: other lines could not be measured again. */
+/* Every line of bench/accuracy/cost_accuracy.csv is a run of the bench, with the current scene keys of its method;
+ * other lines could not be reproduced. */
 static void the_chart_is_of_these_methods(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The problems of the cost-accuracy table: every scene is sound, the exact field of the plate with a hole
- * is one, and a cheap point of each problem is as far off as it was measured to be. */
+/* Tests of the problems of the cost-accuracy table: every scene is valid, the exact field of the plate with a hole
+ * satisfies its equations, and a cheap point of each problem has its measured error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include "bench/accuracy/accuracy.h"
 #include "bench/accuracy/accuracy_reference.h"
 
-/* Making the plan reads all of its scenes. */
+/* All scenes are valid: creating the plan reads them. */
 static void scenes_are_sound(void **state)
 {
     (void)state;
@@ -37,7 +37,7 @@ static void hole_is_free_and_edges_are_pulled(void **state)
 {
     (void)state;
     double u[2], s[3];
-    for (int k = 0; k <= 90; k++) { /* boundary collocation met them to 4e-5 */
+    for (int k = 0; k <= 90; k++) { /* accuracy of the boundary collocation: 4e-5 */
         const double angle = k * M_PI / 180, c = cos(angle), n = sin(angle), side = 5 * n;
         accuracy_hole_exact((double[2]){c, n}, u, s);
         assert_true(fabs(s[0] * c + s[2] * n) <= 3e-4 * 1e4 && fabs(s[2] * c + s[1] * n) <= 3e-4 * 1e4);
@@ -50,7 +50,8 @@ static void hole_is_free_and_edges_are_pulled(void **state)
     assert_true(fabs(s[1] - 3.3601e4) <= 1);
 }
 
-/* Hooke's law of the displacements' slopes gives the stresses, whose divergence is none. */
+/* The exact field satisfies Hooke's law and equilibrium: stresses follow from the displacement gradient and are free of
+ * divergence. */
 static void hole_is_elastic_and_in_balance(void **state)
 {
     (void)state;
@@ -83,7 +84,7 @@ static const struct accuracy_method *method_called(const char *name)
     return NULL;
 }
 
-/* Measured error, and a fifth more or less: compilers round differently, and cracks answer to that. */
+/* Measured errors. Tolerance 20 %: compilers round differently, and cracks are sensitive to round-off. */
 static const struct cheap {
     const struct accuracy_problem *problem;
     int at;
@@ -133,7 +134,7 @@ static void points_are_as_far_off_as_measured(void **state)
     }
 }
 
-/* Finer references are nearer to the finest, as the header says. */
+/* Finer references are closer to the finest one, as stated in the header. */
 static void references_converge(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Searches and bond rows against all pairs. */
+/* Neighbour searches and rows of bonds, compared with all pairs. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void search_equals_all_pairs(const struct particles *p, const struct cell
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][j] - X[d]);
         if (r2 > radius * radius || j == skip) continue;
         assert_true(expected < n);
-        assert_int_equal(found[expected++], j); /* ascending, none twice, none missing */
+        assert_int_equal(found[expected++], j); /* ascending, without duplicates, complete */
     }
     assert_int_equal(n, expected);
     assert_int_equal(cells_near(c, p, X, radius, skip, NULL, 0), expected);
@@ -34,7 +34,7 @@ static void searches(const struct cloud_plan *plan, real edge, bool outlier)
     struct cells cells;
     uint64_t seed = 7;
     cloud_make(&c, plan);
-    if (outlier) /* a box that is mostly empty must not need a cell for every spacing of it */
+    if (outlier) /* a mostly empty box must not need a cell for every spacing */
         for (int d = 0; d < c.p.dim; d++) c.p.X[d][c.p.n - 1] = 1e3 * CLOUD_SPACING;
     cells_make(&cells, &c.p, edge);
     for (int32_t i = 0; i < c.p.n; i++) {
@@ -106,7 +106,7 @@ static const struct rows_case rows_case[] = {
      MIXED | BODIES | MATERIALS | CRACKED},
 };
 
-/* In general position, so that no tie has to be decided: tests of regions own those. */
+/* Cracks in general position, so that no tie has to be decided; ties are tested with regions. */
 static real crack_corner[DIM_MAX + 1][4][DIM_MAX] = {
     {{0}},
     {{17.61e-3}},
@@ -143,7 +143,7 @@ static bool case_cut(const struct cloud *c, int64_t i, int64_t j)
     return c->source.cracks > 0 && reference_cut(c->source.crack, a, b, c->p.dim);
 }
 
-/* Does the family of i hold a peridynamic particle? */
+/* Returns true if the family of i contains a peridynamic particle. */
 static bool touches_pd(const struct cloud *c, int64_t i)
 {
     for (int64_t j = 0; j < c->p.n; j++)
@@ -162,14 +162,15 @@ static void check_bond(const struct cloud *c, const real *w, const real *volume,
         assert_true(w[i * p->n + j] == 0);
         return;
     }
-    /* rounding to single precision is at most 2^-24 = 6e-8 of the value; the engine rounds the beta of ramps to 1e-9 */
+    /* Tolerance: single precision rounds by at most 2^-24 = 6e-8; the engine rounds beta of ramps to 1e-9. */
     real expected = reference_weight(p, &c->source, volume, i, j),
          ramp = c->source.family.volume == VOLUME_WHOLE ? 0 : 2e-9;
     assert_true(fabs(w[i * p->n + j] - expected) <= 1e-7 * expected + ramp);
     if (c->bonds.row_of[j] >= 0) assert_memory_equal(&w[i * p->n + j], &w[j * p->n + i], sizeof(real));
 }
 
-/* Sums of the row of particle i over all pairs; volumes are kept in single precision: 1e-6 for sums of up to 100. */
+/* Compares the sums of the row of particle i with sums over all pairs. Tolerance 1e-6: volumes are in single precision,
+ * sums have up to 100 terms. */
 static void check_row(const struct cloud *c, int64_t i)
 {
     const struct particles *p = &c->p;
@@ -188,7 +189,8 @@ static void check_row(const struct cloud *c, int64_t i)
     assert_true(c->bonds.trigger[row] > 0.999 * smallest || c->bonds.trigger[row] == smallest); /* INFINITY: no bonds */
 }
 
-/* What a column claims about its lanes is so; no bond stands twice in a row; padding is harmless. */
+/* Checks that the flags of columns agree with their lanes, that no bond occurs twice in a row, and that padding
+ * contributes nothing. */
 static void check_columns(const struct cloud *c)
 {
     const struct bonds *b = &c->bonds;
@@ -207,7 +209,7 @@ static void check_columns(const struct cloud *c)
                 assert_true(row < b->rows);
                 assert_int_equal(seen[b->particle[row] * c->p.n + b->nbr[q]]++, 0);
                 real r = reference_relative(c->p.X, c->p.dim, b->particle[row], b->nbr[q], xi);
-                /* root and division: two roundings; broken and cut bonds are marked by the sign */
+                /* Tolerance: two roundings of root and division. Broken and cut bonds are marked by the sign. */
                 assert_true(fabs(fabs(b->inverse_length[q]) * r - 1) <= 4e-16);
                 assert_int_equal(b->inverse_length[q] < 0, b->w[q] == 0);
                 stored++;
@@ -227,12 +229,12 @@ static void check_rows(const struct cloud *c)
     }
     int64_t rows = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        bool wanted = false; /* eight of consecutive numbers together */
+        bool wanted = false; /* eight consecutive particles form a row block */
         for (int64_t j = i / LANES * LANES; j < i / LANES * LANES + LANES && j < p->n; j++)
             wanted = wanted || p->kind[j] == KIND_PD || touches_pd(c, j);
         assert_int_equal(c->bonds.row_of[i] >= 0, wanted);
         if (wanted) {
-            assert_int_equal(c->bonds.row_of[i], rows); /* rows in ascending particle order */
+            assert_int_equal(c->bonds.row_of[i], rows); /* rows are in the order of the particles */
             assert_int_equal(c->bonds.particle[rows++], i);
             check_row(c, i);
         }
@@ -252,7 +254,8 @@ static void test_rows(void **state)
     for (size_t k = 0; k < COUNT_OF(rows_case); k++) {
         struct cloud c;
         case_make(&c, &rows_case[k]);
-        /* stiffness is c V V of two lattice particles; c from the same lattice sum in another order of terms */
+        /* The stiffness is c V V of two lattice particles, with c from the same lattice sum in another order of
+         * terms. */
         real expected = reference_modulus(&c.source.family, &c.material[0]) * square(c.source.family.cell_volume);
         assert_true(fabs(c.bonds.stiffness / expected - 1) <= 1e-9); /* beta of the ramp is rounded to 1e-9 */
         check_rows(&c);
@@ -260,7 +263,7 @@ static void test_rows(void **state)
     }
 }
 
-/* Columns of a row block, wherever each stores them. */
+/* Compares the columns of a row block with those of another storage, wherever each stores them. */
 static void check_row_block_like_new(const struct bonds *b, int64_t column, const struct bonds *new, int64_t of,
                                      int64_t columns)
 {
@@ -273,15 +276,15 @@ static void check_row_block_like_new(const struct bonds *b, int64_t column, cons
     }
 }
 
-/* Are these rows, but for what load has broken, those that are made without knowing old ones? Returns how many row
- * blocks have as many bonds as before. */
+/* Checks that rows agree, except for bonds broken by load, with rows created from scratch. Returns the number of row
+ * blocks with as many bonds as before. */
 static int64_t check_like_new(struct cloud *c, const struct bonds *old)
 {
     struct bonds *b = &c->bonds;
     struct bonds new;
     struct particles p = c->p;
     int64_t taken = 0;
-    p.damage = NEW("test.damage", p.n_all, real); /* making rows sets it */
+    p.damage = NEW("test.damage", p.n_all, real); /* set when rows are created */
     bonds_make(&new, NULL, &p, &c->source);
     cloud_unfold(b), cloud_unfold(&new);
     assert_int_equal(b->columns, new.columns);
@@ -300,7 +303,7 @@ static int64_t check_like_new(struct cloud *c, const struct bonds *old)
     return taken;
 }
 
-/* Rows made anew when material points have become peridynamic: what load had broken stays broken. */
+/* Rows rebuilt after material points became peridynamic: bonds broken by load stay broken. */
 static void test_rows_inherit(void **state)
 {
     (void)state;
@@ -310,8 +313,7 @@ static void test_rows_inherit(void **state)
         if (!(rows_case[k].what & MIXED)) continue;
         case_make(&c, &rows_case[k]);
         struct particles *p = &c.p;
-        for (int64_t i = 0; i < p->n; i++)
-            p->x[0][i] = p->X[0][i] * (1 + 2 * p->X[0][i]); /* more strain to the right */
+        for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] * (1 + 2 * p->X[0][i]); /* strain increases with x */
         assert_true(bond_force_table[p->dim][PD_BOND](&c.bonds, p, &c.source.limit, NULL) > 0);
         real *before = reference_table(&c.bonds, p), energy = bonds_fracture_energy(&c.bonds);
         for (int64_t i = 0; i < p->n; i++)
@@ -322,7 +324,7 @@ static void test_rows_inherit(void **state)
         real *after = reference_table(&c.bonds, p);
         check_columns(&c);
         taken += check_like_new(&c, &old);
-        for (int64_t q = 0; q < p->n * p->n; q++) /* NAN: was no bond; w = 0: was broken or cut */
+        for (int64_t q = 0; q < p->n * p->n; q++) /* NAN: no bond; w = 0: broken or cut */
             if (!isnan(before[q])) assert_true(before[q] == after[q]);
         assert_true(fabs(bonds_fracture_energy(&c.bonds) - energy) <= 1e-14 * energy);
         for (int64_t i = 0; i < p->n; i++)
@@ -335,7 +337,8 @@ static void test_rows_inherit(void **state)
     assert_true(taken > 0);
 }
 
-/* Rows made anew again and again, a column more of the body each time, lie where there is room, and sometimes move. */
+/* Rows rebuilt repeatedly, each time for one more column of the body: they reuse free storage, and sometimes the
+ * storage moves. */
 static void test_rows_again(void **state)
 {
     (void)state;
@@ -362,7 +365,7 @@ static void test_rows_again(void **state)
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
             assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
-            check_like_new(&c, &old); /* unfolds */
+            check_like_new(&c, &old); /* expands stencils */
             check_columns(&c);
             bonds_free(&old);
         }
@@ -371,7 +374,7 @@ static void test_rows_again(void **state)
     }
 }
 
-/* Rows that the map of a lattice's sites tells are those of the search, bit by bit; bonds that may yield are always
+/* Rows from the site map of a lattice are bitwise equal to those of the search; bonds that may yield are always
  * searched. */
 static void test_rows_of_lattice(void **state)
 {
@@ -392,7 +395,7 @@ static void test_rows_of_lattice(void **state)
         struct cloud c;
         struct bonds searched;
         cloud_make(&c, &plan[k % COUNT_OF(plan)]);
-        if (k >= COUNT_OF(plan)) cloud_exact(&c); /* then most follow stencils, if all are of one material */
+        if (k >= COUNT_OF(plan)) cloud_exact(&c); /* then most rows follow stencils, if there is one material */
         for (int64_t i = 0; i < c.p.n && k < COUNT_OF(plan); i++) c.p.material[i] = i % 3 == 0;
         for (int64_t i = 2 * c.p.n / 3; i < c.p.n && k % 2; i++) c.p.kind[i] = KIND_MPM;
         for (int m = 0; m < CLOUD_MATERIALS * CLOUD_MATERIALS; m++) c.limit[m] = 0.01 + 0.001 * m;
@@ -409,7 +412,7 @@ static void test_rows_of_lattice(void **state)
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         const real step = bonds_critical_step_made(&c.bonds, &c.p);
         if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
-        struct bond_source states = c.source; /* between equal ends of states as of bonds, else stiffer */
+        struct bond_source states = c.source; /* bonds between equal materials agree with states, others are stiffer */
         states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
         const real of_states = bonds_critical_step(&c.p, &states), of_bonds = bonds_critical_step(&c.p, &c.source);
         if (k >= COUNT_OF(plan))

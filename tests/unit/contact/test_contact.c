@@ -1,5 +1,5 @@
-/* Contact: forces and energy beside a plain sum over all pairs without bonds, the third law, forces as the gradient of
- * the energy, and the stiffness of the law. */
+/* Contact: forces and energy compared with a plain sum over all pairs without bonds, the third law, forces as the
+ * gradient of the energy, and the stiffness of the law. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* A body that flies at a cracked one, whose crack closes. */
+/* A body hits a cracked one, whose crack closes. */
 static const char plane[] =
     "name: hit\nspace: plane stress\nthickness: 2 mm\nmethod: pd\nduration: 30 us\n"
     "materials:\n  - {name: hard, young: 200 GPa, poisson: 1/3, density: 8000}\n"
@@ -36,8 +36,8 @@ static const char line[] = "name: hit\nspace: line\nsection: 4 mm^2\nmethod: pd\
                            "  - {name: target, shape: {box: {from: [0.02 mm], to: [20.02 mm]}}}\n"
                            "particles: {spacing: 1 mm}\ncontact: {between: all}\noutput: {frames: 1, samples: 10}\n";
 
-/* A turned box, whose side faces have steps on the lattice, cut through and sheared: columns of the one half pass those
- * of the other. */
+/* A rotated box, whose side faces are staircases on the lattice, cut through and sheared: columns of one half pass
+ * those of the other. */
 static const char turned[] =
     "name: turned\nspace: solid\nmethod: pd\nduration: 16 us\n"
     "material: {young: 110 GPa, density: 4430, energy_release_rate: 500 J/m^2}\n"
@@ -79,7 +79,7 @@ static real length(const struct particles *p, real *const *place, int64_t i, int
     return sqrt(r2);
 }
 
-/* k of two particles [N/m]: 15 c V V/delta, of two materials the harmonic mean. */
+/* Returns k of a pair of particles [N/m]: 15 c V V/delta, with the harmonic mean for two materials. */
 static real plain_stiffness(const struct run *e, int64_t i, int64_t j)
 {
     const struct particles *p = &e->part;
@@ -97,8 +97,8 @@ static bool may_meet(const struct run *e, int64_t i, int64_t j)
     return !has_bond(e, i, j);
 }
 
-/* Law `pair`: sum over all pairs of particles without a bond, closer than a spacing and than they were. f: [dim n];
- * returns the energy [J]. */
+/* Law `pair`: sums over all pairs of particles without a bond that are closer than a spacing and than in the reference
+ * state. f: [dim n]; returns the energy [J]. */
 static real plain_pairs(const struct run *e, real *f)
 {
     const struct particles *p = &e->part;
@@ -122,7 +122,7 @@ static real plain_pairs(const struct run *e, real *f)
 
 static real wendland(real q) { return q < 1 ? pow(1 - q, 4) * (1 + 4 * q) : 0; }
 
-/* Density s spacings above a particle of a layer. */
+/* Returns the density at s spacings above a particle of a layer. */
 static real above_layer(int dim, real s)
 {
     real sum = 0;
@@ -132,7 +132,7 @@ static real above_layer(int dim, real s)
     return sum;
 }
 
-/* Height above a layer with this density, by bisection [spacings]. */
+/* Returns the height above a layer at which the density has this value, by bisection [spacings]. */
 static real height_of(int dim, real density)
 {
     real low = 0, high = 2;
@@ -146,7 +146,8 @@ static real height_of(int dim, real density)
     return 0.5 * (low + high);
 }
 
-/* How much higher than half a spacing above a particle the surface of its body, a ball or a box, is [spacings]. */
+/* Returns by how much the surface of the body of particle i (ball or box) exceeds half a spacing above the particle
+ * [spacings]. */
 static real plain_rise(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
@@ -161,8 +162,8 @@ static real plain_rise(const struct run *e, int64_t i)
     return rise > 0.6 ? 0 : real_max(rise, -0.6);
 }
 
-/* What particle i feels of those near faces that it may meet, now or in the reference state: height above their
- * surface [spacings]. *softest: k of the softest pair [N/m]. */
+/* Returns the height of particle i above the surface of the particles near faces with which it may come into contact,
+ * in the current or reference state [spacings]. softest: k of the softest pair [N/m]. */
 static real plain_height(const struct run *e, int64_t i, real *const *place, real *softest)
 {
     const struct contact *c = e->contact;
@@ -178,8 +179,8 @@ static real plain_height(const struct run *e, int64_t i, real *const *place, rea
     return height_of(e->part.dim, density) - (density > 0 ? rise / density : 0);
 }
 
-/* Energy of all that a particle feels: 1/4 k (zero - height)^2, zero: that of its own surface and half a spacing, or
- * less if the reference state is closer. */
+/* Returns the contact energy of all particles: 1/4 k (zero - height)^2; zero: sum of the rise of its own surface and
+ * half a spacing, or less if the reference state is closer. */
 static real plain_faces(const struct run *e)
 {
     real energy = 0, softest;
@@ -193,7 +194,7 @@ static real plain_faces(const struct run *e)
     return energy;
 }
 
-/* Forces of contact alone, into part.f. */
+/* Computes the forces of contact only, in part.f. */
 static void contact_alone(struct run *e)
 {
     for (int d = 0; d < e->part.dim; d++) memset(e->part.f[d], 0, (size_t)e->part.n * sizeof(real));
@@ -201,7 +202,7 @@ static void contact_alone(struct run *e)
     contact_force(e->contact, &e->part, 0);
 }
 
-/* Third law: momentum and angular momentum, to the round-off of forces of up to a dozen pairs. */
+/* Checks the third law: sums of forces and moments vanish up to the round-off of up to a dozen pairs. */
 static void check_third_law(const struct run *e)
 {
     const struct particles *p = &e->part;
@@ -221,8 +222,8 @@ static void check_third_law(const struct run *e)
     }
 }
 
-/* Pairs: forces and energy to round-off. Faces: the energy within what 1e-6 spacings in the table of heights make;
- * forces are its gradient. */
+/* Compares with the plain sums. Pairs: forces and energy to round-off. Faces: energy within the error of 1e-6 spacings
+ * in the table of heights; forces are its gradient. */
 static void check_plain(struct run *e)
 {
     const struct particles *p = &e->part;
@@ -244,8 +245,8 @@ static void check_plain(struct run *e)
     memory_free(f);
 }
 
-/* -dE/dx of the particle with the deepest overlap, by a central difference over 1e-6 of a spacing: pairs that open in
- * it leave (1e-6)^2 of k. */
+/* Compares the force on the particle with the deepest overlap with -dE/dx, by a central difference over 1e-6 of a
+ * spacing; pairs that open within it leave (1e-6)^2 k. */
 static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
@@ -265,7 +266,7 @@ static void check_gradient(struct run *e)
     }
 }
 
-/* Through a collision: beside the plain sum after every fourth step. */
+/* Runs a collision and compares with the plain sum after every fourth step. */
 static void check_collision(const char *text, const char *law, real pairs_least)
 {
     struct scene s;
@@ -306,7 +307,8 @@ static void test_space(void **state)
     check_collision(space, "surface", 20);
 }
 
-/* Of faces, without what takes back the energy that a time step gave (contact_balance.c). */
+/* Compares forces of faces with the energy gradient, without the part that removes energy gained by the time step
+ * (contact_balance.c). */
 static void check_law_gradient(struct run *e)
 {
     struct contact *c = e->contact;
@@ -317,8 +319,8 @@ static void check_law_gradient(struct run *e)
     memory_free(drag);
 }
 
-/* Surfaces that stand high above their particles meet out of reach of the field: no energy without the work of a force.
- * With contact off the balance of this run, whose grips start at once, is off by 0.0081 at the most. */
+/* Surfaces far above their particles come into contact out of reach of the density field: no energy without work of a
+ * force. With contact off, the energy balance of this run, whose grips start suddenly, is off by at most 0.0081. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -338,8 +340,8 @@ static void test_steps(void **state)
     contact_end(e, &s);
 }
 
-/* k of a pair of lattice particles: 5/6 E A/D in a line (families of 3: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51
- * E h a column in the plane, to 3 % (shell weights change c). */
+/* k of a pair of lattice particles: 5/6 E A/D in 1D (families of 3: E A/D is 6 k1, and k is 15/3.015 k1), and 0.51 E h
+ * per column in 2D, to 3 % (shell weights change c). */
 static void test_stiffness(void **state)
 {
     (void)state;
@@ -352,7 +354,7 @@ static void test_stiffness(void **state)
     contact_end(e, &s);
 }
 
-/* Bodies one spacing apart at rest, and a crack: no force, and nothing moves, to the last bit. */
+/* Bodies at rest one spacing apart, and a crack: no force, and bitwise no motion. */
 static void check_rest(const char *law)
 {
     static const char text[] = "name: rest\nspace: plane stress\nthickness: 1 mm\nmethod: pd\nduration: 100 us\n"
@@ -377,8 +379,8 @@ static void test_rest(void **state)
     check_rest("surface");
 }
 
-/* The account of a row whose gap goes from outside in and out again is what the work of its force, 1/2 K g_n (g_n+1 -
- * g_n-1)/2 at each step inside, was less than nothing: its energy is 0 before and after. */
+/* The account of a row whose gap enters and leaves contact equals the deficit of the work of its force, 1/2 K g_n
+ * (g_n+1 - g_n-1)/2 at each step inside: its energy is 0 before and after. */
 static void test_account(void **state)
 {
     (void)state;
@@ -390,13 +392,13 @@ static void test_account(void **state)
         real work = 0;
         for (int n = 1; n < gaps[k]; n++) {
             if (gap[k][n] < 0) work += 0.5 * K * gap[k][n] * 0.5 * (gap[k][n + 1] - gap[k][n - 1]);
-            assert_true(contact_balance(&b, K, gap[k][n], true) == 0); /* the account is below 0 meanwhile */
+            assert_true(contact_balance(&b, K, gap[k][n], true) == 0); /* the account is negative meanwhile */
         }
         assert_near(b.account, -work, 1e-14);
     }
 }
 
-/* The spacing of a particle is the edge of a cell of its volume; notches part particles of one body. */
+/* The size of a particle is the edge of a cube of its volume; notches separate particles of one body. */
 static void test_sizes(void **state)
 {
     (void)state;
@@ -432,8 +434,9 @@ static void test_sizes(void **state)
     }
 }
 
-/* Beside a rigid ball contact begins where a particle was closest when it was met, and follows one that comes out, not
- * one that goes deeper. The patch of those that overlap is the diagonal of their box. */
+/* Contact with a rigid ball begins at the smallest distance that a particle had at their first contact, and this limit
+ * follows a particle that moves outwards, not one that moves inwards. The patch of overlapping particles is the
+ * diagonal of their box. */
 static void test_beside_a_ball(void **state)
 {
     (void)state;
@@ -458,7 +461,7 @@ static void test_beside_a_ball(void **state)
                                 .law = {.spacing = h, .section = 1},
                                 .rigids = 1,
                                 .rigid = &rigid};
-        for (int i = 0; i < 3; i++) { /* on the ball at three angles, as deep as each other */
+        for (int i = 0; i < 3; i++) { /* on the ball at three angles, with equal depth */
             const real r = 9e-3 + (0.5 - depth[k - 1]) * h, angle = 0.2 + 0.4 * i;
             p.x[0][i] = r * cos(angle), p.x[1][i] = r * sin(angle);
         }

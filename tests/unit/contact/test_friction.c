@@ -1,5 +1,5 @@
-/* The spring of friction against Coulomb's law and its energies; forces and moments of rigid bodies as the gradient of
- * their energy. */
+/* Spring of friction compared with Coulomb's law and its energies; forces and moments of rigid bodies as the gradient
+ * of their energy. */
 #include <math.h>
 #include <string.h>
 
@@ -12,8 +12,8 @@
 #include "rigid/rigid_part.h"
 #include "step/sample.h"
 
-/* A spring of 3 kN/m on a face with the normal (0, 0.6, 0.8): it holds up to 0.2 N, then slides with that force; what
- * the motion gives is stored or lost, and goes when both part. */
+/* A spring of 3 kN/m on a face with normal (0, 0.6, 0.8): it sticks up to 0.2 N, then slides with this force; the work
+ * of the motion is stored or dissipated, and the stored part vanishes at separation. */
 static void spring_of_coulomb(void **state)
 {
     (void)state;
@@ -31,12 +31,12 @@ static void spring_of_coulomb(void **state)
     }
     assert_true(k * size * 40 > 1.5 * most);
     assert_close(s.stored + s.lost, given, 1e-12);
-    contact_slide(&s, 3, none, none, k, 0); /* parted */
+    contact_slide(&s, 3, none, none, k, 0); /* separated */
     assert_near(s.stored, 0, 0);
     assert_close(s.lost, given, 1e-12);
 }
 
-/* The face turns: the spring keeps its length, and lies in the new face. */
+/* The face rotates: the spring keeps its length and lies in the rotated face. */
 static void spring_follows_its_face(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void forces_at(struct run *e, real dt)
     contact_force(e->contact, p, dt);
 }
 
-/* A block pressed into a disc, by 0.1 spacings, off its middle. */
+/* A block pressed into a disc by 0.1 spacings, eccentrically. */
 static const char pressed[] =
     "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
     "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
@@ -125,7 +125,7 @@ static void rigid_force_is_a_gradient(void **state)
     body_end(e, &s);
 }
 
-/* A disc off its centre of mass, beside two separated contacts: the moment is not that of a disc, which is 0. */
+/* An eccentrically pivoted disc beside two separated contacts: its moment is nonzero, unlike that of a centred disc. */
 static const char pivoted[] =
     "space: plane strain\nthickness: 0.37 m\nduration: 1 us\nmethod: pd\n"
     "material: {young: 3 GPa, poisson: 1/4, density: 1180}\nbodies:\n"
@@ -148,7 +148,7 @@ static void rigid_moment(void **state)
         force -= p->f[1][i];
         turning -= (p->x[0][i] - r->x[0]) * p->f[1][i] - (p->x[1][i] - r->x[1]) * p->f[0][i];
     }
-    assert_true(force > 0 && turning < -5e-3 * force); /* pressed up on its left end: it turns clockwise */
+    assert_true(force > 0 && turning < -5e-3 * force); /* pressed up on its left end: clockwise moment */
     assert_close(r->moment[2], turning, 1e-12);
     body_end(e, &s);
 }
@@ -162,7 +162,7 @@ static const char blocks[] = "space: plane strain\nthickness: 0.37 m\nduration: 
                              "  - {name: high, shape: {box: {from: [4 mm, 5 mm], to: [14 mm, 9 mm]}}}\n"
                              "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* What moves along does not rub; what slides is dragged by friction times the pressure, against its motion. */
+/* Bodies that move together have no friction; a sliding body experiences friction times pressure against its motion. */
 static void faces_rub(void **state)
 {
     (void)state;
@@ -179,11 +179,11 @@ static void faces_rub(void **state)
     assert_near(contact_friction_stored(e->contact), 0, 1e-20);
     assert_near(contact_friction_work(e->contact), 0, 1e-20);
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = p->body[i] == 1 ? 9 : 7, p->v[1][i] = 0;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 80 um: springs have long given way */
+    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 80 um: all springs slide */
     for (int64_t i = 0; i < p->n; i++) drag[p->body[i]] += p->f[0][i], press[p->body[i]] += p->f[1][i];
     assert_true(press[1] > 0);
     assert_near(drag[0] + drag[1], 0, 1e-9 * press[1]);
-    assert_close(drag[1], -0.3 * press[1], 0.02); /* forces at the ends of the face lean */
+    assert_close(drag[1], -0.3 * press[1], 0.02); /* forces at the ends of the face are oblique */
     assert_true(contact_friction_work(e->contact) > 0);
     body_end(e, &s);
 }
@@ -196,7 +196,7 @@ static const char barred[] =
     "  - {name: bar, rigid: true, mass: 2 kg, shape: {box: {from: [-3 mm, 6 mm], to: [31 mm, 9 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Force on the block [N]. */
+/* Computes the force on the block [N]. */
 static void block_force(const struct particles *p, real *force)
 {
     force[0] = force[1] = 0;
@@ -204,9 +204,9 @@ static void block_force(const struct particles *p, real *force)
         for (int d = 0; d < 2; d++) force[d] += p->f[d][i];
 }
 
-/* Particles that move and turn with a rigid body do not rub on it. Where the body is faster along its face, it drags
- * them by friction times the normal force, and the work of this drag along what slides is lost: 0.3 force 1.6 m/s time.
- * A sample books this work with what dampers took. */
+/* Particles that move and rotate with a rigid body experience no friction. If the body moves faster along its face, it
+ * exerts friction times the normal force on them, and the work of sliding is dissipated: 0.3 force 1.6 m/s time. A
+ * sample includes this work in the dissipated energy. */
 static void rigid_body_rubs(void **state)
 {
     (void)state;
@@ -226,7 +226,7 @@ static void rigid_body_rubs(void **state)
     assert_near(contact_friction_work(e->contact), 0, 1e-20);
     r->spin[2] = 0;
     for (int64_t i = 0; i < p->n; i++) p->v[0][i] = 5.4, p->v[1][i] = 2;
-    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 64 um: springs have long given way */
+    for (int k = 0; k < 400; k++) forces_at(e, 1e-7); /* 64 um: all springs slide */
     block_force(p, force);
     assert_true(force[1] < 0);
     assert_close(force[0], -0.3 * force[1], 1e-9);
@@ -241,12 +241,12 @@ static void rigid_body_rubs(void **state)
     e->report->sampling.due = true, e->damped = 0.021;
     sample_energy(e);
     assert_close(e->report->sampling.energy.damped, 0.021 + before + lost, 1e-9);
-    assert_true(lost > 1e-6 * 0.021); /* it counts beside the other */
+    assert_true(lost > 1e-6 * 0.021); /* significant beside the other terms */
     body_end(e, &s);
 }
 
-/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) at q = r/(2 D), times D_l/D in the plane. D: the mean
- * of both sizes; D_l: the size of the other particle. */
+/* Faces of particles of different sizes: W = (1 - q)^4 (1 + 4 q) with q = r/(2 D), times D_l/D in 2D. D: mean of both
+ * sizes; D_l: size of the other particle. */
 static void weights_of_sizes(void **state)
 {
     (void)state;

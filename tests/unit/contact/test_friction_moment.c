@@ -1,5 +1,5 @@
-/* Friction between particles keeps momentum and angular momentum, takes from the motion what springs store and lose,
- * and leaves alone bodies that turn together. */
+/* Friction between particles conserves momentum and angular momentum, its work equals the energy that springs store and
+ * dissipate, and bodies that rotate together have none. */
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static const char space[] =
     "  - {name: high, material: soft, shape: {box: {from: [2.3 mm, 4.4 mm, 3 mm], to: [7.3 mm, 10.4 mm, 6 mm]}}}\n"
     "particles: {spacing: 1 mm}\ncontact: {between: bodies, friction: 0.3}\n";
 
-/* Rodrigues' rotation of v about the unit vector axis. */
+/* Rotates v about the unit vector `axis` (Rodrigues). */
 static void rotate(const real *axis, real angle, real *v)
 {
     real across[3];
@@ -40,7 +40,7 @@ static void position(const struct particles *p, int64_t i, real *x)
     for (int d = 0; d < 3; d++) x[d] = d < p->dim ? p->x[d][i] : 0;
 }
 
-/* Rotates the particles of a body, or of all (-1), about a point. */
+/* Rotates the particles of a body, or of all bodies (-1), about a point. */
 static void body_rotate(struct particles *p, int body, const real *centre, const real *axis, real angle)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -59,7 +59,8 @@ static const real *axis_of(int dim)
     return dim == 2 ? across : odd;
 }
 
-/* Searches, then presses the high block into the low one, aslant, and turns both to an odd angle. */
+/* Searches contacts, then presses the upper block obliquely into the lower one and rotates both by an arbitrary
+ * angle. */
 static struct run *pressed_begin(struct scene *s, const char *text)
 {
     struct run *e = NEW("test.engine", 1, struct run);
@@ -83,7 +84,7 @@ static void pressed_end(struct run *e, struct scene *s)
     scene_free(s);
 }
 
-/* Forces of contact after a step of dt, into part.f. */
+/* Computes the forces of contact after a step of dt in part.f. */
 static void forces_after(struct run *e, real dt)
 {
     struct particles *p = &e->part;
@@ -92,8 +93,8 @@ static void forces_after(struct run *e, real dt)
     contact_force(e->contact, p, dt);
 }
 
-/* Moves by dt; returns the power of friction alone on the velocities of this step, after it and with the forces before
- * it [W]. drag: friction's forces [dim n], those before replaced by those after. */
+/* Moves the particles by dt; returns the mean power of friction on the velocities of this step, with the forces before
+ * and after it [W]. drag: friction forces [dim n], updated. */
 static real slide(struct run *e, real dt, real *drag)
 {
     struct particles *p = &e->part;
@@ -118,7 +119,7 @@ static real slide(struct run *e, real dt, real *drag)
     return power;
 }
 
-/* Sum of forces and of their moments, over the sum of their sizes. */
+/* Checks the sums of forces and of their moments, relative to the sums of their magnitudes. */
 static void check_sums(const struct particles *p, const real *f)
 {
     real force[3] = {0}, moment[3] = {0}, size = 0, far = 0;
@@ -139,7 +140,8 @@ static void check_sums(const struct particles *p, const real *f)
 
 static real friction_energy(const struct contact *c) { return contact_friction_stored(c) + contact_friction_work(c); }
 
-/* The high block slides and turns on the low one, which turns the other way; each particle also on its own. */
+/* Sets velocities: the upper block slides and rotates on the lower one, which rotates in the opposite direction; each
+ * particle has an additional motion. */
 static void set_moving(struct particles *p)
 {
     const real *axis = axis_of(p->dim);
@@ -153,8 +155,8 @@ static void set_moving(struct particles *p)
     }
 }
 
-/* Over `time` in `steps` steps: the sums of forces in each of them. Returns what the work of friction differs from the
- * energy that springs have stored and lost, over this energy. */
+/* Runs `steps` steps over `time` and checks the sums of forces in each. Returns the difference between the work of
+ * friction and the energy stored and dissipated by springs, over this energy. */
 static real work_error(const char *text, real time, int steps)
 {
     struct scene s;
@@ -174,8 +176,8 @@ static real work_error(const char *text, real time, int steps)
     return work / energy - 1;
 }
 
-/* The two differ by 1.4e-4 in the plane, where the spring turns with its face by 1e-3 a step, and 6e-7 in space; by a
- * quarter of that in a quarter of the step. */
+/* The difference is 1.4e-4 in 2D, where the spring rotates with its face by 1e-3 per step, and 6e-7 in 3D; it decreases
+ * in proportion to the step. */
 static void check_sliding(const char *text)
 {
     assert_near(work_error(text, 20e-6, 40), 0, 3e-4);
@@ -185,8 +187,8 @@ static void check_sliding(const char *text)
 static void sliding_in_the_plane(void **state) { (void)state, check_sliding(plane); }
 static void sliding_in_space(void **state) { (void)state, check_sliding(space); }
 
-/* Both bodies turn together by 0.1 in 100 steps. Chords in place of arcs leave a slip of 1e-9 of the arm a
- * step. Against the mean velocity of the felt particles, a spacing away, it would be 1e-3 of a spacing. */
+/* Both bodies rotate together by 0.1 in 100 steps. Chords instead of arcs cause a slip of 1e-9 of the arm per step. A
+ * slip relative to the mean velocity of the neighbouring particles, a spacing away, would be 1e-3 of a spacing. */
 static void check_turning(const char *text)
 {
     struct scene s;
@@ -220,9 +222,9 @@ static void turning_together(void **state)
 
 #define H 0.7e-3 /* spacing [m] */
 
-/* A particle H above `felt` particles along x, each `aside` of the line in turn, which goes by 1 um along axis `along`
- * and sticks. Returns the largest force of the couple on one of them over the drag; *balance: the part of the moment
- * of the drag that the couple balances. */
+/* A particle at height H above `felt` particles along x, which alternately deviate from the line by `aside`, moves by 1
+ * um along axis `along` and sticks. Returns the largest force of the couple on one of them over the friction force;
+ * balance: receives the part of the moment of friction that the couple balances. */
 static real couple_of(int felt, real aside, int along, real *balance)
 {
     struct particles p;
@@ -265,8 +267,8 @@ static real couple_of(int felt, real aside, int along, real *balance)
     return most / sqrt(dot(spring.drag, spring.drag, 3));
 }
 
-/* Along the line particles carry the moment, across it they cannot; no force exceeds sqrt(10) times the drag where
- * they almost cannot; beside the line they can again. */
+/* Along the line particles can balance the moment, across it they cannot; no force exceeds sqrt(10) times the friction
+ * force where they almost cannot; away from the line they can again. */
 static void felt_in_a_line(void **state)
 {
     (void)state;

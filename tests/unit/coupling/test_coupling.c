@@ -1,5 +1,5 @@
-/* Both methods together: the patch residual of a flat interface, and the energy of conversion. Numbers:
- * measured with an independent prototype. */
+/* Coupled methods: patch residual of a flat interface, and energy of conversion. Expected values are from an
+ * independent prototype. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,19 +10,19 @@
 #include "coupling/approach.h"
 #include "coupling/notch.h"
 
-#define STRAIN 1e-7 /* bonds stretch by finite geometry: deviations from linear theory of this order */
+#define STRAIN 1e-7 /* bonds stretch with finite deformation: deviations from linear theory of this order */
 
 /* ---- a flat interface -------------------------------------------------------------------------------------------- */
 
 struct interface {
     struct cloud_plan plan;
-    int split; /* peridynamic columns, left of the interface                        */
+    int split; /* number of peridynamic columns, left of the interface */
     enum shape shape;
-    real ratio, offset; /* cell size and place of the grid's nodes [spacings]                */
+    real ratio, offset; /* size of cells, offset of the nodes [spacings] */
     enum coupling coupling;
 };
 
-/* Stress of every material point by Hooke's law; returns its components. */
+/* Sets the stress of every material point by Hooke's law; stores its components. */
 static void set_stress(struct cloud *c, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     const struct material *m = &c->material[0];
@@ -38,8 +38,8 @@ static void set_stress(struct cloud *c, const real strain[DIM_MAX][DIM_MAX], rea
         for (int s = 0; s < symmetric_count(dim); s++) c->p.stress[s][i] = c->p.kind[i] == KIND_MPM ? stress[s] : 0;
 }
 
-/* Largest nodal force, free edges left out, per area of a cell's face [Pa]; also the stress of the points. Peridynamic
- * particles, whose families are full, must have no force in either coupling. */
+/* Returns the largest nodal force, without free edges, per area of a cell's face [Pa], and stores the stress of the
+ * points. Peridynamic particles with complete families must have no force in either coupling. */
 static real interface_residual(const struct interface *k, const real strain[DIM_MAX][DIM_MAX], real *stress)
 {
     struct patch s = {0};
@@ -64,7 +64,7 @@ static real interface_residual(const struct interface *k, const real strain[DIM_
 
 static const struct cloud_plan bar = {.space = SPACE_LINE, .count = {32}, .horizon = 3};
 
-/* The interface, half-way between two particles, lies on a node, as in the prototype that the table is from. */
+/* The interface, midway between two particles, is on a node, as in the prototype. */
 static void test_interface_1d(void **state)
 {
     (void)state;
@@ -80,18 +80,19 @@ static void test_interface_1d(void **state)
             is_near("1D handshake", interface_residual(&i, axial, S) / S[0], row[k].handshake,
                     0.005); /* printed digits */
             i.coupling = COUPLING_PARTIAL_STRESS;
-            /* round-off of positions, 1e-15 of a spacing, over the strain: 1e-8 a bond; and strains of finite size */
+            /* Tolerance: round-off of positions, 1e-15 of a spacing, over the strain: 1e-8 per bond; and the finite
+             * strain. */
             at_most("1D partial stress", interface_residual(&i, axial, S) / S[0], 3e-6);
         }
 }
 
 /* h = 2D, linear shapes. S is sigma_xx (axial: uniaxial strain), C11 strain (biaxial), sigma_xy (shear). Of the
- * prototype's table the hand-shake's 0.50 and 0.63 are found with the interface on a node; its 0.38 for shear lies
- * between the 0.42 found on a node and the 0.33 in the middle of a cell, its 0.017 for shear with partial stress is
- * found in the middle of a cell (0.034 on a node). What partial stress leaves is no fault of the coupling: the
- * lattice transmits 1.1 % more (axial), as much (biaxial), 3.4 % less (shear) than the points, all of it at one node
- * or half of it at two. The prototype's 0.0007 and 0.007 (axial, biaxial) were not found at any position of the
- * interface; 0.0007 is less than half of what C11 of this lattice is off. */
+ * prototype's values, 0.50 and 0.63 of handshake coupling are found with the interface on a node; its 0.38 for shear is
+ * between the 0.42 found on a node and the 0.33 in the middle of a cell; its 0.017 for shear with partial stress is
+ * found in the middle of a cell (0.034 on a node). The residual of partial stress is not an error of the coupling:
+ * relative to the points, the lattice transmits 1.1 % more (axial), as much (biaxial) and 3.4 % less (shear), all of it
+ * at one node or half at each of two. The prototype's 0.0007 and 0.007 (axial, biaxial) are not found at any position
+ * of the interface; 0.0007 is less than half of the error of C11 of this lattice. */
 static void test_interface_2d(void **state)
 {
     (void)state;
@@ -112,12 +113,12 @@ static void test_interface_2d(void **state)
             is_near("2D handshake", residual / scale, row[k].handshake[l], 0.001);
             i.coupling = COUPLING_PARTIAL_STRESS;
             is_near("2D partial stress", interface_residual(&i, load[l], S) / scale, row[k].partial[l], 1e-4);
-            i.plan.shells = SHELLS_ISOTROPIC; /* no anisotropy, no residual */
+            i.plan.shells = SHELLS_ISOTROPIC; /* without anisotropy there is no residual */
             at_most("2D partial stress, isotropic", interface_residual(&i, load[l], S) / scale, 3e-6);
         }
 }
 
-/* Three dimensions, isotropic weights: nothing is left for any strain. */
+/* 3D with isotropic weights: no residual for any strain. */
 static void test_interface_3d(void **state)
 {
     (void)state;
@@ -134,7 +135,8 @@ static void test_interface_3d(void **state)
     assert_true(interface_residual(&i, strain, S) / S[0] > 0.2);
 }
 
-/* The part of its stress that a point gives: 1/4, 2/3, 11/12 for N = 3, by distance from the interface. */
+/* The part of its stress that a point transfers to the grid: 1/4, 2/3, 11/12 for N = 3, by distance from the
+ * interface. */
 static void test_share_given(void **state)
 {
     (void)state;
@@ -156,8 +158,8 @@ static void test_share_given(void **state)
     cloud_free(&c);
 }
 
-/* Partial stress of a bar of 2 x 2 lines, half of it bonds; `off`: its last particle, which no bond reaches, stands
- * beside the lattice, so that nothing is looked up. */
+/* Computes the partial stress of a bar of 2 x 2 lines, half of it bonds. off: its last particle, which no bond reaches,
+ * is off the lattice, so that the tables are not used. */
 static void shares_make(struct cloud *c, struct partial_stress *partial, real horizon, bool off)
 {
     const struct cloud_plan plan = {.space = SPACE_SOLID, .count = {24, 2, 2}, .horizon = horizon};
@@ -170,8 +172,7 @@ static void shares_make(struct cloud *c, struct partial_stress *partial, real ho
     partial_stress_make(partial, &c->p, &c->bonds, &c->source, NULL, 0);
 }
 
-/* Tables agree with sums bond by bond; where there are too many bonds for tables (8: 2108 in a family), none are
- * used. */
+/* Tables agree with sums over bonds; for families too large for tables (8: 2108 bonds), none are used. */
 static void test_wide_families(void **state)
 {
     (void)state;
@@ -196,7 +197,7 @@ static void test_wide_families(void **state)
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
-/* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
+/* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct cloud *c, const struct partial_stress *partial)
 {
     const struct particles *p = &c->p;
@@ -209,8 +210,8 @@ static real energy_of(const struct cloud *c, const struct partial_stress *partia
     return sum;
 }
 
-/* Energy of a uniformly strained bar of material points when `block` of them, in its middle, have been converted, less
- * that before, in energies of a particle. */
+/* Change of energy of a uniformly strained bar of material points when `block` points in its middle are converted, in
+ * units of the energy of a particle. */
 static void test_energy_at_start(void **state)
 {
     (void)state;
@@ -236,7 +237,7 @@ static void test_energy_at_start(void **state)
         assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         set_stress(&c, strain, stress);
-        /* finite strain and round-off as above, of 32 particle energies */
+        /* Tolerance: finite strain and round-off as above, for 32 particle energies. */
         is_near("handshake", (energy_of(&c, &partial) - before) / particle, row[k].handshake, 1e-4);
         partial_stress_make(&partial, &c.p, &c.bonds, &c.source, NULL, 0);
         is_near("partial stress", (energy_of(&c, &partial) - before) / particle, row[k].partial, 1e-4);
@@ -245,8 +246,8 @@ static void test_energy_at_start(void **state)
     }
 }
 
-/* The same in a run: one point is marked; its horizon goes with it. Momentum and kinetic energy are untouched: the
- * state of motion is not even written. */
+/* Change of energy during a run: one point is marked and converted with its horizon. Momentum and kinetic energy do not
+ * change: velocities are not written. */
 static void test_energy_in_run(void **state)
 {
     (void)state;
@@ -273,7 +274,7 @@ static void test_energy_in_run(void **state)
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
         p->flag[15] |= FLAG_STRESSED;
         assert_int_equal(convert(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
-        p->flag[15] |= FLAG_STRESSED; /* it has been cleared */
+        p->flag[15] |= FLAG_STRESSED; /* the flag has been cleared */
         assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
         for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
         assert_int_equal(p->flag[15], 0);
@@ -290,7 +291,7 @@ static void test_energy_in_run(void **state)
 
 /* ---- two bodies -------------------------------------------------------------------------------------------------- */
 
-/* A point converts its neighbours of its own body alone: of a bar, points 12 .. 18 less those of the other body. */
+/* A point converts only neighbours of its own body: of a bar, points 12 .. 18 without those of the other body. */
 static void test_block_in_its_body(void **state)
 {
     (void)state;
@@ -306,8 +307,8 @@ static void test_block_in_its_body(void **state)
     cloud_free(&c);
 }
 
-/* A pre-crack turns into particles what has bonds across it. Two bodies of four rows, the crack in the middle of the
- * lower one: all four rows of that one; bonds that would reach the upper one are none. */
+/* A pre-crack converts the points with bonds across it. Two bodies of four rows, the crack in the middle of the lower
+ * one: all four rows of that body; there are no bonds to the upper one. */
 static void test_crack_in_its_body(void **state)
 {
     (void)state;
@@ -325,7 +326,7 @@ static void test_crack_in_its_body(void **state)
 }
 
 /* Three bodies side by side, and a rigid one below the last: a point is marked if a particle of another body, or the
- * rigid one, is within reach; peridynamic ones are not, but begin their time anew. */
+ * rigid body, is within reach; peridynamic particles are not marked, but their dwell time restarts. */
 static void test_approach(void **state)
 {
     (void)state;
@@ -360,14 +361,14 @@ static void test_approach(void **state)
     cloud_free(&c);
 }
 
-/* Faces of a notch 0.3 spacings wide become peridynamic where they will have come nearer by all of it: by what they
- * have moved and, if they come nearer, the way ahead. */
+/* Faces of a notch 0.3 spacings wide become peridynamic where they will close the gap: by their displacement and, if
+ * they approach, the displacement ahead. */
 static void test_faces_meet(void **state)
 {
     (void)state;
     enum { WIDE = 7 };
     static const real moved[WIDE] = {0.29, 0.31, 0.05, 0.05, 0.35, 0, 0.2}, /* of the upper row, down [spacings] */
-        way[WIDE] = {0, 0, 0.24, 0.26, -0.1, 0.31, 0.05};                   /* ahead [spacings] */
+        way[WIDE] = {0, 0, 0.24, 0.26, -0.1, 0.31, 0.05};                   /* displacement ahead */
     const real h = CLOUD_SPACING, ahead = 1.7e-6;
     real corner[2][DIM_MAX] = {{-h, h}, {(WIDE + 1) * h, h}};
     struct crack slit = {.n = 2, .corner = corner, .width = 0.3 * h};

@@ -1,5 +1,5 @@
-/* Interface damping keeps momentum, angular momentum and rigid motion, only takes energy, stops what
- * alternates from point to point, and leaves long waves alone. */
+/* Interface damping conserves momentum, angular momentum and rigid motion, only dissipates energy, stops motion that
+ * alternates from point to point, and hardly affects long waves. */
 #include "coupling/interface_zone.h"
 
 #include "tests/support/cloud.h"
@@ -7,7 +7,7 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A body whose left half is peridynamic, displaced at random. */
+/* Creates a body whose left half is peridynamic, with random displacements. */
 static void half_make(struct cloud *c, struct interface_zone *r, enum space space, real shake)
 {
     static const int size[DIM_MAX + 1][DIM_MAX] = {{0}, {40, 0, 0}, {20, 14, 0}, {14, 8, 8}};
@@ -28,7 +28,8 @@ static void half_free(struct cloud *c, struct interface_zone *r)
     cloud_free(c);
 }
 
-/* Momentum, then x_a p_b - x_b p_a, then twice the kinetic energy; `scale`: sums of the terms' sizes. */
+/* Sums of momentum, angular momentum x_a p_b - x_b p_a, and twice the kinetic energy; scale: sums of the magnitudes of
+ * the terms. */
 enum { SUMS = 7 };
 static void sums_of(const struct particles *p, real *sum, real *scale)
 {
@@ -44,8 +45,8 @@ static void sums_of(const struct particles *p, real *sum, real *scale)
         }
 }
 
-/* Random velocities on a shaken body: what is kept is kept to the round-off of the sums (1e-14 of their terms); the
- * kinetic energy falls by what is booked as lost. */
+/* Random velocities on an irregular body: conserved quantities agree to the round-off of the sums (1e-14 of their
+ * terms); the kinetic energy decreases by the recorded loss. */
 static void test_kept(void **state)
 {
     (void)state;
@@ -71,7 +72,7 @@ static void test_kept(void **state)
     }
 }
 
-/* Rigid motion: nothing moves along any line between two particles. */
+/* Rigid motion: no relative motion along any line between two particles, and thus no damping. */
 static void test_rigid(void **state)
 {
     (void)state;
@@ -95,8 +96,8 @@ static void test_rigid(void **state)
     }
 }
 
-/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). Where all neighbours are in the zone, k = 1/16 stops what alternates in one
- * step, and sin(q i) loses (2 - 2 cos q)^2/16 of itself. */
+/* In a bar d_i = v_(i-1) - 2 v_i + v_(i+1). If all neighbours are in the zone, k = 1/16 stops alternating motion in one
+ * step, and sin(q i) is damped by (2 - 2 cos q)^2/16. */
 static void test_waves(void **state)
 {
     (void)state;
@@ -106,7 +107,7 @@ static void test_waves(void **state)
         struct cloud c;
         struct interface_zone r = {0};
         half_make(&c, &r, SPACE_LINE, 0);
-        const int32_t middle = 21; /* points 20 .. 23: the zone; the inner ones see whole neighbourhoods */
+        const int32_t middle = 21; /* the zone is points 20 .. 23; its inner points have complete neighbourhoods */
         const real q = wave_number[k], phase = q < pi ? -q * middle + 0.5 * pi : 0.5 * pi - pi * middle;
         assert_int_equal(r.points, 4);
         for (int64_t i = 0; i < c.p.n; i++) c.p.v[0][i] = sin(q * (real)i + phase);
@@ -117,8 +118,8 @@ static void test_waves(void **state)
     }
 }
 
-/* A crack across the zone, between two rows: faces that part are not held together. Without the crack they are. Across
- * two bodies there are no pairs either. */
+/* A crack across the zone, between two rows: separating faces are not coupled; without the crack they are. There are no
+ * pairs across two bodies either. */
 static void test_parted(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Reversion to material points: energy and momentum of a block that reverts under uniform strain, stress of families
- * that surfaces cut short, which particles may revert and which may not, and their insertion into a mesh. */
+ * incomplete at surfaces, selection of the particles that may revert, and their insertion into a mesh. */
 #include "coupling/reversion.h"
 
 #include "tests/support/cloud.h"
@@ -8,7 +8,7 @@
 #include "kernels/mpm/stress.h"
 #include "base/team.h"
 
-#define STRAIN 1e-6 /* bonds stretch by finite geometry: deviations from linear theory of this order */
+#define STRAIN 1e-6 /* bonds stretch with finite deformation: deviations from linear theory of this order */
 
 struct setting {
     struct cloud c;
@@ -30,7 +30,7 @@ static void setting_make(struct setting *s, const struct cloud_plan *plan)
 
 static void know_stress(struct setting *s) { bond_stress_table[s->c.p.dim][PD_BOND](&s->c.bonds, &s->c.p); }
 
-/* Twice, a dwell time apart: the first look only starts the clock. */
+/* Selects twice, a dwell time apart, because the first call only starts the dwell time. */
 static int64_t choose(struct setting *s, int32_t **list)
 {
     know_stress(s);
@@ -47,7 +47,7 @@ static void setting_never(struct setting *s)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Bonds, and half sigma_given C^-1 sigma of the points [J]. */
+/* Returns the energy of bonds, plus 1/2 sigma_given C^-1 sigma of the points [J]. */
 static real energy_of(const struct setting *s, const struct partial_stress *partial)
 {
     const struct particles *p = &s->c.p;
@@ -66,8 +66,9 @@ static real energy_of(const struct setting *s, const struct partial_stress *part
     return sum;
 }
 
-/* A block in the middle of a uniformly strained bar: only the method that carries the stress changes, and momentum
- * not at all. Published: 0. Finite strain and round-off, of 60 particle energies, as in test_coupling.c. */
+/* A block in the middle of a uniformly strained bar: only the method that carries the stress changes; momentum is
+ * bitwise equal. Published energy error: 0. Tolerance: finite strain and round-off for 60 particle energies, as in
+ * test_coupling.c. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -99,7 +100,7 @@ static void test_bar(void **state)
     assert_int_equal(s.c.bonds.rows, 0);
     assert_int_equal(conversion.reverted, 20);
     for (int64_t i = 0; i < p->n; i++) {
-        const bool had = i >= 16 && i < 48; /* a row of bonds, which come in eights, whose force is gone now */
+        const bool had = i >= 16 && i < 48; /* a row of bonds, in blocks of eight, whose force is zero now */
         assert_near(p->stress[0][i], STRAIN * s.c.material[0].young, 3 * STRAIN * STRAIN * s.c.material[0].young);
         assert_true(p->f[0][i] == (had ? 0 : 7) && partial.index[i] < 0);
         if (i < 20 || i >= 40) continue;
@@ -112,9 +113,9 @@ static void test_bar(void **state)
     cloud_free(&s.c);
 }
 
-/* A whole bar returns while a wave stands in it, of stress E e exp(-(4 X/width)^2): what bonds smear is lost.
- * Published, of all energy of a pulse that travels, half of which is kinetic and stays: -0.09 % at 80 spacings, -0.3
- * % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86 %. */
+/* A whole bar reverts during a standing wave of stress E e exp(-(4 X/width)^2): energy is lost by the smoothing of
+ * bonds. Published relative loss for a travelling pulse, half of whose energy is kinetic and is kept: -0.09 % at 80
+ * spacings, -0.3 % at 40, -1.8 % at 16; measured -0.083, -0.327, -1.86 %. */
 static void test_wave(void **state)
 {
     (void)state;
@@ -143,8 +144,8 @@ static void test_wave(void **state)
     }
 }
 
-/* A whole body returns: a particle at a corner, with a quarter or an eighth of a family, has the stress of one in the
- * middle, and the volume of a uniform F. Bonds' weights are single precision. */
+/* A whole body reverts: a particle at a corner, with a quarter or an eighth of a family, has the stress of a particle
+ * in the middle, and the volume of a uniform F. Tolerance: weights of bonds are in single precision. */
 static void test_surfaces(void **state)
 {
     (void)state;
@@ -165,7 +166,7 @@ static void test_surfaces(void **state)
         assert_int_equal(choose(&s, &list), p->n);
         real middle[SYM_MAX], most = 0;
         const int n = symmetric_count(p->dim);
-        for (int64_t i = 0; i < p->n; i++) /* a full family: its plain virial */
+        for (int64_t i = 0; i < p->n; i++) /* a complete family has its plain virial stress */
             if (s.c.bonds.family_volume[i] > 0.999 * s.c.source.family.full)
                 for (int c = 0; c < n; c++) middle[c] = p->stress[c][i], most = real_max(most, fabs(middle[c]));
         assert_true(most > 0);
@@ -191,7 +192,8 @@ static real distance(const struct particles *p, int64_t i, int64_t j)
 
 enum reason { REASON_BREAK, REASON_STRESS, REASON_REGION };
 
-/* A square in which one particle has a reason to stay: how far it holds others, against a plain definition. */
+/* A square in which one particle must not revert: the region that it keeps from reverting agrees with a plain
+ * definition. */
 static void test_who_stays(void **state)
 {
     (void)state;
@@ -221,7 +223,8 @@ static void test_who_stays(void **state)
             const bool stays = distance(p, i, one) <= reach[reason];
             stay += stays;
             if (k < n && list[k] == i) assert_false(stays), k++;
-            /* a ball of one horizon has to fit in beside what stays: all have one, but where the body's edge is near */
+            /* A ball of one horizon has to fit beside the remaining particles: it always does, except near the edge of
+             * the body. */
             else
                 assert_true(stays);
         }
@@ -231,7 +234,8 @@ static void test_who_stays(void **state)
     }
 }
 
-/* Stress that comes back before the dwell time is over starts the clock anew; what is enclosed in a thin gap stays. */
+/* Stress that returns before the end of the dwell time restarts it; particles enclosed in a narrow gap do not
+ * revert. */
 static void test_dwell_and_gap(void **state)
 {
     (void)state;
@@ -243,13 +247,13 @@ static void test_dwell_and_gap(void **state)
     cloud_bonds(&s.c);
     setting_never(&s);
     know_stress(&s);
-    for (int t = 0; t < 5; t++) { /* at rest but for 0.5 < share at times 0, 1, 2 */
+    for (int t = 0; t < 5; t++) { /* unstressed except for 0.5 < share at times 0, 1, 2 */
         p->stress[0][30] = t < 3 ? 0.51 * s.elastic[0].trigger : 0.49 * s.elastic[0].trigger;
         const int64_t n = reversion_choose(&s.rule, p, &s.c.bonds, t, &list);
-        assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side stay with it */
+        assert_int_equal(n, t == 0 ? 0 : t < 4 ? 53 : 60); /* three on either side also stay */
         memory_free(list);
     }
-    /* at the end of the bar, where a family is half of a whole one, so much of the stress counts as twice as much */
+    /* At the end of the bar, where a family is half of a complete one, a given bond stress counts twice. */
     setting_never(&s);
     for (int k = 0; k < 2; k++) {
         p->stress[0][30] = 0, p->stress[0][0] = (k ? 0.24 : 0.3) * s.elastic[0].trigger;
@@ -260,8 +264,8 @@ static void test_dwell_and_gap(void **state)
         }
     }
     p->stress[0][0] = 0;
-    /* between 20 and 34 thirteen particles of which seven stand clear of both: a whole ball; between 20 and 33 there
-     * is none */
+    /* Between 20 and 34 there are thirteen particles, seven of which have a distance from both: a whole ball; between
+     * 20 and 33 there is none. */
     for (int gap = 13; gap >= 12; gap--) {
         setting_never(&s);
         p->stress[0][30] = 0;
@@ -279,8 +283,8 @@ static void test_dwell_and_gap(void **state)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Points leave a mesh that moves like a rigid body and strains evenly, and come back: the nodes have that
- * displacement again, those that had gone too, all momentum is there, and what is kinetic is booked. */
+/* Points leave a mesh that moves rigidly with uniform strain, and return: all nodes, also removed ones, have the
+ * displacement of that motion again, momentum is conserved, and the change of kinetic energy is recorded. */
 static void test_mesh(void **state)
 {
     (void)state;
@@ -328,7 +332,7 @@ static void test_mesh(void **state)
         }
     for (int d = 0; d < dim; d++) assert_near(is[d], was[d], 1e-13 * p->mass[0] * (real)p->n), memory_free(u[d]);
     assert_near((mesh_kinetic(&mesh) + lost) / kinetic, 1, 1e-13);
-    assert_true(lost > 0); /* velocities of nodes were at random: means lose */
+    assert_true(lost > 0); /* velocities of nodes are random: averaging dissipates */
     mesh_free(&mesh);
     cloud_free(&s.c);
 }

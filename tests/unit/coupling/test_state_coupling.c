@@ -1,5 +1,5 @@
-/* State-based bonds as partners of material points: the residual of uniform strain across a flat interface, the
- * moment on a point, and that converting a block costs nothing. */
+/* State-based bonds coupled to material points: residual of uniform strain across a flat interface, moment on a point,
+ * and zero energy of conversion. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,14 +10,14 @@
 #include "base/team.h"
 #include "src/coupling/partial_parts.h"
 
-#define STRAIN 1e-7 /* finite geometry deviates from linear theory by as much */
+#define STRAIN 1e-7 /* deviations of finite deformation from linear theory are of this order */
 
 struct partners {
     struct cloud_plan plan;
     enum pd_model model;
     real poisson;
-    int split;   /* peridynamic columns, left of the interface */
-    real offset; /* of the grid's nodes [spacings] */
+    int split;   /* number of peridynamic columns, left of the interface */
+    real offset; /* offset of the nodes [spacings] */
 };
 
 struct both {
@@ -40,7 +40,7 @@ static void both_make(struct both *b, const struct partners *k)
     c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
 }
 
-/* Stress of Hooke's law in the material points. */
+/* Sets the stress of Hooke's law in the material points. */
 static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
 {
     real vector[SYM_MAX] = {0}, stiffness[SYM_MAX * SYM_MAX];
@@ -57,7 +57,7 @@ static void stress_set(struct cloud *c, const real strain[DIM_MAX][DIM_MAX])
         }
 }
 
-/* Of bonds, after the points at their ends have been read. */
+/* Computes the forces of bonds after the points at their ends have been evaluated. */
 static void forces(struct both *b, enum pd_model model)
 {
     struct cloud *c = &b->s.c;
@@ -66,7 +66,7 @@ static void forces(struct both *b, enum pd_model model)
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
-/* Largest nodal force over (largest stress times a cell's face). */
+/* Returns the largest nodal force over the largest stress times a cell's face. */
 static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MAX])
 {
     struct both b;
@@ -88,11 +88,11 @@ static real residual(const struct partners *k, const real strain[DIM_MAX][DIM_MA
     return force;
 }
 
-/* What symmetry leaves, by model, ratio and load (axial, biaxial, shear), over S h, the interface on a node. The
- * model with rotations: nothing of forces along a flat interface's normal, A/2 of what is not isotropic in the depth
- * of its bonds, and in shear half of what leaves their line. The ordinary model: the same by its own A, and what the
- * lattice's fourth moments differ by, as bonds do. Found with a program of a few hundred lines that adds up dense
- * matrices, for these numbers. */
+/* Expected residual over S h with the interface on a node, by model, cell size and load (axial, biaxial, shear), after
+ * cancellation by symmetry. Model with rotations: zero for forces along the normal of a flat interface; A/2 for the
+ * anisotropic part in the depth of its bonds, and in shear half of the part that leaves the line of the bond. Ordinary
+ * model: the same with its own A, plus the difference of the lattice's fourth moments, as for bonds. The numbers are
+ * from an independent program that sums dense matrices. */
 static void test_flat(void **state)
 {
     (void)state;
@@ -108,8 +108,8 @@ static void test_flat(void **state)
             }
 }
 
-/* Bonds of two spacings end within one cell, in which what is left adds up to nothing; 5e-6 is round-off of
- * positions over the strain. */
+/* Bonds of two spacings end within one cell, in which the residual cancels; 5e-6 is round-off of positions over the
+ * strain. */
 static void test_flat_solid(void **state)
 {
     (void)state;
@@ -124,8 +124,8 @@ static void test_flat_solid(void **state)
 
 /* ---- torque ------------------------------------------------------------------------------------------------------ */
 
-/* A point at the end of bonds, which see a part of its family, is turned by them: the torque of its own force states
- * is the moment on its cell, to round-off over the strain. */
+/* A point at the end of bonds, which see a part of its family, experiences a moment: the torque of its own force states
+ * equals the moment on its cell, to round-off over the strain. */
 static void test_torque(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void test_torque(void **state)
 
 /* ---- energy of conversion ---------------------------------------------------------------------------------------- */
 
-/* Bonds, and half sigma_given : C^-1 sigma of the points [J]. */
+/* Returns the energy of bonds, plus 1/2 sigma_given : C^-1 sigma of the points [J]. */
 static real energy_of(const struct both *b, enum pd_model model)
 {
     const struct cloud *c = &b->s.c;
@@ -185,7 +185,8 @@ static real energy_of(const struct both *b, enum pd_model model)
     return sum;
 }
 
-/* Energy that comes of making a square block in a uniformly strained plate peridynamic, in energies of a particle. */
+/* Returns the change of energy when a square block in a uniformly strained plate becomes peridynamic, in units of the
+ * energy of a particle. */
 static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int edge)
 {
     const struct partners k = {
@@ -212,9 +213,9 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     return came;
 }
 
-/* The block's sides cost nothing: the energy is that of four corners, whatever its size, load and model: bonds round
- * a corner run less than half their way in material points. In the ordinary model the lattice differs from the
- * points, by 1.4 % axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds round it. */
+/* The sides of the block contribute nothing: the energy is that of four corners, for any size, load and model, where
+ * less than half of a bond runs in material points. In the ordinary model the lattice differs from the points by 1.4 %
+ * axially and 3.4 % in shear (its fourth moments), over the block and half of the bonds around it. */
 #define CORNER (-0.08604)
 static void test_energy(void **state)
 {
@@ -231,9 +232,9 @@ static void test_energy(void **state)
         }
 }
 
-/* Bonds between two materials answer alike from both ends, and by the moduli of both: B of the law with
- * rotations for a vector, A/D for a mean strain, each end over the sum of its family. The cell of a particle is as wide
- * as its volume says, in a line over the section and in the plane over the thickness. */
+/* Bonds between two materials have the same response from both ends, with the moduli of both: B of the law with
+ * rotations for a vector, A/D for a mean strain, each end relative to the sum over its family. The cell of a particle
+ * has its volume: width from the section in 1D, from the thickness in 2D. */
 static void test_response(void **state)
 {
     (void)state;
@@ -254,7 +255,7 @@ static void test_response(void **state)
             const struct response other = response_of(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
-            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have whole families */
+            if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete families */
             const struct state_modulus *m = &b.modulus[i % 2], *n = &b.modulus[j % 2];
             const real scale = it.bond.w * square(CLOUD_SPACING) * full;
             is_near("vector", one.vector, scale * (m->B + n->B), 1e-6 * one.vector);
@@ -268,8 +269,8 @@ static void test_response(void **state)
     cloud_free(c);
 }
 
-/* Rows have the energies that all of them have together, those of points at the end of bonds, too, which turn with
- * their cells: of a half that is peridynamic, in a plate that is stretched and turned by 0.3 rad. */
+/* The energies of rows add up to the total, including those of points at the ends of bonds, which rotate with their
+ * cells: a plate with one peridynamic half, stretched and rotated by 0.3 rad. */
 static void test_rows(void **state)
 {
     (void)state;
@@ -295,8 +296,9 @@ static void test_rows(void **state)
     patch_free(&b.s);
 }
 
-/* Bonds that are stiffer than the point: what is left of their part T leaves the rest V C - T no negative eigenvalue,
- * and takes nothing away where it has positive ones: the rest times what was taken is 0, as tensors. */
+/* Bonds that are stiffer than the point: the limited part T leaves no negative eigenvalue in the remainder V C - T, and
+ * is not reduced where the remainder has positive ones: the product of the remainder and the reduction is 0, as
+ * tensors. */
 static void test_positive(void **state)
 {
     (void)state;
@@ -322,7 +324,7 @@ static void test_positive(void **state)
         partial_positive_bonds(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
-            for (int c = 0; c < n; c++) { /* components of shear count twice: a root of 2 for each */
+            for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */
                 const real root = (a < dim ? 1 : sqrt(2)) * (c < dim ? 1 : sqrt(2));
                 const real own = a < dim && c < dim ? (a == c ? m->c11 : m->c12) : a == c ? m->shear : 0;
                 taken[a * n + c] = root * (rest[a * n + c] - T[a * n + c]);

@@ -1,6 +1,5 @@
-/* Material points at the end of state-based bonds: forces on particles and nodes are the exact gradient of
- * one energy, also of bodies that turn; what a point on the grid is taken to know; and what stress it leaves to its
- * bonds. */
+/* Material points at the ends of state-based bonds: forces on particles and nodes are the exact gradient of one energy,
+ * also in rotating bodies; state of a point on the grid; and stress that it leaves to its bonds. */
 #include <string.h>
 
 #include "tests/support/cloud.h"
@@ -15,10 +14,10 @@
 #include "run/energies.h"
 #include "scene/scene_read.h"
 
-#define TURN_MOST 0.2 /* of a particle [rad] */
-#define SHAKE 0.02    /* of places [spacings]: strains of some percent */
+#define TURN_MOST 0.2 /* largest rotation of a particle [rad] */
+#define SHAKE 0.02    /* random displacements [spacings]: strains of some percent */
 
-/* Half a body whose bonds end at points, and at images of peridynamic particles. */
+/* A body, half of whose bonds end at points, and at images of peridynamic particles. */
 static const char plate[] =
     "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\nmethod: adaptive\n"
     "material: {young: 72 GPa, poisson: 0.2, density: 2440 kg/m^3}\n"
@@ -40,7 +39,7 @@ static void engine_from(struct run *e, struct scene *s, const char *text)
 
 /* ---- gradient ---------------------------------------------------------------------------------------------------- */
 
-/* Turned about z and shaken; a mirror's plane stays. */
+/* Returns the position rotated about z and randomly displaced; the plane of a mirror is kept. */
 static real shaken(const struct run *e, const real *X, int d, uint64_t *seed)
 {
     const real angle = TURN_MOST * X[0] / 20e-3;
@@ -73,7 +72,7 @@ static real energy_of(struct run *e)
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
 
-/* Force on one component against the slope of the energy. */
+/* Compares the force on one component with the derivative of the energy. */
 static void check_slope(struct run *e, real *place, const real *force, real scale)
 {
     const real step = 1e-5 * e->scene->spacing, was = *place;
@@ -94,8 +93,7 @@ static real largest(const struct run *e)
     return most;
 }
 
-/* Every few unknowns, of both kinds. What moves with an image or a plane of symmetry is left out: nodes beyond or on
- * it. */
+/* Checks every few unknowns of both kinds, without nodes on or beyond a plane of symmetry, which move with others. */
 static void check_gradient(struct run *e)
 {
     struct particles *p = &e->part;
@@ -116,7 +114,8 @@ static void check_gradient(struct run *e)
     assert_true(particles > 60 && nodes > 50);
 }
 
-/* 1e-6 of the largest force: the energy's third derivative times the step squared, and its round-off over the step. */
+/* Tolerance 1e-6 of the largest force: third derivative of the energy times the squared step, and round-off over the
+ * step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -137,7 +136,7 @@ static void test_gradient(void **state)
 
 /* ---- a point on the grid ----------------------------------------------------------------------------------------- */
 
-/* Pressure of the strain that its bonds see and the rest by its stress; its own rotation. */
+/* Checks a point: pressure from the strain of its bonds, the other components from its stress; its rotation. */
 static void check_point(const struct run *e, int64_t row)
 {
     const struct bonds *b = &e->bonds;
@@ -198,7 +197,7 @@ static void test_points(void **state)
 
 /* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* Of a point, with the map of sites and by searching: the same bits. */
+/* Asserts that the partial stress of points from the site map and from searches is bitwise equal. */
 static void same_partials(const struct partial_stress *a, const struct partial_stress *b, int64_t n, int dim)
 {
     const int symmetric = symmetric_count(dim), size = symmetric * symmetric;

@@ -1,9 +1,9 @@
-/* Tests of the fields that follow from others: invariants and principal axes of tensors. */
+/* Derived fields: invariants and principal axes of tensors. */
 #include "tests/support/near.h"
 
 #include "data/derived_fields.h"
 
-/* A tensor is its principal values along its axes, whatever these are. */
+/* A tensor is reproduced by its principal values along its axes. */
 static void principal_values_of_turned_tensors(void **state)
 {
     static const real values[][3] = {{3, 1, -2}, {5, 5, 1}, {2, -1, -1}, {1, 1, 1}, {4e9, 1, -4e9}, {0, 0, 0}};
@@ -32,7 +32,7 @@ static void principal_values_of_turned_tensors(void **state)
         }
 }
 
-/* Uniaxial stress S: S; pure shear T: sqrt(3) T; pressure: 0. */
+/* Von Mises stress of uniaxial stress S: S; of pure shear T: sqrt(3) T; of pressure: 0. */
 static void invariants(void **state)
 {
     (void)state;

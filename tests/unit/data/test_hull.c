@@ -1,4 +1,5 @@
-/* Surfaces against closed forms: volumes of sphere and torus, winding numbers, distances; open ones and turned ones. */
+/* Surfaces compared with closed forms: volumes of sphere and torus, winding numbers, distances; open and reversed
+ * surfaces. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +12,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-/* A surface over a grid of n x m quadrilaterals that closes in both directions (torus) or has poles (ball). */
+/* A surface on a grid of n x m quadrilaterals that is periodic in both directions (torus) or has poles (ball). */
 struct grid_hull {
     int64_t corners, faces;
     real (*corner)[DIM_MAX];
@@ -60,7 +61,7 @@ static void ball_and_torus(void **state)
         assert_int_equal(s.open_edges, 0);
         assert_int_equal(s.shells, 1);
         assert_false(s.reversed);
-        /* chords of 96 sides: 1 - sin(2 pi/n)/(2 pi/n) in each of two directions */
+        /* Tolerance: chords of 96 sides, 1 - sin(2 pi/n)/(2 pi/n) in each of two directions. */
         assert_true(fabs(s.volume / volume - 1) < 0.003);
         for (int k = 0; k < 400; k++) {
             const real a = 0.1 + k * 2.399963, X[] = {3 * sin(1.1 * k), 3 * cos(a), sin(0.7 * k)};
@@ -96,7 +97,7 @@ static void turned_and_open(void **state)
     assert_true(s.reversed && s.open_edges == 0 && s.volume > 4);
     assert_true(hull_distance(&s, (real[]){0, 0, 0}, NULL) < -0.97);
     hull_free(&s);
-    /* a hole of two of 1104 faces: the middle is inside, and little is in doubt */
+    /* A hole of two of 1104 faces: the middle is inside, and few positions are uncertain. */
     g = grid_make(false, 24, 24);
     memmove(g.face + 500, g.face + 502, sizeof *g.face * (size_t)(g.faces - 502));
     g.faces -= 2;
@@ -105,7 +106,7 @@ static void turned_and_open(void **state)
     assert_true(hull_doubt(&s) < 0.01);
     assert_true(hull_winding(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
-    /* half a ball is no body */
+    /* Half a ball is not closed. */
     g = grid_make(false, 24, 24);
     g.faces /= 2;
     hull_of(&s, &g);
@@ -114,7 +115,7 @@ static void turned_and_open(void **state)
     hull_free(&s);
 }
 
-/* Faces given twice stay once; a pair that looks both ways goes. */
+/* Of faces given twice one is kept; a pair with opposite orientations is removed. */
 static void doubles(void **state)
 {
     (void)state;
@@ -132,7 +133,7 @@ static void doubles(void **state)
     hull_free(&s);
 }
 
-/* In the plane: a square with a square hole. */
+/* In 2D: a square with a square hole. */
 static void plane_ring(void **state)
 {
     (void)state;
@@ -157,7 +158,7 @@ static void plane_ring(void **state)
     hull_free(&s);
 }
 
-/* Points and lines have a distance, and no inside. */
+/* Points and lines have a distance, but no interior. */
 static void open_ones(void **state)
 {
     (void)state;

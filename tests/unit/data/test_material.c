@@ -1,5 +1,5 @@
-/* Materials: elastic constants against uniaxial tension, wave speeds, the bilinear curve; micro-moduli and critical
- * stretches against integrals over the horizon. */
+/* Materials: elastic constants compared with uniaxial tension, wave speeds, bilinear curve; micro-moduli and critical
+ * stretches compared with integrals over the horizon. */
 #include <math.h>
 
 #include "bonds/family.h"
@@ -21,9 +21,9 @@ static struct material made(enum space space, real poisson)
     return m;
 }
 
-/* Tension along x with free sides: in the plane of a plate and in space E and nu themselves, in plane strain E/(1 -
- * nu^2) and nu/(1 - nu); a shear of G = E/(2 (1 + nu)); waves by c11 and G; the Rayleigh speed of nu = 1/4 in space and
- * in plane strain: c_R^2/c_s^2 = 2 - 2/sqrt(3). */
+/* Tension along x with free sides: E and nu in plane stress and 3D, E/(1 - nu^2) and nu/(1 - nu) in plane strain; shear
+ * G = E/(2 (1 + nu)); waves from c11 and G; Rayleigh speed for nu = 1/4 in 3D and plane strain: c_R^2/c_s^2 = 2 -
+ * 2/sqrt(3). */
 static void elastic_constants(void **state)
 {
     (void)state;
@@ -45,7 +45,7 @@ static void elastic_constants(void **state)
     }
 }
 
-/* E up to the yield stress, E_t behind it; the plastic modulus H adds to E in series. */
+/* E up to the yield stress, E_t beyond; the plastic modulus H is in series with E. */
 static void bilinear_curve(void **state)
 {
     (void)state;
@@ -63,14 +63,15 @@ enum { PIECES = 400 };
 #define HORIZON 0.031
 static const real pi = 3.14159265358979323846;
 
-/* Volume of a shell of radius r within a line of the section, a plane of the thickness, or space, per radius [m^2]. */
+/* Returns the volume of a shell of radius r per radius [m^2]: on a line of the section, in a plane of the thickness, in
+ * space. */
 static real shell(int dim, real r, real section)
 {
     return dim == 1 ? 2 * section : dim == 2 ? 2 * pi * r * section : 4 * pi * r * r;
 }
 
-/* The energy per volume of all bonds under a uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of the material
- * with the ratio of bonds: E s^2/2, 2 k2 s^2, 9/2 K s^2. */
+/* The energy per volume of all bonds under uniform expansion s, 1/2 integral of c s^2 r/2 dV, is that of a material
+ * with the Poisson's ratio of bonds: E s^2/2, 2 k2 s^2, 9/2 K s^2. */
 static void micro_modulus(void **state)
 {
     (void)state;
@@ -89,8 +90,8 @@ static void micro_modulus(void **state)
     }
 }
 
-/* Energy of all bonds across a unit area at the critical stretch, integral over the height z above it and bonds of
- * length r beyond acos(z/r): G_c = integral 1/2 c s^2 r (share of the shell beyond z) dz dV. */
+/* The energy of all bonds across a unit area at the critical stretch, an integral over the height z above it and over
+ * bonds of length r within acos(z/r), is G_c = integral 1/2 c s^2 r (share of the shell beyond z) dz dV. */
 static void critical_stretch(void **state)
 {
     (void)state;
@@ -107,7 +108,7 @@ static void critical_stretch(void **state)
                 const real beyond = dim == 1 ? 0.5 : dim == 2 ? acos(z / r) / pi : 0.5 * (1 - z / r);
                 energy += 0.5 * c * s * s * r * beyond * shell(dim, r, section) * HORIZON / PIECES * r / PIECES;
             }
-        assert_close(energy, 37, 1e-3); /* roots at the ends of acos, 400 pieces */
+        assert_close(energy, 37, 1e-3); /* tolerance: roots at the ends of acos, 400 pieces */
     }
 }
 
@@ -123,7 +124,7 @@ static void critical_stretch_of_states(void **state)
                  sqrt(37 / ((3 * G + 0.31640625 * (K - 5 * G / 3)) * HORIZON)), 1e-8);
 }
 
-/* Influence functions at two distances, and the horizon that covers whole neighbours and a half. */
+/* Influence functions at two distances, and a horizon of a half-integer number of spacings. */
 static void families(void **state)
 {
     (void)state;

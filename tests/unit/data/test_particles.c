@@ -1,4 +1,4 @@
-/* Tests of the particles' table of arrays, their sorting, lists and images. */
+/* Tests of the table of particle arrays, and of sorting, lists and images of particles. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -7,7 +7,7 @@
 
 enum { EVERYTHING = WITH_EVERYTHING };
 
-/* Every array of the struct stands in the table exactly once, with its room. */
+/* Every array of the struct is in the table exactly once, with its size. */
 static void table_covers_the_struct(void **state)
 {
     (void)state;
@@ -33,7 +33,8 @@ static void table_covers_the_struct(void **state)
         }
 }
 
-/* A lattice of 5 x 4 x 3 with round-off, in a shuffled order, sorts row by row and keeps its entries together. */
+/* A lattice of 5 x 4 x 3 with round-off, in permuted order, is sorted row by row; the entries of a particle stay
+ * together. */
 static void sort_follows_rows(void **state)
 {
     (void)state;
@@ -41,7 +42,7 @@ static void sort_follows_rows(void **state)
     struct particles p;
     particles_make(&p, 3, N, EVERYTHING);
     for (int i = 0; i < N; i++) {
-        int place = i * 37 % N, at[3] = {place % 5, place / 5 % 4, place / 20}; /* 37 and 60 have no divisor */
+        int place = i * 37 % N, at[3] = {place % 5, place / 5 % 4, place / 20}; /* 37 and 60 have no common divisor */
         for (int d = 0; d < 3; d++) p.X[d][i] = 0.1 * at[d] + 1e-13 * ((i * 7 + d) % 11 - 5);
         p.id[i] = i;
         p.mass[i] = p.stress[5][i] = p.gradient[8][i] = p.stretch[2][i] = place;
@@ -93,7 +94,7 @@ static void images_are_added_behind(void **state)
     particles_free(&p);
 }
 
-/* The box round some particles, in which images count only on request; particles on a lattice. */
+/* The bounding box of particles includes images only on request; particles are recognised on a lattice. */
 static void extent_and_sites(void **state)
 {
     (void)state;
@@ -113,7 +114,7 @@ static void extent_and_sites(void **state)
     particles_extent(&p, 0, 1, &low, &high);
     assert_true(isinf(low) && isinf(high) && high < low);
     particles_free(&p);
-    for (int k = -1000; k <= 1000; k++) { /* places as a scene computes them: round-off does not matter */
+    for (int k = -1000; k <= 1000; k++) { /* positions as a scene computes them: round-off is ignored */
         assert_true(lattice_site(0.3 + k * 1e-3, 0.3, 1e-3, &site));
         assert_exact(site, k);
         assert_false(lattice_site(0.3 + (k + 1e-7) * 1e-3, 0.3, 1e-3, &site));

@@ -1,4 +1,4 @@
-/* Scatter of strength: the numbers, the field and what chains of it bear, against closed forms. */
+/* Scatter of strength: random numbers, random field and strength of chains, compared with closed forms. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -13,8 +13,7 @@ static int test_scatter_ascending(const void *a, const void *b)
 
 static real normal_below(real g) { return 0.5 * erfc(-g * M_SQRT1_2); }
 
-/* Phi of the quantile is the probability again: the seven digits of the formula, times the
- * size of the number, which reaches 8. */
+/* Phi of the quantile is the probability. Tolerance: seven digits of the formula, times the magnitude, at most 8. */
 static void test_quantiles(void **state)
 {
     (void)state;
@@ -27,8 +26,8 @@ static void test_quantiles(void **state)
     assert_exact(normal_quantile(0.5), 0);
 }
 
-/* The largest distance of the distribution of n numbers from F (Kolmogorov): 1.63/sqrt(n) is passed by one sample in
- * a hundred. */
+/* Returns the largest distance between the distribution of n numbers and F (Kolmogorov): it exceeds 1.63/sqrt(n) in 1 %
+ * of samples. */
 static real kolmogorov(real *value, int n, real (*F)(real, real), real parameter)
 {
     real most = 0;
@@ -50,7 +49,8 @@ static real weibull_of_square(real s, real m) { return weibull(s * s, m); }
 
 enum { MANY = 20000 };
 
-/* Places far apart, in every dimension, and particles without a length: as told, in every way of telling. */
+/* Distant positions, in every dimension, and particles without a length scale: the distribution is the requested one,
+ * in every form of the request. */
 static void test_distributions(void **state)
 {
     (void)state;
@@ -73,8 +73,8 @@ static void test_distributions(void **state)
     free(value);
 }
 
-/* Mean of g(X) g(X + r) over places and seeds: exp(-(r/length)^2); its deviation is near 1/sqrt(n) of n pairs, four of
- * which are allowed, and 1e-3 for what the lattice cuts off. */
+/* Correlation, mean of g(X) g(X + r) over positions and seeds: exp(-(r/length)^2). Tolerance: four standard deviations
+ * of about 1/sqrt(n) for n pairs, and 1e-3 for the truncation by the lattice. */
 static void test_correlation(void **state)
 {
     (void)state;
@@ -96,8 +96,8 @@ static void test_correlation(void **state)
     }
 }
 
-/* Of n links the weakest has the mean n^(-1/m) (weakest link, Weibull 1951). Deviation of a mean over chains: the
- * coefficient of variation, 1.2/m about, over their root; three of it. */
+/* The weakest of n links has the mean n^(-1/m) (weakest link, Weibull 1951). Tolerance: three standard deviations, the
+ * coefficient of variation of about 1.2/m over the root of the number of chains. */
 static void test_weakest_link(void **state)
 {
     (void)state;
@@ -118,8 +118,8 @@ static void test_weakest_link(void **state)
         }
 }
 
-/* A field of the place: the neighbours' distance, order and number play no part; it is smooth, and far from the origin
- * as near. */
+/* The field depends on the position only: not on distance, order or number of neighbours; it is smooth, equally far
+ * from the origin. */
 static void test_by_place(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Solids beside formulas that know nothing of them: areas and volumes, slopes of distances, symmetric copies. */
+/* Solids compared with independent formulas: areas and volumes, distances and their gradients, symmetric copies. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,7 +10,7 @@
 
 static const real pi = 3.14159265358979323846;
 
-/* Uniform numbers in [0, 1) (Lehmer's generator modulo 2^31 - 1). */
+/* Returns a pseudo-random number, uniform in [0, 1) (Lehmer's generator modulo 2^31 - 1). */
 static real random_next(uint64_t *state)
 {
     *state = *state * 48271 % 2147483647;
@@ -23,7 +23,8 @@ static real arrow[][2] = {{0, 0}, {4, 0}, {4, 3}, {2, 1}, {0, 3}};
 static struct polygon sharp = {5, arrow, 0, NULL, 0}, rounded = {5, arrow, 0.25, NULL, 0};
 static struct solid washer = {.kind = SOLID_RING, .radius = 1, .inner = 0.4};
 
-/* Area of the arrow, and what a corner of interior angle a loses by rounding with r: r^2 (1/tan(a/2) - (pi - a)/2). */
+/* Returns the area of the arrow, reduced at each corner of interior angle a by rounding with r: r^2 (1/tan(a/2) - (pi -
+ * a)/2). */
 static real arrow_area(real r)
 {
     real area = 0;
@@ -83,7 +84,7 @@ static void examples_make(void)
 
 /* ---- checks of one solid ----------------------------------------------------------------------------------------- */
 
-/* Volume by points of a sequence, in a box that is a little larger than needed. */
+/* Checks the volume by quasi-random points in a box slightly larger than needed. */
 static void check_volume(const struct solid *s, int dim, real volume)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -96,7 +97,7 @@ static void check_volume(const struct solid *s, int dim, real volume)
     assert_float_equal(region_volume(&r, dim, from, to), volume, 2e-3 * box);
 }
 
-/* Bounds: no point of it lies outside, and it touches each side. */
+/* Checks the bounds: no point of the solid is outside, and it touches each side. */
 static void check_bounds(const struct solid *s, int dim)
 {
     const struct region r = {.n = 1, .solid = (struct solid *)(uintptr_t)s};
@@ -113,12 +114,12 @@ static void check_bounds(const struct solid *s, int dim)
             assert_true(level > 0);
             nearest = real_min(nearest, level);
         }
-        assert_true(nearest < 0.15); /* 3000 points leave no larger hole */
+        assert_true(nearest < 0.15); /* 3000 points leave no larger gap */
     }
 }
 
-/* Signed distance: unit normals; the level agrees in sign; no slope is steeper than 1, and from outside a step back
- * along the normal by the distance leads to the surface. The two make it the distance. */
+/* Checks the signed distance: unit normals; sign agrees with the level; no gradient exceeds 1; from outside, a step
+ * back along the normal by the distance leads to the surface. The last two conditions define the distance. */
 static void check_distance(const struct solid *s, int dim)
 {
     uint64_t seed = 99;
@@ -149,7 +150,7 @@ static void test_every_kind(void **state)
     }
 }
 
-/* The same turned, mirrored and moved: nothing changes but the place. */
+/* A rotated, mirrored and displaced solid changes only its position. */
 static void test_every_kind_moved(void **state)
 {
     (void)state;
@@ -171,7 +172,7 @@ static void test_every_kind_moved(void **state)
 
 /* ---- copies ------------------------------------------------------------------------------------------------------ */
 
-/* A box turned by quarters about its corner is the box with other corners, to the last bit. */
+/* A box rotated by quarter turns about its corner is bitwise equal to the box with exchanged corners. */
 static void test_quarter_turns(void **state)
 {
     (void)state;
@@ -188,7 +189,7 @@ static void test_quarter_turns(void **state)
     }
 }
 
-/* A wheel of 18 teeth: it looks the same from every tooth, and has their area. */
+/* A wheel of 18 teeth is invariant under rotation by one tooth, and has their area. */
 static void test_gear(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void test_gear(void **state)
         const real X[] = {r * cos(angle), r * sin(angle), 0}, Y[] = {r * cos(turned), r * sin(turned), 0};
         assert_float_equal(region_level(&gear, X, 2), region_level(&gear, Y, 2), 1e-13);
     }
-    /* area of a tooth beyond the wheel: by strips along it */
+    /* Area of a tooth beyond the wheel, by strips along it. */
     real area = pi * 100;
     enum { STRIPS = 20000 };
     for (int k = 0; k < STRIPS; k++) {
@@ -219,7 +220,7 @@ static void test_gear(void **state)
     memory_free(s[1].image), memory_free(s[1].motion), box_tree_free(&s[1].tree);
 }
 
-/* A grid of holes is the list of the holes; a mirror image lies where it should. */
+/* A grid of holes equals the list of the holes; a mirror image is at its exact position. */
 static void test_grid_and_mirror(void **state)
 {
     (void)state;
@@ -253,7 +254,7 @@ static void test_grid_and_mirror(void **state)
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
 
-/* Asks two regions at random places: the same to the last bit, on surfaces, too. */
+/* Evaluates two regions at random positions, also on surfaces: the results are bitwise equal. */
 static void check_same(const struct region *a, const struct region *b, int dim, int places)
 {
     uint64_t seed = 13;
@@ -282,7 +283,8 @@ static void many_free(struct solid *list)
     }
 }
 
-/* Solids of all kinds, many turned, in runs that are added, taken away and intersected: an index changes nothing. */
+/* Solids of all kinds, many of them rotated, in sequences that are added, subtracted and intersected: the index does
+ * not change results. */
 static void test_index_of_list(void **state)
 {
     (void)state;
@@ -316,7 +318,7 @@ static void test_index_of_list(void **state)
     }
 }
 
-/* Copies are what a list of them is, one after another; of an extrusion, too. */
+/* Copies equal a list of the copies, one after another; also of an extrusion. */
 static void test_index_of_copies(void **state)
 {
     (void)state;
@@ -343,7 +345,7 @@ static void test_index_of_copies(void **state)
     memory_free(plate[1].image), memory_free(plate[1].motion), box_tree_free(&plate[1].tree);
 }
 
-/* Intersections: in all of them; closed; bounds are those of the smaller. */
+/* An intersection contains what all its solids contain; it is closed; its bounds are those of the smaller one. */
 static void test_intersection(void **state)
 {
     (void)state;
@@ -366,7 +368,7 @@ static void test_intersection(void **state)
     check_distance(&s[0], 2);
 }
 
-/* What is no polygon is told apart. */
+/* Invalid polygons are detected. */
 static void test_polygon_faults(void **state)
 {
     (void)state;
@@ -393,8 +395,8 @@ static void test_polygon_faults(void **state)
 
 /* ---- cracks and planes of symmetry ------------------------------------------------------------------------------- */
 
-/* Of a crack across a plane what is inside stays, with its image behind it, corners in reverse; one that lies farther
- * inside than bonds reach has none; of two planes a corner has three images. */
+/* A crack that crosses a plane keeps its inner part and has an image with its corners in reverse order; a crack farther
+ * inside than bonds reach has no image; with two planes a corner has three images. */
 static void test_mirrored_cracks(void **state)
 {
     (void)state;
@@ -404,7 +406,7 @@ static void test_mirrored_cracks(void **state)
     struct crack_list list;
     cracks_mirrored(&list, crack, 2, plane, 1, 1.1, 1e-9);
     assert_int_equal(list.n, 3);
-    const real meets = 0.9 + 2.9 - 0.9 - 1; /* the crack meets the plane x = 0.3 half-way, at y = 1.9 */
+    const real meets = 0.9 + 2.9 - 0.9 - 1; /* the crack crosses the plane x = 0.3 midway, at y = 1.9 */
     const real expected[3][2][2] = {{{0.3, meets}, {1.3, 2.9}}, {{3.2, 4}, {5, 4.7}}, {{-0.7, 2.9}, {0.3, meets}}};
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 2; a++)
@@ -413,7 +415,7 @@ static void test_mirrored_cracks(void **state)
     crack_list_free(&list);
     cracks_mirrored(&list, crack, 1, plane, 2, 1.1, 1e-9);
     assert_int_equal(list.n, 4);
-    for (int k = 0; k < 4; k++) { /* ends away from the corner of the planes, all four mirrored */
+    for (int k = 0; k < 4; k++) { /* ends distant from the corner of the planes, all four mirrored */
         const struct crack *c = &list.crack[k];
         const real *end = hypot(c->corner[0][0] - 0.3, c->corner[0][1] - 1.9) > 0.5 ? c->corner[0] : c->corner[1];
         assert_true(fabs(fabs(end[0] - 0.3) - 1) < 1e-12 && fabs(fabs(end[1] - 1.9) - 1) < 1e-12);

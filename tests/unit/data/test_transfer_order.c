@@ -1,4 +1,4 @@
-/* The order of transfers: colours, cells and growing grids. */
+/* Order of transfers: colours, cells and growing grids. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "base/team.h"
 #include "data/transfer_order.h"
 
-/* Points spread at random over cells -20 .. 20 round node 0, some of them peridynamic. */
+/* Scatters points over cells -20 .. 20 around node 0, some of them peridynamic. */
 static void scatter_points(struct cloud *c, int dim, struct grid *g)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -29,8 +29,8 @@ static void scatter_points(struct cloud *c, int dim, struct grid *g)
     assert_true(changed);
 }
 
-/* Every node that any point of a block reaches belongs to that block alone among blocks of its colour. The widest
- * support is the cubic spline's: one node below the point's cell, two above its lower corner. */
+/* Checks that every node that a point of a block reaches belongs to that block only, among blocks of its colour. The
+ * widest support is that of the cubic spline: one node below the point's cell, two above its lower corner. */
 static void check_colour(const struct transfer_order *o, const struct particles *p, const struct grid *g, int colour)
 {
     int32_t *owner = NEW("test.owner", g->n, int32_t);
@@ -50,7 +50,8 @@ static void check_colour(const struct transfer_order *o, const struct particles 
     memory_free(owner);
 }
 
-/* Cells of blocks follow each other; the points of one stand in the same cell, ascending, and no two hold the same. */
+/* Checks that cells of blocks are consecutive, that the points of a cell are in the same cell and ascending, and that
+ * no two cells are equal. */
 static void check_cells(const struct transfer_order *o, const struct particles *p, const struct grid *g)
 {
     uint8_t *seen = NEW("test.cells", g->n, uint8_t);
@@ -101,7 +102,7 @@ static void test_transfer_order(void **state)
     }
 }
 
-/* A grid that grows keeps its nodes, and the order of its points. */
+/* A growing grid keeps its nodes, and the order of its points. */
 static void test_transfer_order_growth(void **state)
 {
     (void)state;
@@ -114,7 +115,8 @@ static void test_transfer_order_growth(void **state)
         transfer_order_sort(&small, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         real from[DIM_MAX], to[DIM_MAX], before = grid_position(&g, 0, -g.first[0]);
         for (int d = 0; d < dim; d++)
-            from[d] = -(19 + block_edge(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not follow the box */
+            from[d] = -(19 + block_edge(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not depend on the
+                                                                      * box */
         assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
         transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
@@ -129,7 +131,7 @@ static void test_transfer_order_growth(void **state)
     }
 }
 
-/* Each thread sorts a part of the list: the result does not depend on their number. */
+/* Each thread sorts a part of the list: the result does not depend on the number of threads. */
 static void test_transfer_order_threads(void **state)
 {
     (void)state;

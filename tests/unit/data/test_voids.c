@@ -1,5 +1,5 @@
-/* Which places of a body see each other through its shape: round holes and slots beside the exact line, planes of
- * symmetry, faces of solids side by side; and slits of meshes, whose nodes are doubled. */
+/* Visibility between positions of a body through its shape: round holes and slots compared with the exact line, planes
+ * of symmetry, adjacent faces of solids; and slits of meshes with doubled nodes. */
 #include <math.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #define SPACING 0.37e-3
 enum { TRIES = 4000 };
 
-/* A box from (-8, -8, -8) to (8, 8, 8) spacings. */
+/* Returns a box from (-8, -8, -8) to (8, 8, 8) spacings. */
 static struct solid block(void)
 {
     struct solid s = {.kind = SOLID_BOX};
@@ -28,7 +28,7 @@ static struct solid ball(real radius)
                           .centre = {0.3 * SPACING, -0.7 * SPACING, 0.4 * SPACING}};
 }
 
-/* Body 3 alone, of these solids. */
+/* Returns the voids of body 3 of these solids. */
 static struct voids voids_of(int dim, struct region *r, const struct region **shape, int *body)
 {
     *shape = r, *body = 3;
@@ -40,7 +40,7 @@ static void place_random(uint64_t *seed, int dim, real most, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < dim ? cloud_between(seed, -most, most) * SPACING : 0;
 }
 
-/* Least distance of a line from a to b from the centre of a ball. */
+/* Returns the least distance of the line from a to b from the centre of a ball. */
 static real line_distance(const real *a, const real *b, const real *centre, int dim)
 {
     real along = 0, length2 = 0, r2 = 0;
@@ -50,7 +50,7 @@ static real line_distance(const real *a, const real *b, const real *centre, int 
     return sqrt(r2);
 }
 
-/* A round hole hides what the line to it passes through the hole: all but lines within 1e-6 radii of its edge. */
+/* A round hole blocks a line if the line passes through the hole, except for lines within 1e-6 radii of its edge. */
 static void round_holes(void **state)
 {
     (void)state;
@@ -75,8 +75,8 @@ static void round_holes(void **state)
                 const bool hides = near < solids[1].radius;
                 assert_int_equal(voids_between(&v, 3, a, b, &across), hides);
                 assert_int_equal(voids_between(&v, 3, b, a, NULL), hides);
-                assert_false(voids_between(&v, 2, a, b, NULL)); /* of another body */
-                /* the faces look at each other where the line turns by less than a right angle on its way through */
+                assert_false(voids_between(&v, 2, a, b, NULL)); /* belongs to another body */
+                /* across: normals at both ends of the chord differ by more than a right angle. */
                 if (hides && fabs(near / solids[1].radius - sqrt(0.5)) > 1e-3)
                     assert_int_equal(across, near < sqrt(0.5) * solids[1].radius);
                 hidden += hides;
@@ -85,7 +85,7 @@ static void round_holes(void **state)
         }
 }
 
-/* A slot a thousandth of a spacing wide hides all behind it, and nothing beside or beyond its end. */
+/* A slot a thousandth of a spacing wide blocks all lines through it, and none beside it or beyond its end. */
 static void thin_slot(void **state)
 {
     (void)state;
@@ -113,8 +113,8 @@ static void thin_slot(void **state)
     assert_true(hidden > 100);
 }
 
-/* Boxes that touch hide nothing, whether a line crosses their common face or runs in it; nor does a plane of symmetry
- * across which a body goes on, while a slot beside the plane hides its image. */
+/* Boxes in contact block nothing, whether a line crosses their common face or runs in it; nor does a plane of symmetry
+ * inside a body. A slot beside the plane blocks lines to its image. */
 static void joined_and_mirrored(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void joined_and_mirrored(void **state)
     assert_false(voids_between(&v, 3, a, b, NULL));
     left.to[0] = 0.09 * SPACING; /* now the body ends before the plane */
     assert_true(voids_between(&v, 3, a, b, NULL));
-    left.to[0] = 0.1 * SPACING; /* a slot half a spacing before the plane has its image behind it */
+    left.to[0] = 0.1 * SPACING; /* a slot half a spacing before the plane has an image behind it */
     struct solid slotted[2] = {left, block()};
     slotted[1].subtract = true, slotted[1].from[0] = -0.55 * SPACING, slotted[1].to[0] = -0.45 * SPACING;
     r[0] = (struct region){.n = 2, .solid = slotted};
@@ -147,7 +147,7 @@ static void joined_and_mirrored(void **state)
     assert_true(voids_between(&v, 3, before, beyond, NULL));
 }
 
-/* Bits of particles on a lattice round a slot, beside all pairs one by one. */
+/* Bits of particles on a lattice around a slot agree with all pairs one by one. */
 static void bits_of_particles(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void bits_of_particles(void **state)
 
 /* ---- slits ------------------------------------------------------------------------------------------------------- */
 
-/* Writes a mesh of 4 x 2 squares, or of 4 x 2 x 2 cubes, of edge 2.5. Nodes of the first two columns are doubled at
+/* Writes a mesh of 4 x 2 squares, or of 4 x 2 x 2 cubes, with edge 2.5. Nodes of the first two columns are doubled at
  * height 2.5: a slit from x = 0 to 5. */
 static void slit_file(char *text, int dim)
 {
@@ -218,8 +218,8 @@ static void slit_file(char *text, int dim)
     sprintf(text + used, "$EndElements\n");
 }
 
-/* Two edges in line become one segment of 5; the four squares of the slit in space, eight triangles, one rectangle of
- * 5 x 5. */
+/* Two collinear edges become one segment of length 5; the four squares of the slit in 3D, eight triangles, one
+ * rectangle of 5 x 5. */
 static void slits_of_doubled_nodes(void **state)
 {
     (void)state;

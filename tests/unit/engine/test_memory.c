@@ -1,4 +1,4 @@
-/* What a scene is said to need before it is made is about what it takes: scenes are refused by it. */
+/* The predicted memory of a scene is close to the memory used: scenes are refused by this prediction. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "step/report.h"
 #include "scene/scene_read.h"
 
-/* Scenes take more and more: the process remembers its largest only. */
+/* Checks a scene. Scenes must be in the order of increasing memory, because the process remembers only its maximum. */
 static void takes_what_it_says(const char *space, const char *box, const char *particles, double *taken)
 {
     char text[1024];
