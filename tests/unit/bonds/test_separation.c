@@ -1,5 +1,5 @@
-/* The critical stretch of state-based bonds is that of their energy release rate: halves of a lattice are
- * drawn apart by the kernels until nothing holds them, and the work per area is G_c. */
+/* The critical stretch of state-based bonds corresponds to their energy release rate: halves of a lattice are separated
+ * until no bond is left, and the work of the kernels' forces per area is G_c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ static void pulled_make(struct pulled *b, enum pd_model model, real poisson, enu
     cloud_bonds(&b->c);
 }
 
-/* What holds back the upper half of the middle column [N], at this opening. */
+/* Returns the force on the upper half of the middle column at this opening [N]. */
 static real pull(struct pulled *b, real opening)
 {
     struct particles *p = &b->c.p;
@@ -46,18 +46,19 @@ static real pull(struct pulled *b, real opening)
     return hold;
 }
 
-/* Work of separation of a column, over the area it leaves and the square of the critical stretch [N/m]. */
+/* Returns the work of separation of a column, over the area and the square of the critical stretch [N/m]. */
 static real separation(struct pulled *b)
 {
-    /* the last bond breaks at r^2/z = 5 spacings */
+    /* The last bond breaks at r^2/z = 5 spacings. */
     const real most = 5.5 * STRETCH * CLOUD_SPACING, step = most / STEPS;
     real work = 0;
     for (int k = 0; k < STEPS; k++) work += pull(b, (k + 0.5) * step) * step;
-    assert_true(fabs(pull(b, most)) < 1e-8 * work / most); /* round-off of places: 1e-16 over openings of 1e-4 */
+    assert_true(fabs(pull(b, most)) < 1e-8 * work / most); /* round-off of positions: 1e-16 over openings of 1e-4 */
     return work / (b->c.source.family.section * CLOUD_SPACING * square(STRETCH));
 }
 
-/* A bond holds half a step too long and half its force in the step it breaks in: 1000 steps leave 0.2 %. */
+/* Model with rotations. Tolerance 0.2 % for 1000 steps: a bond acts half a step too long, and with half its force in
+ * the step in which it breaks. */
 static void test_rotations(void **state)
 {
     (void)state;
@@ -73,8 +74,8 @@ static void test_rotations(void **state)
             }
 }
 
-/* The closed form of Madenci & Oterkus 2014 is of a continuum with omega = delta/r and a full Q: the lattice at m =
- * 3.015 is within 3 % of it for every nu, and as much above, 5 to 9 %, as Q shrinks with the family. */
+/* Ordinary model: the closed form of Madenci & Oterkus 2014 is for a continuum with omega = delta/r and a complete Q.
+ * The lattice at m = 3.015 is within 3 % for every nu, and 5 to 9 % above if Q decreases with the family. */
 static void test_ordinary(void **state)
 {
     (void)state;
@@ -91,8 +92,8 @@ static void test_ordinary(void **state)
         }
 }
 
-/* Bonds all stretched to their limit that cross a plane hold, per area, 9 E h s^2/(4 pi) in plane stress and E h s^2/3
- * on a line (Silling & Askari 2005; h: horizon), which the lattice comes to with the horizon: 12 spacings, to 5 %. */
+/* The force per area of all bonds across a plane at the critical stretch is 9 E h s^2/(4 pi) in plane stress and E h
+ * s^2/3 in 1D (Silling & Askari 2005; h: horizon); a lattice with a horizon of 12 spacings agrees within 5 %. */
 static void test_crossing(void **state)
 {
     (void)state;

@@ -1,6 +1,5 @@
-/* Row blocks that follow a stencil: which do, that what they would store is right, that every kernel makes
- * the same bits of them as of row blocks that have all of their bonds in memory, and that they are made anew as a
- * search makes them. */
+/* Row blocks that follow a stencil: which they are, their implied bonds, bitwise equal results of every kernel compared
+ * with explicitly stored bonds, and their rebuilding. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -12,7 +11,7 @@
 #include "tests/support/cloud.h"
 #include "kernels/kernels.h"
 
-/* A lattice all of whose places are exact, as fill.c makes them. */
+/* Creates a lattice with exact positions, as fill.c does. */
 static void exact_cloud(struct cloud *c, int dim, enum surface_rule surface, const struct state_modulus *modulus)
 {
     static const enum space space[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -54,15 +53,15 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Eight neighbours in a row may begin before the first particle of all, or end behind the last: such row blocks are
- * stored. */
+/* Returns true if the row block is at an end of the body: eight neighbours in a row may begin before the first particle
+ * or end after the last, and such row blocks are stored. */
 static bool at_an_end(const struct cloud *c, int64_t row_block)
 {
     return fmin(apart(&c->p, 0, row_block * LANES), apart(&c->p, c->p.n - 1, row_block * LANES + 7)) <
            c->source.family.cutoff;
 }
 
-/* Lines of 32 particles are four row blocks each, all on the lattice; those in the middle have all of their bonds. */
+/* Lines of 32 particles are four row blocks each, all on the lattice; those in the middle follow a stencil. */
 static void test_who_follows(void **state)
 {
     (void)state;
@@ -82,7 +81,7 @@ static void test_who_follows(void **state)
         }
 }
 
-/* Every bond that there is, and no other, against all pairs; reading them writes nothing. */
+/* The bonds agree with all pairs; reading them changes nothing in storage. */
 static void test_what_is_stored(void **state)
 {
     (void)state;
@@ -118,9 +117,8 @@ static void make_again(struct cloud *c)
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
 }
 
-/* What is taken over from row blocks with the same surroundings is what each row block works out for itself: bonds,
- * triggers, volumes of neighbours and the critical step. A heavier corner, which has no part in any of them, keeps
- * row blocks from looking at others. */
+/* Data copied from row blocks with equal surroundings agree with data computed for each row block: bonds, triggers,
+ * volumes of neighbours and the critical step. A heavier corner, which affects none of these, prevents copying. */
 static void test_twins(void **state)
 {
     (void)state;
@@ -145,7 +143,7 @@ static void test_twins(void **state)
         }
 }
 
-/* Everything the kernels make of the places of now, one number after the other. */
+/* All results of the kernels for the current positions, one after another. */
 struct made {
     real *value;
     int64_t n;
@@ -174,7 +172,7 @@ static struct made make_all(struct cloud *c, enum pd_model model)
     return m;
 }
 
-/* Row blocks inside, whose columns need no weights. */
+/* Returns the number of inner row blocks whose columns need no weights. */
 static int64_t count_units(const struct bonds *b)
 {
     int64_t units = 0;
@@ -194,11 +192,11 @@ static void test_same_bits(void **state)
             exact_cloud(&implicit, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             exact_cloud(&open, dim, weighed ? SURFACE_VOLUME : SURFACE_NONE, states ? modulus : NULL);
             follow_nothing(&open.bonds);
-            const real most = dim == 2 ? 0.013 : 0.0104; /* some row blocks stay whole */
+            const real most = dim == 2 ? 0.013 : 0.0104; /* some row blocks stay complete */
             shake(&implicit, most), shake(&open, most);
             struct made a = make_all(&implicit, models[k]), b = make_all(&open, models[k]);
             assert_true(a.value[0] > 0);                    /* some bonds have broken, */
-            assert_true(count_folded(&implicit.bonds) > 0); /* and not all row blocks have been opened */
+            assert_true(count_folded(&implicit.bonds) > 0); /* and some row blocks still follow a stencil */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
             assert_null(bonds_fault(&implicit.bonds)), assert_null(bonds_fault(&open.bonds));
             assert_int_equal(a.n, b.n);
@@ -208,7 +206,7 @@ static void test_same_bits(void **state)
         }
 }
 
-/* Each invariant of bond_storage.h is missed where it does not hold. */
+/* A violation of each invariant of bond_storage.h is detected. */
 static void test_fault(void **state)
 {
     (void)state;
@@ -217,7 +215,7 @@ static void test_fault(void **state)
     struct bonds *b = &c.bonds;
     assert_null(bonds_fault(b));
     const int64_t q = bond_to_write(b, b->row_blocks / 2, 3, 4), column = q / LANES;
-    assert_null(bonds_fault(b)); /* written, it still follows its stencil */
+    assert_null(bonds_fault(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
     assert_null(bonds_fault(b));
     b->inverse_length[q] *= -1;
@@ -239,7 +237,7 @@ static void test_fault(void **state)
     cloud_free(&c);
 }
 
-/* A bond that changes takes its row block out of the stencil, and no other. */
+/* A bond that changes makes its row block explicit, and no other. */
 static void test_who_leaves(void **state)
 {
     (void)state;
@@ -254,7 +252,7 @@ static void test_who_leaves(void **state)
     cloud_free(&c);
 }
 
-/* It stays out when rows are made anew around it, with weights that no stencil of new rows has. */
+/* The row block stays explicit when rows around it are rebuilt, with weights that no stencil has. */
 static void test_who_stays_out(void **state)
 {
     (void)state;
@@ -284,7 +282,7 @@ static void test_who_stays_out(void **state)
     cloud_free(&c);
 }
 
-/* The bonds of a row, lane by lane; padding left out. */
+/* Lists the bonds of a row, lane by lane, without padding. Returns their number. */
 static int row_bonds(const struct bonds *b, int64_t row, struct bond *to)
 {
     int n = 0;
@@ -312,7 +310,7 @@ static void assert_rows_equal(const struct bonds *a, const struct bonds *b)
     }
 }
 
-/* A tube of peridynamic particles that grows among material points. */
+/* Converts a tube of material points to peridynamic particles; its radius grows. */
 static void convert_tube(struct cloud *c, real radius)
 {
     const struct particles *p = &c->p;
@@ -324,8 +322,7 @@ static void convert_tube(struct cloud *c, real radius)
     particles_list(&c->p);
 }
 
-/* Beside material points, too, the map of sites tells the bonds that a search finds: bonds that may yield are
- * searched. */
+/* Beside material points, too, the site map yields the bonds that a search finds; bonds that may yield are searched. */
 static void test_beside_points(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Weights of bonds near faces: they are the least of what surface_fit.c says they minimise, worked out here bond by
- * bond; the same from both ends and in mirrors; and bending energy is that of the beam. */
+/* Weights of bonds near faces: they minimise the functional stated in surface_fit.c, evaluated here bond by bond; they
+ * are symmetric, also in mirrors; the bending energy is that of the beam. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <setjmp.h>
@@ -14,9 +14,9 @@
 
 enum { STRAINS = 6 };
 
-/* ---- the problem, by its definition ------------------------------------------------------------------------------ */
+/* ---- the functional, from its definition ------------------------------------------------------------------------- */
 
-/* A body, what its faces ask for, and a factor for each particle and offset. */
+/* A body, the requirements of its faces, and a factor for each particle and offset. */
 struct plain {
     struct cloud cloud;
     struct near_faces body;
@@ -32,7 +32,7 @@ struct plain {
             for (int c = 0; c < (dim); c++)                                                                            \
                 for (int d = 0; d < (dim); d++)
 
-/* P^-1 = 1 + 1000 Q for the faces near particle t, then x.P.x by elimination. */
+/* Returns x.P.x with P^-1 = 1 + 1000 Q for the faces near particle t, by elimination. */
 static real weighed(const struct plain *s, int64_t t, const real *x)
 {
     real m[STRAINS][STRAINS + 1], sum = 0;
@@ -57,7 +57,8 @@ static real weighed(const struct plain *s, int64_t t, const real *x)
     return sum;
 }
 
-/* sum_k (T:B_k) P (T:B_k) of a difference of fourth moments, sum_p (n_p.T) P (n_p.T) of one of third. */
+/* Returns sum_k (T:B_k) P (T:B_k) of a difference of fourth moments plus sum_p (n_p.T) P (n_p.T) of one of third
+ * moments. */
 static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                     real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -78,7 +79,7 @@ static real squares(const struct plain *s, int64_t t, real (*fourth)[DIM_MAX][DI
     return sum;
 }
 
-/* Adds a bond of unit factor to both moments. */
+/* Adds a bond with unit factor to both moments. */
 static void add_bond(const struct plain *s, int k, real factor, real (*fourth)[DIM_MAX][DIM_MAX][DIM_MAX],
                      real (*third)[DIM_MAX][DIM_MAX])
 {
@@ -165,7 +166,7 @@ static void plain_free(struct plain *s)
     cloud_free(&s->cloud);
 }
 
-/* What the objective changes by with the factor of one bond, at both of its ends. */
+/* Returns the derivative of the functional by the factor of one bond, at both of its ends. */
 static real slope(struct plain *s, int64_t t, int k)
 {
     const int n = s->body.offset.n;
@@ -207,7 +208,8 @@ static void check_least(const struct cloud_plan *plan)
     plain_free(&s);
 }
 
-/* Bodies so small that no two particles look alike, but in mirrors: the groups of bonds then bind nothing. */
+/* The factors minimise the functional, for bodies so small that no two particles have equal surroundings except in
+ * mirrors: the groups of bonds then impose no constraint. */
 static void factors_are_least(void **state)
 {
     (void)state;
@@ -224,10 +226,9 @@ static void factors_are_least(void **state)
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
 
-/* Along a row across a plate, far from its other sides: the areas of both faces are at the faces, half a spacing beyond
- * the outer particles. What a particle sees of a flat face is the sum of 1 - r/4 over its bonds of up to two spacings
- * (in a horizon that three steps hold), over that of a particle in it, 1 + 2 (3/4 + 1/2), and counts with its third
- * power. */
+/* Areas of faces along a row across a plate, far from its other sides: both faces are half a spacing beyond the outer
+ * particles. The weight of a flat face is the sum of 1 - r/4 over the bonds of up to two spacings (in a horizon of
+ * three), over that of a particle on it, 1 + 2 (3/4 + 1/2), to the third power. */
 static void faces_are_at_their_places(void **state)
 {
     (void)state;
@@ -252,8 +253,8 @@ static void faces_are_at_their_places(void **state)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
-/* Pure bending, u = k (x y, -(x^2 + nu y^2 - nu z^2)/2, -nu y z), leaves all faces free but the ends: energy per length
- * is E I k^2/2. Two lengths tell it from that of the ends. */
+/* Returns the energy of pure bending, u = k (x y, -(x^2 + nu y^2 - nu z^2)/2, -nu y z), which leaves all faces free but
+ * the ends: E I k^2/2 per length. Two lengths separate it from the energy of the ends. */
 static real bending_energy(enum space space, enum surface_rule surface, int length, int layers)
 {
     const real curvature = 1e-3;
@@ -308,7 +309,7 @@ static void bending_has_the_energy_of_a_beam(void **state)
 
 static const struct boundary mirror[] = {{.name = "left", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 0, .at = 0}};
 
-/* Half of a body beside its mirror has the factors of the whole. */
+/* Half of a body beside a mirror has the factors of the whole body. */
 static void half_is_as_the_whole(void **state)
 {
     (void)state;

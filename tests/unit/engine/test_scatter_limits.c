@@ -1,4 +1,4 @@
-/* Scatter of strength in a run: what is watched for and what breaks is what the field says, bond by bond and point by
+/* Scatter of strength in a run: the monitored limits and the breaking agree with the random field, for each bond and
  * point. */
 #include <omp.h>
 #include <string.h>
@@ -31,7 +31,7 @@ static void drop(struct run *e, struct scene *s)
     "boundary: [{mirror: {axis: x, at: 0}}]\ninitial: [{velocity_gradient: [400, 0, 0, 400]}]\n"                       \
     "contact: {between: none}\ntime: {step: 2e-8}\noutput: {frames: 0, samples: 1}\n"
 
-/* The least limit of a row's intact bonds; INFINITY without one. */
+/* Returns the least limit of a row's intact bonds; INFINITY if there is none. */
 static real least_of(const struct run *e, int64_t row)
 {
     const struct particles *p = &e->part;
@@ -42,7 +42,7 @@ static real least_of(const struct run *e, int64_t row)
     return least;
 }
 
-/* Rows of a lattice share what they store, but not when they are looked at: just below their least limit. */
+/* Rows of a lattice share storage but are monitored separately: they are reported just below their least limit. */
 static void test_rows_are_watched(void **state)
 {
     (void)state;
@@ -63,7 +63,7 @@ static int64_t broken_in(const struct run *e)
     return broken;
 }
 
-/* Stretch of the shortest bond to break, and whether all others are below their limits, after every step. */
+/* Checks after every step the stretch of the shortest broken bond, and that all others are below their limits. */
 static void check_breaks(const char *text)
 {
     struct run e = {0};
@@ -86,7 +86,7 @@ static void check_breaks(const char *text)
             }
     }
     assert_true(broken_in(&e) > 0);
-    assert_near(first, 1, 0.1); /* the plate grows evenly until waves come from its edges; steps are 2 % */
+    assert_near(first, 1, 0.1); /* uniform strain until waves arrive from the edges; steps of 2 % */
     drop(&e, &s);
 }
 
@@ -97,8 +97,8 @@ static void test_weakest_breaks_first(void **state)
     check_breaks(PLATE("pd") "model: ospd\n");
 }
 
-/* Material points convert by their own strength, in both frames: those whose stress is beyond their share of E s_c are
- * marked, and no others. */
+/* Material points convert by their own strength in both frames: exactly those whose stress exceeds their share of E s_c
+ * are marked. */
 static void check_points(const char *frame)
 {
     struct run e = {0};
@@ -114,7 +114,7 @@ static void check_points(const char *frame)
     while (e.clock.step + 1 < e.clock.steps && p->n_of[KIND_PD] == 0) assert_ok(engine_step(&e));
     assert_true(p->n_of[KIND_PD] > 0 && p->n_of[KIND_PD] < p->n / 10);
     assert_int_equal(p->kind[weak], KIND_PD);
-    /* uniform biaxial strain: sigma = E/(1 - nu) strain, nu = 1/3 */
+    /* Uniform biaxial strain: sigma = E/(1 - nu) strain, nu = 1/3. */
     assert_near(e.clock.t * 400 * 1.5 / (0.95e-3 * weakest), 1, 0.1);
     drop(&e, &s);
 }
@@ -126,8 +126,8 @@ static void test_points_convert_by_their_own(void **state)
     check_points("reference");
 }
 
-/* Points convert at alpha times the stress at the critical stretch: of what has yielded that of its hardening line. The
- * damping of the interface takes so many c/h. */
+/* Points convert at alpha times the stress at the critical stretch, of yielding points that of the hardening line. The
+ * interface damping applies for the same number of c/h. */
 static void test_triggers(void **state)
 {
     (void)state;

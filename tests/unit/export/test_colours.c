@@ -1,6 +1,7 @@
-/* Colours of particles at cut bonds: on a lattice with cracks in any direction the pairs of colours say bond by bond
- * what is cut; their number does not grow with a straight crack's length; on scattered particles, where keys mislead,
- * they hold as well. A pair of colours that would have both kinds is found. */
+/* Colours of particles at cut bonds: on a lattice with cracks in any direction the pairs of colours determine for each
+ * bond whether it is cut; the number of colours does not grow with the length of a straight crack; on irregular
+ * particles, where keys are not unique, the result is also correct. A pair of colours with both kinds of bonds is
+ * detected. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +14,7 @@
 
 enum { REACH = 3, PERIOD = 2 * REACH + 1 };
 
-/* Points of a plane, and a crack from (0, 0) along (a, b). */
+/* Points of a plane, and a crack from (0, 0) to (a, b). */
 struct points {
     int n;
     double (*X)[2];
@@ -25,7 +26,7 @@ static bool near_each_other(const double *p, const double *q)
     return (p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) <= 3.015 * 3.015;
 }
 
-/* Does the segment p-q cross that from (0, 0) to (a, b)? By areas of triangles. */
+/* Returns true if the segment p-q crosses the segment from (0, 0) to (a, b), by areas of triangles. */
 static bool crosses(const struct points *s, const double *p, const double *q)
 {
     const double d0 = s->a * p[1] - s->b * p[0], d1 = s->a * q[1] - s->b * q[0];
@@ -45,7 +46,7 @@ static uint64_t key_of_point(const struct points *s, int i)
     return key * PERIOD * PERIOD + (uint64_t)((x % PERIOD + PERIOD) % PERIOD * PERIOD + (y % PERIOD + PERIOD) % PERIOD);
 }
 
-/* All particles that a cut bond ends at, by two plain loops. */
+/* Lists all particles with a cut bond, by two plain loops. */
 static struct touched touched_of(const struct points *s)
 {
     struct touched t = {0};
@@ -85,7 +86,8 @@ static struct points lattice(int edge, double a, double b, double shake)
     return s;
 }
 
-/* Colours the points; fails unless every near pair is cut if and only if the pair of their colours is. */
+/* Colours the points; fails unless every near pair is cut if and only if the pair of their colours is cut. Returns the
+ * number of colours. */
 static int colours_of(const struct points *s)
 {
     struct touched t = touched_of(s);
@@ -121,8 +123,8 @@ static void cracks_on_a_lattice(void **state)
     for (size_t k = 0; k < COUNT_OF(end); k++) assert_true(colours_with(20, end[k][0], end[k][1], 0) > 0);
 }
 
-/* 63 types for a straight crack with two ends, counted by hand of the regions of the plate in LAMMPS: not more for a
- * longer one. */
+/* A straight crack with two ends needs 63 types, counted by hand from the regions of the plate in LAMMPS; a longer one
+ * no more. */
 static void length_does_not_count(void **state)
 {
     (void)state;
@@ -138,7 +140,7 @@ static void scattered_particles(void **state)
     for (int k = 0; k < 20; k++) assert_true(colours_with(20, 6.2 - k, 0.7 * k - 5.1, 0.1 + 0.1 * k) > 0);
 }
 
-/* Two particles of one colour, one cut off from a third and one bonded to it. */
+/* Two particles of one colour, one cut off from a third and one bonded to it: detected. */
 static void both_kinds_are_found(void **state)
 {
     int32_t particle[] = {0, 1, 2}, near[] = {2, 2, 0, 1}, colour[] = {0, 0, 1}, own[] = {0, 1, 2};

@@ -1,6 +1,6 @@
-/* Files of the export to LAMMPS, read back as LAMMPS reads them: pairs within the cutoff but for excluded types are the
- * bonds, checked by segments that cross; weights and coefficients against what the literature gives; and scenes that
- * cannot be run there are refused in a line, with nothing written. */
+/* Files of the export to LAMMPS, read as LAMMPS reads them: pairs within the cutoff without excluded types agree with
+ * the bonds, checked by crossing segments; weights and coefficients agree with the literature; scenes that LAMMPS
+ * cannot run are refused in one line, with nothing written. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -48,7 +48,7 @@ static void out_remove(void)
     rmdir("out");
 }
 
-/* plate.data and the exclusions of in.lammps. */
+/* Contents of plate.data and exclusions of in.lammps. */
 struct plate {
     int n, types, type[PARTICLES];
     double volume[PARTICLES], density[PARTICLES], x[PARTICLES][2];

@@ -1,5 +1,5 @@
-/* The script for LAMMPS, line by line: coefficients of bonds and families against the literature, loads and driven
- * particles by their formulas, worked out here as LAMMPS would, against functions of time. */
+/* Script for LAMMPS, line by line: coefficients of bonds and families compared with the literature; formulas of loads
+ * and driven particles, evaluated as LAMMPS does, compared with functions of time. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,11 +27,11 @@ static const char block[] =
     "body: {box: {from: [0, 0, 0], to: [3 mm, 3 mm, 3 mm]}}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n";
 static const char glass[] = "material: {young: 192 GPa, density: 8000, critical_stretch: 0.013}\n";
 
-/* What script_of keeps of plate.data, if it is wanted; to be freed. */
+/* Set to keep plate.data in script_of, to be freed. */
 static bool bonds_wanted;
 static char *bonds_found;
 
-/* Exports a scene; returns in.lammps, to be freed. */
+/* Exports a scene and returns in.lammps, to be freed. */
 static char *script_of(const char *a, const char *b, const char *c, bool bond_style)
 {
     static const char *const file[] = {"plate.data", "in.lammps", "README.txt", "scene.yaml", "check.csv"};
@@ -50,7 +50,7 @@ static char *script_of(const char *a, const char *b, const char *c, bool bond_st
     return script;
 }
 
-/* What stands behind the first `words` of the script. */
+/* Returns the text after the first occurrence of `words` in the script. */
 static const char *behind(const char *script, const char *words)
 {
     const char *at = strstr(script, words);
@@ -62,7 +62,7 @@ static real number_behind(const char *script, const char *words) { return strtod
 
 /* ---- formulas of LAMMPS ------------------------------------------------------------------------------------------ */
 
-/* Place in a formula; step; of an atom its mass. */
+/* Position in a formula; step; mass of the atom. */
 struct formula {
     const char *at, *script;
     real step, mass;
@@ -148,8 +148,7 @@ static real formula_at(const char *script, const char *name, int step, real mass
 
 /* ---- coefficients ------------------------------------------------------------------------------------------------ */
 
-/* Families: in space K and G; in the plane 4 (lambda' + G)/9 and 8 G/15, with which the law of three dimensions is that
- * of two. */
+/* Families: in 3D K and G; in 2D 4 (lambda' + G)/9 and 8 G/15, for which the 3D law equals the 2D law. */
 static void coefficients(void **state)
 {
     (void)state;
@@ -168,7 +167,7 @@ static void coefficients(void **state)
     }
 }
 
-/* Bonds between two materials have the harmonic mean of both. */
+/* Bonds between two materials have the harmonic mean of both moduli. */
 static void bonds_of_two(void **state)
 {
     (void)state;
@@ -191,7 +190,7 @@ static void bonds_of_two(void **state)
     memory_free(script);
 }
 
-/* Bond types of three materials: the bonds of plate.data between two of them have the stiffness of both. */
+/* Bond types of three materials: the bonds of plate.data between two materials have the stiffness of both. */
 static void bonds_of_three(void **state)
 {
     (void)state;
@@ -235,8 +234,8 @@ static void bonds_of_three(void **state)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* A pull normal to a face is its stress over the spacing, per volume, with bonds its force: by the mean of its function
- * over the kick, from step - 1/2 to step + 1/2, from 0 in the first. */
+/* A traction normal to a face is its stress over the spacing, per volume, with bond styles its force: as the mean of
+ * its function over the velocity update, from step - 1/2 to step + 1/2, from 0 in the first step. */
 static void forces(void **state)
 {
     (void)state;
@@ -276,8 +275,8 @@ static void forces(void **state)
         }
 }
 
-/* A constant one is a number; what is driven has its force replaced by that which makes its velocity the function of
- * time in the middle of each step. */
+/* A constant force is a number. The force on driven particles is replaced such that their velocity follows the function
+ * of time in the middle of each step. */
 static void drives(void **state)
 {
     (void)state;

@@ -1,10 +1,10 @@
-/* Fragments of a plate that two cuts divide: their particles, masses, centres and velocities against plain sums. */
+/* Fragments of a plate divided by two cuts: particles, masses, centres and velocities, compared with plain sums. */
 #include "fracture/fragments.h"
 
 #include "tests/support/cloud.h"
 #include "tests/support/near.h"
 
-/* Nine columns, every third particle heavier: a cut behind the third column and one behind the eighth. */
+/* Nine columns, every third particle heavier; cuts after the third and the eighth column. */
 static void test_fragments(void **state)
 {
     (void)state;
@@ -51,7 +51,7 @@ static void test_fragments(void **state)
     cloud_free(&c);
 }
 
-/* Particles without bonds are no fragments: how many they are, and what they weigh together. */
+/* Particles without bonds are not fragments; their number and mass are reported. */
 static void test_alone(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Cracks with prescribed or SIF-controlled growth: what the tip crosses against a plain loop, the law of fading, its
- * energy and momentum, when it grows and where to, and restarts. */
+/* Cracks with prescribed or SIF-driven growth: bonds crossed by the tip compared with a plain loop, law of gradual
+ * release, its energy and momentum, start and direction of growth, and restarts. */
 #include "fracture/growth.h"
 #include "kernels/kernels.h"
 
@@ -7,7 +7,7 @@
 #include "tests/support/near.h"
 
 #define STEP 1e-7    /* [s] */
-#define SPEED 3000.0 /* 0.3 spacings a step [m/s] */
+#define SPEED 3000.0 /* 0.3 spacings per step [m/s] */
 #define STEPS 30
 #define HORIZON (3.015 * CLOUD_SPACING)
 
@@ -20,7 +20,8 @@ struct stage {
     bool ruled;
 };
 
-/* A shaken plate of 24 x 24 spacings; the crack starts near its middle and runs askew, through no particle. */
+/* Creates an irregular plate of 24 x 24 spacings; the crack starts near its middle and runs obliquely, through no
+ * particle. */
 static void stage_lay(struct stage *s, enum pd_model model, bool local)
 {
     memset(s, 0, sizeof *s);
@@ -64,7 +65,7 @@ static int64_t steps(struct stage *s, int from, int n)
     return released;
 }
 
-/* Every particle somewhere else: strains of a few percent. */
+/* Displaces every particle randomly: strains of a few percent. */
 static void disturb(struct stage *s)
 {
     uint64_t seed = 5;
@@ -82,14 +83,14 @@ static int64_t force_with(struct stage *s, enum pd_model model, const struct bon
 
 static void force(struct stage *s, enum pd_model model) { force_with(s, model, &bond_limit_never); }
 
-/* ---- which bonds, and how much of them --------------------------------------------------------------------------- */
+/* ---- crossed bonds and their weights ----------------------------------------------------------------------------- */
 
 static real side(const real *a, const real *b, const real *x)
 {
     return (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
 }
 
-/* Length of the crack at which its tip crosses the segment X-Y [m]; NAN: it does not on its first `most` metres. */
+/* Returns the crack length at which its tip crosses the segment X-Y [m]; NAN if it does not within `most`. */
 static real crossed_at(const struct growth_rule *r, const real *X, const real *Y, real most)
 {
     const real end[2] = {r->at[0] + r->direction[0], r->at[1] + r->direction[1]};
@@ -101,11 +102,12 @@ static real crossed_at(const struct growth_rule *r, const real *X, const real *Y
     return length > 0 && length <= most ? length : NAN;
 }
 
-/* Weights after STEPS against the law: a bond is noticed at the end of the step in which it is crossed. */
+/* Compares weights after STEPS steps with the law: a bond is released from the end of the step in which it is
+ * crossed. */
 static void check_weights(struct stage *s, real damping, real exponent, int64_t *crossed)
 {
     struct stage whole;
-    s->rule.damping = damping == 0.5 * HORIZON ? NAN : damping; /* so much where none is given */
+    s->rule.damping = damping == 0.5 * HORIZON ? NAN : damping; /* the default value */
     s->rule.exponent = exponent;
     stage_set(s);
     stage_lay(&whole, PD_OSPD, true);
@@ -163,7 +165,8 @@ static real energy_of(struct stage *s, enum pd_model model)
     return k.bond_energy(&s->c.bonds, &s->c.p);
 }
 
-/* No net force of all bonds, whatever has faded, and both entries of a bond weigh the same. */
+/* Checks that the forces of all bonds add up to zero, also of partially released ones, and that both entries of a bond
+ * have equal weights. */
 static void check_forces(const struct stage *s)
 {
     const struct bonds *b = &s->c.bonds;
@@ -190,7 +193,8 @@ static const struct {
     bool local;
 } laws[] = {{PD_BOND, false}, {PD_OSPD, false}, {PD_OSPD, true}, {PD_MOSPD, false}, {PD_MOSPD, true}};
 
-/* Nothing moves: what the bonds have lost is what is booked, once the last half of the last step is, too. */
+/* Without motion, the energy lost by the bonds equals the recorded energy, after the last half of the last step is
+ * included. */
 static void test_energy_of_fading(void **state)
 {
     (void)state;
@@ -209,14 +213,15 @@ static void test_energy_of_fading(void **state)
             steps(&s, STEPS / 2, STEPS);
             const real lost = before - energy_of(&s, laws[k].model);
             check_forces(&s);
-            /* with the local normalisation the bonds that are left get stiffer: in such a noise little is lost */
+            /* With the local normalisation the remaining bonds become stiffer: with random displacements little energy
+             * is lost. */
             assert_true(fabs(lost) > 1e-5 * before);
             assert_near(bonds_fracture_energy(&s.c.bonds) / before, lost / before, 1e-13);
             stage_free(&s);
         }
 }
 
-/* The same for bonds past their limit, all at once. */
+/* The energy balance also holds if bonds exceed their limit and break at once. */
 static void test_energy_of_breaking(void **state)
 {
     (void)state;
@@ -236,7 +241,7 @@ static void test_energy_of_breaking(void **state)
     }
 }
 
-/* ---- when, where to ---------------------------------------------------------------------------------------------- */
+/* ---- start and direction of growth ------------------------------------------------------------------------------- */
 
 static void test_length(void **state)
 {
@@ -257,7 +262,8 @@ static void test_length(void **state)
     stage_free(&s);
 }
 
-/* A ruled crack rests below its toughness and without factors, and turns away from the frame of a sample once. */
+/* A SIF-driven crack stays at rest below its toughness and without factors, and turns once per sample, relative to the
+ * frame of the sample. */
 static void test_rule(void **state)
 {
     (void)state;
@@ -281,8 +287,8 @@ static void test_rule(void **state)
     stage_free(&s);
 }
 
-/* A step of 0.3 spacings turns the frame of a crack towards its heading by that share of the smoothing length, of a
- * quarter of a horizon where none is given; wholly, where the length is shorter than the step. */
+/* A step of 0.3 spacings turns the frame of a crack towards its direction by this fraction of the smoothing length, by
+ * default a quarter of a horizon; completely if the length is shorter than the step. */
 static void test_smoothing(void **state)
 {
     (void)state;
@@ -304,12 +310,12 @@ static void test_smoothing(void **state)
     }
 }
 
-/* ---- a speed that follows the toughness -------------------------------------------------------------------------- */
+/* ---- speed from the toughness ------------------------------------------------------------------------------------ */
 
 #define TOUGHNESS 1e6 /* [Pa m^(1/2)] */
 
-/* Runs until `end` [s] under K = k(v_seen) K_still(t), v_seen behind the speed by `delay` [s]: Freund's law for any
- * body, and what a field at a distance makes of it. Returns the largest speed on the way. */
+/* Simulates growth until `end` [s] under K = k(v_seen) K_still(t), with v_seen delayed by `delay` [s]: Freund's law for
+ * any body, and the delay of a field at a distance. Returns the largest speed. */
 static real follow(struct stage *s, real (*still)(real t), real delay, real end)
 {
     real seen = 0, fastest = 0;
@@ -347,7 +353,7 @@ static void stage_follow(struct stage *s)
     s->K.medium = crack_medium_of(&s->c.material[0], SPACE_PLANE_STRAIN);
 }
 
-/* k(v) = K_Ic/K_still wherever K lags by what the law supposes, by nothing, or by twice as much. */
+/* k(v) = K_Ic/K_still, whether K is delayed by the time that the law assumes, by nothing, or by twice as much. */
 static void test_follows(void **state)
 {
     (void)state;
@@ -365,8 +371,8 @@ static void test_follows(void **state)
     }
 }
 
-/* Rests while K is too small, stops for good when it gets so, is never faster than it may be, and starts as K passes
- * K_Ic; while K rises as sqrt(t) it is behind by the smoothing alone. */
+/* The crack stays at rest while K is too small, stops permanently when K becomes too small, never exceeds its largest
+ * speed, and starts when K exceeds K_Ic; while K rises as sqrt(t) it lags only by the smoothing. */
 static void test_follows_and_rests(void **state)
 {
     (void)state;
@@ -392,7 +398,7 @@ static void test_follows_and_rests(void **state)
     stage_free(&s);
 }
 
-/* Among material points the crack calls those near its tip and waits for them. */
+/* Among material points the crack requests conversion near its tip and waits for it. */
 static void test_points(void **state)
 {
     (void)state;

@@ -7,7 +7,8 @@
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
 
-/* Largest entry of the difference of two states over the largest of the second, gradients and stresses apart. */
+/* Returns the largest difference of two states over the largest entry of the second, separately for gradients and
+ * stresses. */
 static real state_difference(const struct crack_state *a, const struct crack_state *b)
 {
     real d[2] = {0}, size[2] = {0};
@@ -20,7 +21,8 @@ static real state_difference(const struct crack_state *a, const struct crack_sta
     return real_max(d[0] / size[0], d[1] / size[1]);
 }
 
-/* Gradients are those of the displacements; stresses balance and leave the faces free; sqrt(2 pi r) sigma = 1 ahead. */
+/* Checks that gradients are those of the displacements, that stresses are in equilibrium and leave the faces free, and
+ * that sqrt(2 pi r) sigma = 1 ahead of the tip. */
 static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mode, real v)
 {
     const real e = 1e-5;
@@ -42,7 +44,7 @@ static void field_is_a_solution(const struct crack_medium *m, enum crack_mode mo
                 assert_near((to[j][1].displacement[i] - to[j][0].displacement[i]) / (2 * e), here.state.gradient[i][j],
                             1e-8 * size);
             }
-            assert_near(balance, 0, 1e-8); /* of stresses of 0.3 Pa; differences cost half the digits */
+            assert_near(balance, 0, 1e-8); /* for stresses of 0.3 Pa; finite differences cost half the digits */
             assert_near((to[0][1].state.velocity[i] - to[0][0].state.velocity[i]) / (2 * e),
                         here.state.velocity_along[i], 1e-8 * size * (v + 1));
         }
@@ -66,7 +68,8 @@ static void fields_solve_the_equations_of_motion(void **state)
     }
 }
 
-/* The moving field tends to that at rest as (v/c_s)^2; at the seam the two differ by less than 2e-4. */
+/* The moving field tends to the static one as (v/c_s)^2; at the transition between both formulas the difference is
+ * below 2e-4. */
 static void fields_meet_at_low_speed(void **state)
 {
     (void)state;
@@ -100,7 +103,7 @@ static void numbers_of_the_glass_at_a_kilometre_per_second(void **state)
         assert_near(crack_speed_factor(&m, form, m.rayleigh), 0, 1e-6);
     }
     for (int mode = 0; mode < MODES; mode++) assert_near(crack_universal(&m, mode, 0.0101 * m.shear_speed), 1, 1e-4);
-    /* K_I/(sigma_0 sqrt(pi a)), a = 12 mm, 9 us after the load, the wave having come 20 mm */
+    /* K_I/(sigma_0 sqrt(pi a)), a = 12 mm, 9 us after the load, with a wave that has travelled 20 mm. */
     const real arrival = 0.02 / m.longitudinal;
     assert_near(arrival, 3.164e-6, 1e-9);
     assert_near(crack_suddenly_loaded(&m, 1, 9e-6 - arrival) / sqrt(pi * 0.012), 1.0226, 1e-4);
@@ -119,7 +122,7 @@ static void constants_of_the_medium(void **state)
     assert_close(thin.modulus, 75.629e9, 1e-15);
 }
 
-/* The circumferential stress of the fields at rest is largest where crack_direction says, and is K_eq. */
+/* The hoop stress of the static fields is largest in the direction crack_direction, where it is K_eq. */
 static void direction_is_that_of_the_largest_hoop_stress(void **state)
 {
     (void)state;
@@ -146,16 +149,17 @@ static void direction_is_that_of_the_largest_hoop_stress(void **state)
     assert_exact(crack_direction((const real[]){1, 0}), 0);
 }
 
-/* ---- the integral from exact fields ------------------------------------------------------------------------------ */
+/* ---- interaction integral of exact fields ------------------------------------------------------------------------ */
 
-/* Gauss points of five in [0, 1]. */
+/* Five Gauss points in [0, 1]. */
 static const real gauss_place[] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155,
                                    0.95308992296933200};
 static const real gauss_weight[] = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324,
                                     0.11846344252809454};
 
-/* I of two motions: panels in radius; points evenly round the tip, which converge faster than any power as products of
- * two fields are periodic. The disc inside 1e-3 is left out: the second sum vanishes point by point. */
+/* Returns the interaction integral I of two motions: Gauss panels in radius; equidistant points around the tip, which
+ * converge exponentially because products of two fields are periodic. The disc inside 1e-3 is left out: the domain term
+ * vanishes pointwise. */
 static real integral(const struct sif_tip *tip, const struct contour *c, enum crack_mode actual,
                      enum crack_mode auxiliary)
 {
@@ -175,7 +179,7 @@ static real integral(const struct sif_tip *tip, const struct contour *c, enum cr
     return sum;
 }
 
-/* I times half of E* is A_I and A_II, whatever the weight and the contour; the modes do not mix. */
+/* I times half of E* is A_I and A_II, for every weight and contour; the modes are decoupled. */
 static void exact_fields_return_the_universal_functions(void **state)
 {
     (void)state;

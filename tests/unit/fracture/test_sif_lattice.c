@@ -1,5 +1,5 @@
-/* Tests of stress-intensity factors from particles: gradients on clouds, and the integral over lattices that
- * carry exact crack-tip fields. */
+/* Tests of stress-intensity factors from particles: gradients on irregular particles, and the integral on lattices with
+ * exact crack-tip fields. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,9 +10,9 @@
 
 /* ---- gradients --------------------------------------------------------------------------------------------------- */
 
-#define THICKNESS 0.37 /* [m], of particles of 1 m */
+#define THICKNESS 0.37 /* thickness [m], with particles of 1 m */
 
-/* A shaken square of particles with room for two fields. */
+/* An irregular square of particles with memory for two fields. */
 struct patch {
     struct particles p;
     struct cells c;
@@ -70,7 +70,7 @@ static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule
                 worst = real_max(worst,
                                  fabs(gradient[a][d] - quadratic_slope(coefficient[a], k->p.X[0][i], k->p.X[1][i], d)));
     }
-    assert_near(worst, 0, 1e-10); /* slopes up to 20; corners of the patch lie badly */
+    assert_near(worst, 0, 1e-10); /* slopes up to 20; ill-conditioned at corners of the patch */
     gradient_stencil_free(&s);
 }
 
@@ -88,7 +88,8 @@ static void gradients_on_irregular_clouds(void **state)
     }
 }
 
-/* A jump across a crack does not enter; with diffraction, what the crack hides counts round the tip. */
+/* A jump across a crack does not affect the gradient; with diffraction, hidden particles count with the distance around
+ * the tip. */
 static void cracks_hide_particles(void **state)
 {
     (void)state;
@@ -103,7 +104,7 @@ static void cracks_hide_particles(void **state)
     for (int64_t i = 0; i < k.p.n; i++) {
         real gradient[2][2];
         for (int method = 0; method < 2; method++) {
-            if (k.p.X[0][i] > -3) continue; /* wholly behind the tip */
+            if (k.p.X[0][i] > -3) continue; /* entirely behind the tip */
             rule.method = method;
             gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
             gradient_of(&s, i, field, gradient);
@@ -125,7 +126,7 @@ static void cracks_hide_particles(void **state)
     patch_free(&k);
 }
 
-/* Fewer than six particles, or all on two lines: linear; alone: nothing. */
+/* Fewer than six particles, or all on two lines: linear fit; a single particle: zero gradient. */
 static void gradients_fall_back(void **state)
 {
     (void)state;
@@ -157,15 +158,15 @@ static void gradients_fall_back(void **state)
     }
 }
 
-/* Cubic spline of Belytschko et al. 1994, r: distance over the radius of the support. */
+/* Returns the cubic spline of Belytschko et al. 1994; r: distance over the radius of the support. */
 static real spline_weight(real r)
 {
     return r <= 0.5 ? 2.0 / 3 - 4 * r * r + 4 * r * r * r : r < 1 ? 4.0 / 3 * (1 - r) * (1 - r) * (1 - r) : 0;
 }
 
-/* Slope along x of three values on a line, and a fourth beside it that fixes the slope along y alone: of a straight
- * line by least squares with the spline, or of the sum of omega V x f over that of omega V x^2, omega 1/r. A crack that
- * hides the particle at 1 makes it as far away as the way round its tip, to the power of `diffraction`. */
+/* Slope along x of three values on a line, with a fourth beside it that determines only the slope along y:
+ * least-squares line with the spline weight, or the sum of omega V x f over that of omega V x^2, omega 1/r. A crack
+ * that hides the particle at 1 increases its distance to that around the tip, to the power of `diffraction`. */
 static void gradients_have_their_weights(void **state)
 {
     (void)state;
@@ -205,7 +206,7 @@ static void gradients_have_their_weights(void **state)
 
 /* ---- the integral from particles --------------------------------------------------------------------------------- */
 
-/* An even lattice of spacing 1 round the tip at (shift), displaced by the exact field of a crack at an angle. */
+/* A regular lattice of spacing 1 with the tip at (shift), displaced by the exact field of a crack at an angle. */
 struct site_map {
     struct patch patch;
     struct sif_tip tip;
@@ -285,13 +286,13 @@ static struct sif lattice_sif(const struct site_map *l, real inner, real outer)
     return found;
 }
 
-/* Error of K over |K|. */
+/* Returns the error of K over |K|. */
 static real sif_error(const struct sif *s, const real K[MODES])
 {
     return real_max(fabs(s->K[0] - K[0]), fabs(s->K[1] - K[1])) / hypot(K[0], K[1]);
 }
 
-/* The midpoint sum with exact gradients: what is left is quadrature. */
+/* Returns the error of the midpoint sum with exact gradients, which is due to quadrature. */
 static real exact_gradient_error(const struct site_map *l, real outer, enum crack_mode mode)
 {
     const struct contour c = {0.5 * outer, outer};
@@ -309,8 +310,8 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
     return worst;
 }
 
-/* What quadrature over a lattice costs: with the cubic weight 0.35 % at 10 spacings and 0.05 % at 20 for a tip in the
- * middle of four particles, twice as much elsewhere; the quintic weight leaves a tenth of it. */
+/* Quadrature error on a lattice: with the cubic weight 0.35 % at 10 spacings and 0.05 % at 20 for a tip midway between
+ * four particles, twice as much elsewhere; a tenth of it with the quintic weight. */
 static void lattice_sums_of_exact_gradients(void **state)
 {
     (void)state;
@@ -333,14 +334,14 @@ static void lattice_sums_of_exact_gradients(void **state)
     }
 }
 
-/* Modes alone and mixed, cracks along the lattice and across it, between rows of particles and along one: K_I and K_II
- * over |K|, and J E* = |K|^2. */
+/* Single and mixed modes, cracks along the lattice and oblique, between rows of particles and along one: errors of K_I
+ * and K_II over |K|, and J E* = |K|^2. */
 static void lattice_sums_of_fitted_gradients(void **state)
 {
     (void)state;
     const real shift[][2] = {{0, 0}, {0.5, 0.5}, {0.2, 0.4}}, degrees[] = {0, 30, 45}, outer[] = {10, 20, 40};
     const real Ks[][MODES] = {{1, 0}, {0, 1}, {0.8, -0.6}};
-    const real allowed[] = {0.0025, 0.00025, 0.00005}; /* gradients err by 1/r^2, and quadrature by more */
+    const real allowed[] = {0.0025, 0.00025, 0.00005}; /* gradients have errors of 1/r^2, and quadrature larger ones */
     real worst[2][3] = {{0}};
     for (size_t n = 0; n < COUNT_OF(degrees) * COUNT_OF(shift); n++) {
         struct site_map l;
@@ -364,9 +365,9 @@ static void lattice_sums_of_fitted_gradients(void **state)
     }
 }
 
-/* A body force b along the crack, borne by sigma_11 = E* a x alone, with b = -E* a, leaves K and J as they are,
- * whatever the contour: u_1 = a (x^2 + c y^2)/2, u_2 = -c a x y with c = lambda/(lambda + 2 G) is that field, faces of
- * the crack free. With the tip turned the force is turned, too. Without its term K is off by 1.7 and 5.6 %. */
+/* A body force b along the crack, balanced by sigma_11 = E* a x alone, b = -E* a, does not change K and J for any
+ * contour: the field is u_1 = a (x^2 + c y^2)/2, u_2 = -c a x y with c = lambda/(lambda + 2 G), with free crack faces.
+ * For a rotated tip the force is rotated too. Without its term K would be off by 1.7 and 5.6 %. */
 static void body_forces_leave_the_factors(void **state)
 {
     (void)state;
@@ -393,7 +394,7 @@ static void body_forces_leave_the_factors(void **state)
             struct sif_motion motion = {.displacement = {l.patch.u[0], l.patch.u[1]}, .body = {body[0], body[1]}};
             struct sif s;
             sif_integrate(&l.tip, &ring, 1, &motion, &l.rule, &l.patch.p, &l.patch.c, &s);
-            /* gradients of the second sum are those of particles beside the tip, where they err by some percent */
+            /* Gradients in the domain term are those of particles beside the tip, with errors of some percent. */
             assert_near(sif_error(&s, K), 0, 0.004);
             assert_near(s.J * m->modulus, 1, 0.008);
             motion.body[0] = motion.body[1] = NULL;
@@ -406,7 +407,7 @@ static void body_forces_leave_the_factors(void **state)
     }
 }
 
-/* Hooke's law for the particles' own stress, handed over in the frame of the body. */
+/* Hooke's law for the particles' own stress, passed in the frame of the body. */
 static void particle_stresses_are_turned(void **state)
 {
     (void)state;
@@ -437,8 +438,8 @@ static void particle_stresses_are_turned(void **state)
     site_map_free(&l);
 }
 
-/* A steadily moving crack, with inertia: K comes back, and J E* = A_I K_I^2 + A_II K_II^2. The core is left out, as the
- * gradients of particles there are none of the field. */
+/* A steadily moving crack, with inertia: K is recovered, and J E* = A_I K_I^2 + A_II K_II^2. The core is left out,
+ * because gradients of particles there are not those of the field. */
 static void lattice_sums_of_a_moving_crack(void **state)
 {
     (void)state;
@@ -461,9 +462,9 @@ static void lattice_sums_of_a_moving_crack(void **state)
     }
 }
 
-/* Where the motion is not that of a steady crack, the second sum does not vanish at the edge of the core. It must not
- * change as the tip passes particle after particle: with accelerations of 20 times the steady ones an edge that lets
- * particles in and out one by one changes K_I by 1.6 %, one that fades by less than 0.01 %. */
+/* If the motion is not that of a steady crack, the domain term does not vanish at the edge of the core. It must not
+ * change when the tip passes particles: with accelerations of 20 times the steady ones, a sharp edge changes K_I by 1.6
+ * %, a smooth one by less than 0.01 %. */
 static void a_core_does_not_see_single_particles(void **state)
 {
     (void)state;

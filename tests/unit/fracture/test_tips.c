@@ -1,4 +1,4 @@
-/* Tests of crack tips, on damage set by hand. */
+/* Tests of crack tips, with damage set by hand. */
 #include "fracture/places.h"
 #include "tests/support/bodies.h"
 
@@ -18,7 +18,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     assert_true(isnan(tip_angle(&t.tip[0], 2)));
     tips_free(&t);
 
-    /* both ends inside: two tips; a second segment that goes on from the first takes their common end away */
+    /* Both ends inside: two tips; a second segment that continues the first removes their common end. */
     real first[2][DIM_MAX] = {{10, 10, 0}, {20, 10, 0}}, second[2][DIM_MAX] = {{20, 10, 0}, {25, 15, 0}};
     struct crack crack[2] = {{2, first}, {2, second}};
     tips_make(&t, &b.p, &b.c, crack, 1, 1, 4);
@@ -31,7 +31,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     assert_near(t.tip[1].along[1], sqrt(0.5), 1e-15);
     tips_free(&t);
 
-    /* no tip where the body ends with a single particle */
+    /* No tip if only a single particle is ahead of it. */
     real out[2][DIM_MAX] = {{30, 19.9, 0}, {39.2, 19.9, 0}};
     struct crack outward = {2, out};
     tips_make(&t, &b.p, &b.c, &outward, 1, 1, 4);
@@ -39,7 +39,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     assert_near(t.tip[0].along[0], -1, 0);
     tips_free(&t);
 
-    /* particles that are held cannot crack: no tip before them */
+    /* Fixed particles cannot crack: no tip in front of them. */
     for (int64_t i = 0; i < b.p.n; i++)
         if (b.p.X[0][i] < 10) b.p.flag[i] |= FLAG_DRIVEN;
     tips_make(&t, &b.p, &b.c, crack, 1, 1, 4);
@@ -48,7 +48,7 @@ static void tip_starts_only_where_the_body_goes_on(void **state)
     notched_free(&b, &t);
 }
 
-/* One particle a sample for ten samples of 1/500 s, then rest: 500 m/s, from the second on. */
+/* Growth by one particle per sample for ten samples of 1/500 s, then rest: 500 m/s, from the second sample on. */
 static void tip_speed_is_the_slope_of_growth(void **state)
 {
     (void)state;
@@ -70,13 +70,14 @@ static void tip_speed_is_the_slope_of_growth(void **state)
     assert_near(tip->first_time, dt, 1e-15);
     assert_near(tip->start_time, 2 * dt, 1e-15);
     assert_near(tip->arrest_time, 10 * dt, 1e-15);
-    assert_near(tip->speed_max, 500, 1e-9); /* slopes of exact lines: round-off times 500 / dt */
+    assert_near(tip->speed_max, 500, 1e-9); /* slopes of exact lines: round-off times 500/dt */
     assert_near(tip->speed_mean, 500, 1e-9);
     assert_near(tip_angle(tip, 2), 0, 1e-5); /* acos near 1 halves the digits */
     notched_free(&b, &t);
 }
 
-/* A rate that changes: the steepest window counts, the mean lies between. Slow: a particle every second sample. */
+/* A varying growth rate: the steepest window determines the maximum; the mean is between. Slow growth: a particle every
+ * second sample. */
 static void tip_speed_takes_the_steepest_window(void **state)
 {
     (void)state;
@@ -104,7 +105,7 @@ static void tip_turns(void **state)
     tips_sample(&t, &b.p, &b.c, 0);
     assert_int_equal(t.n, 1);
     assert_near(tip_angle(&t.tip[0], 2), atan2(3, 2.5) * 180 / M_PI, 1e-10);
-    /* a mirror twin about y = 10.5: the tip is on the upper of both branches; then on the longer one */
+    /* A mirror image about y = 10.5: the tip is on the upper of both branches; then on the longer one. */
     assert_int_equal(tips_tied(&t), 1);
     hurt(&b, 10.5, 9.5, 0), hurt(&b, 11.5, 8.5, 0);
     tips_sample(&t, &b.p, &b.c, 1);
@@ -123,8 +124,8 @@ static void tip_turns(void **state)
     notched_free(&b, &t);
 }
 
-/* Two rows of damaged particles beside a straight crack are one end, whose place is between them; branches that start
- * there are two, and so are the tips of both ends of a crack. */
+/* Two rows of damaged particles beside a straight crack are one end, positioned between them; branches that start there
+ * are two, and so are the tips of both ends of a crack. */
 static void tips_that_tie(void **state)
 {
     (void)state;
@@ -150,12 +151,13 @@ static void tips_that_tie(void **state)
     tips_sample(&t, &b.p, &b.c, 1);
     const struct tip *longest = tips_longest(&t);
     assert_near(longest->place[0], 31.5, ROUND_OFF);
-    assert_near(longest->place[1], 13.5, ROUND_OFF); /* a place that is damaged, not (31.5, 10) */
+    assert_near(longest->place[1], 13.5, ROUND_OFF); /* a damaged position, not (31.5, 10) */
     assert_int_equal(tips_tied(&t), 2);
     notched_free(&b, &t);
 }
 
-/* A mean that is no place of the group gives way to the nearest of its places; the last group by x is taken. */
+/* If the mean of a group is not one of its positions, the nearest of them is used; of several groups the last by x is
+ * used. */
 static void places_of_groups(void **state)
 {
     (void)state;
@@ -169,7 +171,7 @@ static void places_of_groups(void **state)
     }
     assert_int_equal(places_middle(place, 24, 2, 1.5, none, middle), 1);
     assert_near(hypot(middle[0] - 7, middle[1] - 3), 5, ROUND_OFF);
-    assert_int_equal(places_middle(place, 24, 2, 1.2, none, middle), 24); /* they are 1.305 apart */
+    assert_int_equal(places_middle(place, 24, 2, 1.2, none, middle), 24); /* their distance is 1.305 */
     assert_near(middle[0], 12, ROUND_OFF);
     assert_near(middle[1], 3, ROUND_OFF);
     assert_int_equal(places_middle(place, 48, 3, 1.5, none, middle), 2);
@@ -180,8 +182,8 @@ static void places_of_groups(void **state)
     assert_int_equal(places_middle(place, 0, 2, 1.5, none, middle), 0);
 }
 
-/* The faces of the pre-crack beside its end belong to the crack and are no growth; held particles and another
- * body's belong to none of it. */
+/* The faces of the pre-crack beside its end are part of the crack, not growth; fixed particles and those of other
+ * bodies are not part of it. */
 static void tip_growth_leaves_out(void **state)
 {
     (void)state;
@@ -208,7 +210,7 @@ static void tip_growth_leaves_out(void **state)
     notched_free(&b, &t);
 }
 
-/* A crack that starts by itself becomes part of the one that reaches it; that jump is length, not speed. */
+/* A crack that starts separately becomes part of the one that reaches it; this jump counts as length, not as speed. */
 static void tip_joins_a_crack_ahead(void **state)
 {
     (void)state;
@@ -235,7 +237,7 @@ static void tip_joins_a_crack_ahead(void **state)
     assert_near(t.tip[0].speed_max, 1, 1e-12);
     for (int64_t i = 0; i < b.p.n; i++) assert_true(t.label[i] <= 2 || t.label[i] == 255);
 
-    /* the third crack, one particle a second, has kept its record under its new number */
+    /* The third crack, growing by one particle per second, keeps its history under its new index. */
     hurt(&b, 30.5, 7.5, 0);
     tips_sample(&t, &b.p, &b.c, 7);
     assert_near(t.tip[1].growth, 3, ROUND_OFF);
@@ -265,8 +267,8 @@ static void tip_of_a_front(void **state)
     notched_free(&b, &t);
 }
 
-/* Both faces of five spacings from a pre-crack; a slanting path; a crack of its own, half of whose particles count; in
- * a plane of symmetry half of it. */
+/* Crack area in 2D: both faces of five spacings from a pre-crack; an oblique path; a separate crack, half of whose
+ * particles count; in a plane of symmetry half of the area. */
 static void tips_area_in_the_plane(void **state)
 {
     (void)state;
@@ -290,7 +292,7 @@ static void tips_area_in_the_plane(void **state)
     notched_free(&b, &t);
 }
 
-/* A front that has grown by 3 spacings on one half of its width, by one on the other. */
+/* A front that has grown by 3 spacings on one half of its width and by one on the other. */
 static void tips_area_of_a_front(void **state)
 {
     (void)state;
@@ -301,7 +303,7 @@ static void tips_area_of_a_front(void **state)
     struct crack crack = {4, corner};
     tips_make(&t, &b.p, &b.c, &crack, 1, 1, 4);
     assert_int_equal(t.n, 1);
-    assert_near(2 * t.tip[0].edge[2], 6, 1); /* ends are found in steps of a spacing */
+    assert_near(2 * t.tip[0].edge[2], 6, 1); /* ends are located in steps of a spacing */
     for (real z = 0.5; z < 6; z++)
         for (real x = 5.5; x < (z < 3 ? 8 : 6); x++) hurt(&b, x, 3.5, z), hurt(&b, x, 2.5, z);
     tips_sample(&t, &b.p, &b.c, 0);

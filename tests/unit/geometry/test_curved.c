@@ -1,5 +1,5 @@
-/* Second-order elements of Gmsh and Abaqus files keep their curves: every kind in the order of nodes of both manuals,
- * put into a quadratic map whose determinant is 1, so that its volume and the places of its sides are known. */
+/* Second-order elements of Gmsh and Abaqus files are curved: every kind in the node order of both manuals, mapped by a
+ * quadratic function with determinant 1, so that volume and positions of its sides are known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,13 +11,13 @@
 
 enum { NODES_MOST = 27 };
 
-/* The map of a quadratic element: a shear by squares, whose volume is that of the reference. */
+/* The map: a shear by squares, which preserves the volume of the reference element. */
 static void curve_map(const real *at, real *X)
 {
     X[0] = at[0] + 0.3 * at[1] * at[1], X[1] = at[1] + 0.2 * at[2] * at[2], X[2] = at[2];
 }
 
-/* Corners of reference elements. */
+/* Corners of the reference elements. */
 static const real corner_of[][8][3] = {
     {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -25,10 +25,10 @@ static const real corner_of[][8][3] = {
     {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 enum { TET, PYRAMID, PRISM, HEX };
 
-/* Nodes behind the corners, by the corners that they lie between (from 1 on), as in the manuals of Gmsh ("Node
- * ordering") and of Abaqus ("Element node ordering"). */
+/* Mid-side nodes, given by the corners between which they are (from 1), as in the manuals of Gmsh ("Node ordering") and
+ * of Abaqus ("Element node ordering"). */
 static const struct kind {
-    int shape, corners, gmsh; /* type of Gmsh; 0: Abaqus */
+    int shape, corners, gmsh; /* element type of Gmsh; 0: Abaqus */
     const char *abaqus, *between;
     real volume;
 } kinds[] = {
@@ -45,7 +45,7 @@ static const struct kind {
     {HEX, 8, 0, "C3D27", "12 23 34 14 56 67 78 58 15 26 37 48 12345678 1234 5678 1256 2367 3478 1458", 1},
 };
 
-/* Places of all nodes of a kind on the reference; returns how many. */
+/* Computes the positions of all nodes of a kind on the reference element; returns their number. */
 static int reference_nodes(const struct kind *k, real (*at)[3])
 {
     int n = k->corners;
@@ -81,8 +81,8 @@ static void write_kind(const char *name, const struct kind *k)
     fclose(file);
 }
 
-/* Places of the sides of the reference: where one of these is 0, the others being so that the place is in the
- * element. */
+/* Computes positions on the sides of the reference element, where one coordinate is 0. Returns false if the position is
+ * outside the element. */
 static bool on_side(int shape, int side, real u, real v, real *at)
 {
     const real in[3] = {u, v, 0};
@@ -102,7 +102,7 @@ static bool on_side(int shape, int side, real u, real v, real *at)
     }
 }
 
-/* 1 mm is a hundredth of the wanted distance: chords of curves are never better than that. */
+/* Tolerance 1 mm: a hundredth of the required distance, the accuracy of chords of curves. */
 static void every_kind_is_curved(void **state)
 {
     (void)state;
@@ -127,9 +127,8 @@ static void every_kind_is_curved(void **state)
     }
 }
 
-/* A quarter ring of four CPS8, 1 m to 2 m, by its nodes at circles; the areas between parabolas and circles of 45
- * degrees are 3.2e-4 r^2 each. A node set of its outer corners is the outer arc, an element set the inner half with
- * its arc. */
+/* A quarter ring of four CPS8, 1 m to 2 m, with nodes on circles; the areas between parabolas and circles of 45 degrees
+ * are 3.2e-4 r^2 each. A node set of its outer corners is the outer arc, an element set the inner half with its arc. */
 static void write_ring(const char *name, const char *type)
 {
     const bool triangles = strcmp(type, "CPS6") == 0;
@@ -172,7 +171,7 @@ static void a_ring_is_round(void **state)
         assert_int_equal(g.whole.open_edges, 0);
         for (int i = 0; i < 40; i++) {
             const real angle = (i + 0.5) / 40 * pi / 2, X[] = {2 * cos(angle), 2 * sin(angle)};
-            /* parabolas lie up to 3e-3 of the radius beside circles of 45 degrees */
+            /* Parabolas deviate by up to 3e-3 of the radius from circles of 45 degrees. */
             assert_near(hull_distance(&outer->hull, X, NULL), 0, 2 * 3e-3 + fine);
             assert_near(hull_distance(&inner->hull, (real[]){0.75 * X[0], 0.75 * X[1]}, NULL), 0, 1.5 * 3e-3 + fine);
         }
@@ -181,8 +180,8 @@ static void a_ring_is_round(void **state)
     remove("r.inp");
 }
 
-/* A curved cube of 20 nodes beside a straight one: their faces meet without a gap, and so do pieces of edges of the
- * plane faces between them. */
+/* A curved cube of 20 nodes beside a straight one: their faces coincide without a gap, and so do the edges of the plane
+ * faces between them. */
 static void curved_beside_straight(void **state)
 {
     (void)state;
@@ -213,7 +212,7 @@ static void curved_beside_straight(void **state)
     remove("b.inp");
 }
 
-/* Third order: straight elements are read by their corners, curved ones refused. */
+/* Third-order elements: straight ones are read by their corners, curved ones refused. */
 static void third_order(void **state)
 {
     (void)state;
@@ -239,7 +238,7 @@ static void third_order(void **state)
     remove("c.msh");
 }
 
-/* Too coarse for the spacing; more nodes than the type has. */
+/* Refused: elements too coarse for the spacing; more nodes than the type has. */
 static void refused_curves(void **state)
 {
     (void)state;
@@ -256,7 +255,7 @@ static void refused_curves(void **state)
           "6\n",
           file);
     fclose(file);
-    assert_ok(geometry_read(&g, "r.inp", 2, 1, NAN)); /* straight but for round-off: three edges */
+    assert_ok(geometry_read(&g, "r.inp", 2, 1, NAN)); /* straight up to round-off: three edges */
     assert_int_equal(g.whole.faces, 3);
     geometry_free(&g);
     file = fopen("r.inp", "w");
@@ -266,7 +265,7 @@ static void refused_curves(void **state)
     remove("r.inp");
 }
 
-/* Damaged files are read or refused; neither crashes. */
+/* Damaged files are read or refused; none causes a crash. */
 static void damaged_curves(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Files of shapes: STL, Gmsh 2.2 and 4.1, Abaqus, in words and bytes, made here; what is wrong with them in one line;
- * and some thousand damaged ones. */
+/* Files of shapes written here: STL, Gmsh 2.2 and 4.1, Abaqus, as text and binary; errors reported in one line; and
+ * some thousand damaged files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static void write_file(const char *name, const void *bytes, size_t n)
 
 static void write_words(const char *name, const char *text) { write_file(name, text, strlen(text)); }
 
-/* The whole of a file, to be freed. */
+/* Returns the contents of a file, to be freed. */
 static char *file_text(const char *name, size_t *length)
 {
     FILE *file = fopen(name, "rb");
@@ -112,7 +112,7 @@ static void bad_stl(void **state)
     write_stl_words("c.stl", 6, "endsolid");
     refused("c.stl", 3, "open or turned inside out at 8 edges");
     write_file("c.stl", bytes, stl_bytes(bytes, 13));
-    refused("c.stl", 3, "c.stl:"); /* begins with the word solid, and is none in words */
+    refused("c.stl", 3, "c.stl:"); /* begins with the word solid, but is binary */
     bytes[0] = 'x';
     write_file("c.stl", bytes, sizeof bytes);
     refused("c.stl", 3, "684 bytes, and 13 triangles, as it says, would be 734");
@@ -154,7 +154,7 @@ static void check_msh2(const char *name)
     geometry_free(&g);
 }
 
-/* The numbers of 2.2 as bytes: counts stay words. */
+/* Writes format 2.2 with binary numbers; counts are text. */
 static void write_msh2_bytes(const char *name)
 {
     static const real at[12][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0},
@@ -188,7 +188,7 @@ static void check_msh4(const char *name)
     geometry_free(&g);
 }
 
-/* Sizes are numbers of 8 bytes, tags and types of 4. */
+/* Writes sizes as 8-byte integers; tags and types have 4 bytes. */
 static void write_sizes(FILE *file, int n, const int64_t *value) { fwrite(value, 8, (size_t)n, file); }
 static void write_ints(FILE *file, int n, const int32_t *value) { fwrite(value, 4, (size_t)n, file); }
 static void write_reals(FILE *file, int n, const real *value) { fwrite(value, 8, (size_t)n, file); }
@@ -233,7 +233,7 @@ static void gmsh_of_both_versions(void **state)
     check_msh4("d.msh");
 }
 
-/* A mesh with `what` in place of `from`. */
+/* Writes a mesh with `what` in place of `from`. */
 static void write_changed(const char *name, const char *text, const char *from, const char *what)
 {
     char changed[4096];
@@ -243,7 +243,7 @@ static void write_changed(const char *name, const char *text, const char *from, 
     write_words(name, changed);
 }
 
-/* A curve and a surface of one tag belong to their own groups. */
+/* A curve and a surface with the same tag belong to their own groups. */
 static void gmsh_tags_by_dimension(void **state)
 {
     size_t length;
@@ -256,7 +256,7 @@ static void gmsh_tags_by_dimension(void **state)
     remove("e.msh");
 }
 
-/* The sign of a group in the list of an entity is its direction; names of one tag differ by dimension. */
+/* The sign of a group in the list of an entity is its orientation; names of one tag differ by dimension. */
 static void gmsh_groups_of_entities(void **state)
 {
     size_t length;
@@ -331,7 +331,7 @@ static void abaqus_decks(void **state)
     assert_ok(geometry_read(&g, "b.inp", 3, 1, NAN));
     assert_close(g.whole.volume, 1. / 3, 1e-12);
     assert_int_equal(g.whole.shells, 2);
-    /* B is turned by a right angle about a line through (5, 0): its corner 3 at (1, 0) comes to (5, 1) */
+    /* B is rotated by a right angle about a line through (5, 0): its corner 3 at (1, 0) moves to (5, 1). */
     assert_close(g.whole.node[0].high[0], 5, 1e-12);
     assert_close(g.whole.node[0].high[1], 1, 1e-12);
     assert_close(geometry_find(&g, "low")->hull.volume, 1. / 6, 1e-12);
@@ -342,7 +342,7 @@ static void abaqus_decks(void **state)
     geometry_free(&g);
 }
 
-/* Squares in a row, with sets of first, last and step: the step may not meet the last. */
+/* Squares in a row, with sets given by first, last and step, where the step may not reach the last. */
 static void abaqus_generates(void **state)
 {
     (void)state;
@@ -363,22 +363,22 @@ static void abaqus_generates(void **state)
     assert_close(geometry_find(&g, "third")->hull.volume, 2, 1e-12); /* 10 and 40 */
     assert_close(geometry_find(&g, "all")->hull.volume, 7, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "third")->hull, (real[]){2.2, 0.5}, NULL), 0.8, 1e-12);
-    /* nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; of these none is nearer to (3, 1) than 1 */
+    /* Nodes 5, 7, 9, 11 at y = 0, x = 2 to 5; none of these is closer to (3, 1) than 1. */
     assert_close(hull_distance(&geometry_find(&g, "lower")->hull, (real[]){3, 1}, NULL), 1, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "lower")->hull, (real[]){6.5, 0}, NULL), 1.5, 1e-12);
     assert_close(hull_distance(&geometry_find(&g, "plain")->hull, (real[]){1, 0.9}, NULL), 0.1, 1e-12);
     geometry_free(&g);
 }
 
-/* Each kind of solid element alone, and one of them with its corners the other way round: volume, and the distance from
- * a place outside and one inside. */
+/* Each kind of solid element, and one with reversed corners: volume, and distance from a position outside and one
+ * inside. */
 static void abaqus_solids(void **state)
 {
     (void)state;
     static const struct {
         const char *type, *corners;
         real volume, outside;
-    } solid[] = {{"C3D5", "1, 2, 3, 4, 9", 2. * 3 * 1.7 / 3, 0.6}, /* a pyramid, its base below */
+    } solid[] = {{"C3D5", "1, 2, 3, 4, 9", 2. * 3 * 1.7 / 3, 0.6}, /* a pyramid with its base below */
                  {"C3D5", "1, 4, 3, 2, 9", 2. * 3 * 1.7 / 3, 0.6},
                  {"C3D6", "1, 2, 3, 5, 6, 7", 3 * 2.3, 0.6}, /* half of the brick */
                  {"C3D6", "5, 6, 7, 1, 2, 3", 3 * 2.3, 0.6},
@@ -435,7 +435,7 @@ static uint64_t random_next(uint64_t *seed)
     return *seed >> 33;
 }
 
-/* Bytes changed, cut off, doubled: every file is read or refused. */
+/* Bytes changed, truncated, doubled: every file is read or refused. */
 static void damaged(void **state)
 {
     (void)state;
@@ -471,7 +471,7 @@ static void damaged(void **state)
     }
 }
 
-/* Files of the tests live in a folder of their own. */
+/* Folder for the files of the tests. */
 static char folder[] = "/tmp/cleave_geometry_XXXXXX";
 static int enter_folder(void **state)
 {

@@ -1,5 +1,5 @@
-/* Images and stacks: grey values as they were written, in all kinds of PNG and TIFF; distances of voxels against all
- * pairs; damaged files. */
+/* Images and stacks: grey values in all kinds of PNG and TIFF; distances of voxels compared with all pairs; damaged
+ * files. */
 #include <math.h>
 #include <png.h>
 #include <stdlib.h>
@@ -14,10 +14,11 @@
 
 enum { WIDE = 7, HIGH = 5, MOST = 1 << 16 };
 
-/* A grey value for each pixel, row 0 above. */
+/* Returns the grey value of a pixel; row 0 is at the top. */
 static int value_at(int row, int column, int page) { return (37 * row + 11 * column + 50 * page + 3) % 256; }
 
-/* kind: colour type of PNG; bits 1, 8 or 16. Colours have three equal values, palettes the value as an entry. */
+/* Writes a PNG. kind: colour type; bits: 1, 8 or 16. Colours have three equal values, palettes the value as an
+ * entry. */
 static void write_png(const char *name, int kind, int bits)
 {
     FILE *file = fopen(name, "wb");
@@ -51,7 +52,7 @@ static void write_png(const char *name, int kind, int bits)
     fclose(file);
 }
 
-/* white: grey values count from white. */
+/* Writes a TIFF. white: grey values count from white. */
 static void write_tiff(const char *name, int pages, int bits, int samples, int compression, bool white)
 {
     TIFF *tiff = TIFFOpen(name, "w");
@@ -100,7 +101,7 @@ static void check_values(const char *name, int dim, int pages, int bits)
             }
     assert_int_equal(voxels_grey(&v, (real[]){9.9, 25, 31}), -1);
     assert_int_equal(voxels_grey(&v, (real[]){12, 30, 31}), -1);
-    /* between two voxels, and a rounding below that place: the upper one */
+    /* Between two voxels, and less by round-off: the upper voxel. */
     assert_int_equal(voxels_grey(&v, (real[]){12 - 1e-12, 20, 30}), voxels_grey(&v, (real[]){12.5, 20.5, 30.5}));
     voxels_free(&v);
 }
@@ -130,13 +131,13 @@ static void kinds_of_images(void **state)
     }
 }
 
-/* How a page of TIFF holds its samples. */
+/* Layout of the samples of a TIFF page. */
 struct layout {
     int bits, samples, planar, orientation, format;
     bool tiled, white;
 };
 
-/* Transparency of 3/8, associated or not, says nothing about the value. */
+/* Returns a sample. Transparency of 3/8, associated or not, does not affect the value. */
 static int sample_at(const struct layout *a, int j, int i, int c)
 {
     const bool right = a->orientation == ORIENTATION_TOPRIGHT || a->orientation == ORIENTATION_BOTRIGHT;
@@ -148,7 +149,8 @@ static int sample_at(const struct layout *a, int j, int i, int c)
     return a->samples % 2 == 0 && c == a->samples - 1 ? most * 3 / 8 : a->white ? most - value : value;
 }
 
-/* A row of one tile of 16 x 16, or of the image; plane -1: all samples of a pixel together. */
+/* Fills a row of a tile of 16 x 16, or of the image. plane: index of the sample; -1: all samples of a pixel
+ * together. */
 static void fill_row(const struct layout *a, uint8_t *row, int j, int wide, int plane)
 {
     const int n = plane < 0 ? a->samples : 1;
@@ -196,7 +198,7 @@ static void write_layout(const char *name, const struct layout *a)
     TIFFClose(tiff);
 }
 
-/* Bits, transparency, colours, planes, tiles and the order of rows do not change a value. */
+/* Bits, transparency, colours, planes, tiles and order of rows do not affect a value. */
 static void layouts_of_tiff(void **state)
 {
     (void)state;
@@ -213,7 +215,7 @@ static void layouts_of_tiff(void **state)
     }
 }
 
-/* Signs, fractions, other numbers of bits, columns in place of rows. */
+/* Refused: signed and floating-point samples, other numbers of bits, columns in place of rows. */
 static void samples_refused(void **state)
 {
     (void)state;
@@ -239,7 +241,7 @@ static void samples_refused(void **state)
     }
 }
 
-/* Slices of several files, PNG and TIFF mixed; in the plane there is but one. */
+/* Slices from several files, PNG and TIFF mixed; in 2D there is only one. */
 static void a_stack_of_files(void **state)
 {
     (void)state;
@@ -289,7 +291,7 @@ static void bad_images(void **state)
     refused(bytes, n, "no whole PNG: ");
 }
 
-/* Distances of centres from the nearest voxel of the other kind, against all pairs; and the sign at places. */
+/* Distances of centres from the nearest voxel of the other kind, compared with all pairs; and the sign at positions. */
 static void distances(void **state)
 {
     (void)state;
@@ -363,7 +365,7 @@ static int leave_folder(void **state)
     return chdir("/") != 0 || rmdir(folder) != 0;
 }
 
-/* Rec. 709: green counts most, blue least. */
+/* Rec. 709: green has the largest weight, blue the smallest. */
 static void colours_have_a_luminance(void **state)
 {
     (void)state;

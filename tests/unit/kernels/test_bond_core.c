@@ -1,5 +1,5 @@
-/* The repulsion within bonds that are squeezed below 0.7 of their length: forces as the gradient of the energy, the
- * third law, the closed form of a chain, and nothing above 0.7. */
+/* Repulsion within bonds compressed below 0.7 of their length: forces as the gradient of the energy, the third law, the
+ * closed form of a chain, and no effect above 0.7. */
 #include <math.h>
 #include <string.h>
 
@@ -40,7 +40,7 @@ static real energy_now(struct run *e)
     return e->kernels.bond_energy(&e->bonds, &e->part);
 }
 
-/* Lengths along x to `squeeze`, and each place moved by up to 0.05 spacings. */
+/* Compresses lengths along x to `share`, and displaces each particle by up to 0.05 spacings. */
 static void squeeze(struct run *e, real share)
 {
     struct particles *p = &e->part;
@@ -49,7 +49,8 @@ static void squeeze(struct run *e, real share)
             p->x[d][i] = (d == 0 ? share : 1) * p->X[d][i] + 0.05 * sin(12.9 * (double)i + 78.2 * d);
 }
 
-/* A central difference over 1e-5 of a spacing: second derivatives of 3 K jump where cores begin, 1e-5 K. */
+/* Checks forces by a central difference over 1e-5 of a spacing. Tolerance: the second derivative, 3 K, jumps where the
+ * repulsion begins, 1e-5 K. */
 static void check_gradient(const char *model)
 {
     struct scene s;
@@ -82,7 +83,7 @@ static void forces_are_the_gradient(void **state)
     check_gradient("mospd");
 }
 
-/* A chain of nearest neighbours at the share l of its length: 1/2 E A/D (1 - l)^2 a bond, and 3/2 E A/D (0.7 - l)^2
+/* A chain of nearest neighbours at l times its length: energy 1/2 E A/D (1 - l)^2 per bond, plus 3/2 E A/D (0.7 - l)^2
  * below 0.7, to round-off. */
 static void chain_has_the_closed_form(void **state)
 {

@@ -1,5 +1,5 @@
-/* Bonds that yield: the path of one bond against its closed form, all lanes against a scalar twin, the work
- * they book, both ends alike, and what they take over from material points. */
+/* Bonds that yield: path of one bond compared with its closed form, all lanes compared with a scalar implementation,
+ * plastic work, equality of both ends, and initialisation from material points. */
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -11,7 +11,7 @@
 
 /* ---- one bond ---------------------------------------------------------------------------------------------------- */
 
-/* Force over stiffness and weight of the one bond of two particles at stretch s. */
+/* Returns the force of a single bond of two particles at stretch s, over stiffness and weight. */
 static real pulled(struct cloud *c, real s)
 {
     c->p.x[0][1] = c->p.x[0][0] + (c->p.X[0][1] - c->p.X[0][0]) * (1 + s);
@@ -29,17 +29,17 @@ static void pair_make(struct cloud *c)
     assert_int_equal(c->bonds.columns, 1);
 }
 
-/* Loaded to 3 s_y, unloaded through 0 to reverse yield, on to -4 s_y, reloaded to yield again: the corners and the
- * places between of the bilinear law with isotropic hardening, slope E_t/E = H/(1 + H) once it yields. Stretches of
- * 1e-4 are differences of lengths: round-off 1e-16/1e-4, so 1e-12 of the yield force. */
+/* Loading to 3 s_y, unloading through 0 to reverse yield, further to -4 s_y, reloading to yield: corners and
+ * intermediate positions of the bilinear law with isotropic hardening, with slope E_t/E = H/(1 + H) during yielding.
+ * Tolerance 1e-12 of the yield force: stretches of 1e-4 are differences of lengths with round-off 1e-16. */
 static void test_path(void **state)
 {
     (void)state;
     const real slope = HARDENING / (1 + HARDENING), y = YIELD;
-    const real first = y + slope * 2 * y;               /* at 3 s_y: also the yield force from then on */
-    const real back = 3 * y - 2 * first;                /* stretch of reverse yield */
-    const real second = first + slope * (back + 4 * y); /* size of the force at -4 s_y */
-    const real again = -4 * y + 2 * second;             /* stretch of the third yield */
+    const real first = y + slope * 2 * y;               /* force at 3 s_y, which is also the yield force afterwards */
+    const real back = 3 * y - 2 * first;                /* stretch at reverse yield */
+    const real second = first + slope * (back + 4 * y); /* magnitude of the force at -4 s_y */
+    const real again = -4 * y + 2 * second;             /* stretch at the third yield */
     const real path[][2] = {{0.5 * y, 0.5 * y},
                             {y, y},
                             {2 * y, y + slope * y},
@@ -57,7 +57,7 @@ static void test_path(void **state)
     real dissipated = 0;
     pair_make(&c);
     for (size_t k = 0; k < COUNT_OF(path); k++) {
-        /* stretches are multiples of 2^-49 */
+        /* Stretches are multiples of 2^-49. */
         assert_near(pulled(&c, path[k][0]), path[k][1], 1e-12 * y * 10 + 0x1p-50);
         real work = bond_plastic_work(&c.bonds);
         assert_true(work >= dissipated);
@@ -66,9 +66,9 @@ static void test_path(void **state)
     cloud_free(&c);
 }
 
-/* Work put into a bond along the same path, by the trapezoidal rule on 40,000 steps (exact for a force linear
- * between them; at three corners off by half a step of the slope's change times the step: 1e-9): elastic energy and
- * plastic work. */
+/* The work done on a bond along this path equals elastic energy plus plastic work. Trapezoidal rule with 40,000 steps:
+ * exact for a piecewise linear force; at three corners an error of half the squared step times the change of slope:
+ * 1e-9. */
 static void test_work(void **state)
 {
     (void)state;
@@ -90,7 +90,8 @@ static void test_work(void **state)
     cloud_free(&c);
 }
 
-/* A bond that breaks keeps its plastic work booked, once: path (s_y + H path/2) of its stiffness and length. */
+/* A bond that breaks keeps its plastic work in the balance, once: path (s_y + H path/2) times its stiffness and
+ * length. */
 static void test_broken(void **state)
 {
     (void)state;
@@ -113,7 +114,7 @@ struct twin {
     real plastic, path;
 };
 
-/* The same rule in scalars. */
+/* Applies the law in scalars. */
 static real twin_force(struct twin *t, real stretch, real yield, real hardening)
 {
     real trial = stretch - t->plastic, over = fabs(trial) - (yield + hardening * t->path);
@@ -141,7 +142,7 @@ static void shake(struct cloud *c, uint64_t *seed)
             c->p.x[d][i] = c->p.X[d][i] + cloud_between(seed, -3e-3, 3e-3) * CLOUD_SPACING;
 }
 
-/* Force on row r by its twins [N]. */
+/* Computes the force on row r from the scalar bonds [N]. */
 static void twin_row(const struct cloud *c, struct twin *twin, int64_t r, real *force)
 {
     const struct bonds *b = &c->bonds;
@@ -162,7 +163,8 @@ static void twin_row(const struct cloud *c, struct twin *twin, int64_t r, real *
     }
 }
 
-/* Lengths carry round-off of 1e-16, stretches of 1e-3 one of 1e-13 of themselves; ten bonds and twelve steps: 1e-11. */
+/* Tolerance 1e-11: lengths have round-off 1e-16, stretches of 1e-3 a relative one of 1e-13; ten bonds and twelve
+ * steps. */
 static void test_lanes(void **state)
 {
     (void)state;
@@ -188,7 +190,7 @@ static void test_lanes(void **state)
     }
 }
 
-/* Both rows of a bond hold the same state to the last bit: momentum rests on it. */
+/* Both entries of a bond have bitwise equal states, which momentum conservation requires. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -217,9 +219,9 @@ static void test_ends(void **state)
     cloud_free(&c);
 }
 
-/* ---- taken over from material points ----------------------------------------------------------------------------- */
+/* ---- initialisation from material points ------------------------------------------------------------------------- */
 
-/* Points of a bar under uniform stretch that have yielded become peridynamic: every bond then carries their stress. */
+/* Points of a bar that have yielded under uniform stretch become peridynamic: every bond then carries their stress. */
 static void test_taken_over(void **state)
 {
     (void)state;
@@ -242,15 +244,15 @@ static void test_taken_over(void **state)
     bonds_free(&old);
     bond_force_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p, &c.source.limit, NULL);
     bond_stress_table[1][PD_BOND_PLASTIC](&c.bonds, &c.p);
-    for (int64_t i = 4; i < 20; i++) { /* whole families: round-off of stretches of 1e-4 */
-        assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11); /* the virial is of current lengths */
+    for (int64_t i = 4; i < 20; i++) { /* complete families: round-off of stretches of 1e-4 */
+        assert_close(c.p.stress[0][i], stress * (1 + strain), 1e-11); /* the virial uses current lengths */
         assert_near(c.p.f[0][i], 0, 1e-11 * stress * 4e-6);
     }
     cloud_free(&c);
 }
 
-/* In the plane, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch less
- * the mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic
+/* In 2D, points with different stresses and plastic strains: the plastic stretch of a bond is its stretch minus the
+ * mean of both elastic strains along it, by Hooke's law of plane stress; its path is the mean of both plastic
  * strains. */
 static void test_taken_over_in_the_plane(void **state)
 {

@@ -1,5 +1,5 @@
-/* Every bond kernel in the tables against its plain twin, and partial stresses against brute force. Transfers
- * have a file of their own. */
+/* Every bond kernel in the tables compared with its reference implementation, and partial stresses compared with plain
+ * sums. Transfer kernels are tested in test_transfers.c. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -14,10 +14,10 @@
 #include "tests/support/sets.h"
 #include "base/team.h"
 
-/* Sums of up to 200 terms, each with a few roundings of 1.1e-16; stretches of 1e-2 lose two digits to cancellation:
- * 2e-14 is usual, 1e-12 of the largest entry leaves room for any order of terms. */
+/* Tolerance: sums of up to 200 terms with a few roundings of 1.1e-16 each; stretches of 1e-2 lose two digits by
+ * cancellation: 2e-14 is typical; 1e-12 of the largest entry allows for any order of terms. */
 #define CLOSE 1e-12
-/* Sums of momenta: round-off only, of the sum of magnitudes. */
+/* Tolerance of sums of momenta: round-off of the sum of magnitudes. */
 #define CONSERVED 1e-13
 
 static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -25,7 +25,7 @@ static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {45}, {12, 9}, {6, 5, 5}
 
 enum { REGULAR = 0, SHAKEN = 1, MIXED = 2, WAYS = 4 };
 
-/* A strained, shaken body of two materials; MIXED: two of three particles are material points. */
+/* Creates a strained, irregular body of two materials. MIXED: two of three particles are material points. */
 static void body_make(struct cloud *c, int dim, int way)
 {
     struct cloud_plan plan = {.space = space_of[dim],
@@ -69,14 +69,14 @@ static void check_force(const struct cloud *c, const struct particles *before, c
     memory_free(got);
 }
 
-/* Every bond of row i: broken if and only if stretched beyond its limit; what the row books for it. Returns how many
- * broke. */
+/* Checks every bond of row i: broken if and only if stretched beyond its limit; recorded energy of the row. Returns the
+ * number of broken bonds. */
 static int64_t check_breaking(const struct cloud *c, const real *w, const real *after, int64_t i)
 {
     const struct particles *p = &c->p;
     int64_t row = c->bonds.row_of[i], broken = 0;
     real volume = 0, energy = 0;
-    bool cracked = false; /* by a bond that no driven particle pulls */
+    bool cracked = false; /* by a bond without a driven particle */
     for (int64_t j = 0; j < p->n; j++) {
         if (isnan(w[i * p->n + j])) continue;
         struct reference_bond q = reference_bond(p, i, j);
@@ -92,12 +92,12 @@ static int64_t check_breaking(const struct cloud *c, const real *w, const real *
     assert_int_equal((p->flag[i] & FLAG_LOST_BOND) != 0, broken > 0);
     assert_int_equal((p->flag[i] & FLAG_CRACKED) != 0, cracked);
     assert_true(fabs(c->bonds.fracture_energy[row] - energy) <= CLOSE * energy);
-    /* volumes are kept in single precision: 6e-8 for each of up to ten additions */
+    /* Volumes are in single precision: 6e-8 for each of up to ten additions. */
     if (p->kind[i] == KIND_PD) assert_true(fabs(p->damage[i] - volume / c->bonds.family_volume[row]) <= 1e-6);
     return broken;
 }
 
-/* One call: a bond that breaks in it acts with half its force, which makes breaking second order in time; a second
+/* First call: a bond that breaks in it acts with half its force, which makes breaking second order in time; second
  * call: without it. */
 static void force_case(bond_force_fn *bond_force, int dim, int way)
 {
@@ -135,7 +135,7 @@ static void test_bond_force(void **state)
             for (int way = 0; way < WAYS; way++) force_case(bond_force_table[dim][model], dim, way);
 }
 
-/* A bond at exactly its limit is kept, one a little beyond is not. Powers of two make the stretch exact. */
+/* A bond at exactly its limit is kept, one slightly beyond is not. Powers of two make the stretch exact. */
 static void test_equality_keeps(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void test_equality_keeps(void **state)
     }
 }
 
-/* Forces of a body add up to nothing, and so do their moments. */
+/* The forces of a body and their moments add up to zero. */
 static void test_bond_momentum(void **state)
 {
     (void)state;
@@ -174,9 +174,9 @@ static void test_bond_momentum(void **state)
             }
 }
 
-/* ---- what columns have in common --------------------------------------------------------------------------------- */
+/* ---- common data of columns -------------------------------------------------------------------------------------- */
 
-/* A lattice of one material, displaced; some bonds broken by load, one faded. */
+/* Creates a displaced lattice of one material; some bonds are broken by load, one is partially released. */
 static void site_map_make(struct cloud *c, int dim, bool state)
 {
     uint64_t seed = 5;
@@ -197,7 +197,8 @@ static void site_map_make(struct cloud *c, int dim, bool state)
     bond_fade(&c->bonds, &c->p, row, q, 0.5f * b->w[q]);
 }
 
-/* Forces with `alike` and then `lattice` taken from all columns: [3][dim n]. Says which kinds of columns there were. */
+/* Computes the forces, then again after `alike` and then `lattice` are cleared in all columns: [3][dim n]. kinds:
+ * receives which kinds of columns exist. */
 static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3])
 {
     const int64_t all = c->p.dim * c->p.n;
@@ -217,9 +218,8 @@ static real *forces_by_kind(struct cloud *c, bond_force_fn *force, bool kinds[3]
     return f;
 }
 
-/* However a column is read the forces are the same: to the last bit, but for lengths that are mere factors of
- * state-based ones; those differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a
- * family. */
+/* Forces are equal for all kinds of columns: bitwise, except if lengths are mere factors in state-based models; those
+ * differ by the round-off of positions, 17 spacings of 1.1e-16 over one, summed over a family. */
 static void test_column_kinds(void **unused)
 {
     (void)unused;
@@ -272,7 +272,7 @@ static void test_bond_stress(void **state)
                 struct cloud c;
                 body_make(&c, dim, way);
                 real *w = reference_table(&c.bonds, &c.p), *stress = NEW("test.stress", c.p.n, real);
-                for (int s = 0; s < symmetric_count(dim); s++) /* material points keep theirs */
+                for (int s = 0; s < symmetric_count(dim); s++) /* material points keep their own */
                     for (int64_t i = 0; i < c.p.n; i++) c.p.stress[s][i] = 1e6 * (real)(i + s);
                 bond_stress_table[dim][model](&c.bonds, &c.p);
                 for (int a = 0; a < dim; a++)
@@ -310,7 +310,7 @@ static void test_pd_move(void **state)
                     old.v[d][i] += dt_velocity * old.f[d][i] / old.mass[i];
                     old.x[d][i] += dt * old.v[d][i];
                 }
-                /* two roundings of each */
+                /* Two roundings of each. */
                 assert_true(cloud_difference(c.p.v[d], old.v[d], old.n) <= 1e-15);
                 assert_true(cloud_difference(c.p.x[d], old.x[d], old.n) <= 1e-15);
             }
@@ -346,8 +346,8 @@ static void test_bond_threads(void **state)
 
 /* ---- partial stress ---------------------------------------------------------------------------------------------- */
 
-/* The least eigenvalue of (1 - M) C, what a point keeps of its stiffness, M over symmetric components of stress
- * [Pa]. */
+/* Returns the least eigenvalue of (1 - M) C, the stiffness that a point keeps, with M over symmetric components of
+ * stress [Pa]. */
 static real least_kept(const struct material *m, int dim, const real *M)
 {
     const int n = symmetric_count(dim);
@@ -365,8 +365,8 @@ static real least_kept(const struct material *m, int dim, const real *M)
     return least;
 }
 
-/* The matrix of point q applied to unit stresses against T : C^-1 sigma in whole tensors. False: bonds would carry
- * more than all. */
+/* Compares the matrix of point q with T : C^-1 sigma for unit stresses. Returns false if bonds would carry more than
+ * the whole stress. */
 static bool check_partial(const struct cloud *c, const struct partial_stress *partial, const real *w, int64_t q)
 {
     const struct particles *p = &c->p;
@@ -385,11 +385,11 @@ static bool check_partial(const struct cloud *c, const struct partial_stress *pa
     }
     assert_int_equal(partial->index[q] >= 0, largest > 0);
     const struct material *m = &c->material[p->material[q]];
-    if (least_kept(m, p->dim, expected) < 0) { /* bonds would carry more than there is: as much as there is */
+    if (least_kept(m, p->dim, expected) < 0) { /* bonds would carry more than the stress: limited to the whole */
         assert_true(least_kept(m, p->dim, got) >= -CLOSE * m->c11);
         return false;
     }
-    /* the share of a bond that only touches a corner of the cell has an absolute error of 1e-16: of order one is 1 */
+    /* The share of a bond that only touches a corner of the cell has an absolute error of 1e-16 on the order of 1. */
     for (int k = 0; k < n * n; k++) assert_true(fabs(got[k] - expected[k]) <= CLOSE * fmax(largest, 1e-3));
     return true;
 }
@@ -401,11 +401,11 @@ static void check_partials(const struct cloud *c, const struct partial_stress *p
     memory_free(w);
 }
 
-/* All at once, and again when more particles have become peridynamic and only their surroundings are done anew. */
+/* Partial stress of all points at once, and updated after more particles became peridynamic. */
 static void test_partial_stress(void **state)
 {
     (void)state;
-    int whole[2] = {0}; /* points that bonds would take more from than they have, and others */
+    int whole[2] = {0}; /* points whose bonds would carry more than the stress, and others */
     for (int dim = 1; dim <= DIM_MAX; dim++)
         for (int way = 0; way < WAYS; way++) {
             struct cloud c;
@@ -434,7 +434,7 @@ static void test_partial_stress(void **state)
     assert_true(whole[false] > 10 && whole[true] > 100);
 }
 
-/* One peridynamic particle in a corner, where it sees an eighth of what the points beside it see. */
+/* One peridynamic particle in a corner, which has an eighth of a complete family. */
 static void test_partial_stress_corner(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Bonds that act until the moment at which they break: two particles that fly apart against their closed form; bodies
- * that burst, whose energy has to stay, to second order in the step, by every law. */
+/* Bonds that act until the moment at which they break: two separating particles compared with their closed form; bodies
+ * that burst, whose energy must be constant to second order in the step, for every law. */
 #include "kernels/kernels.h"
 
 #include "tests/support/cloud.h"
@@ -8,11 +8,11 @@
 
 /* ---- two particles ----------------------------------------------------------------------------------------------- */
 
-enum { PHASES = 16 }; /* of the first step in its own length */
+enum { PHASES = 16 }; /* phases of the first step relative to its length */
 #define LIMIT 0.01
 
-/* Relative speed at which two particles of one bond part, over that at which they start, when the bond's energy at its
- * limit is 3/4 of theirs: 1/2. Elongation V/omega sin(omega t); `step` in 2/omega. */
+/* Returns the relative speed of two particles after their bond broke, over the initial one; exact: 1/2, as the bond's
+ * energy at its limit is 3/4 of the kinetic energy. Elongation V/omega sin(omega t); step: in units of 2/omega. */
 static real parted(enum last_force rule, real step, real phase, real *fracture)
 {
     struct cloud c;
@@ -37,7 +37,7 @@ static real parted(enum last_force rule, real step, real phase, real *fracture)
     return end / speed;
 }
 
-/* Largest and mean error of the speed over all phases. */
+/* Computes the largest and the mean error of the speed over all phases. */
 static void parted_error(enum last_force rule, real step, real *largest, real *mean)
 {
     *largest = *mean = 0;
@@ -45,12 +45,13 @@ static void parted_error(enum last_force rule, real step, real *largest, real *m
         real fracture;
         const real error = parted(rule, step, (k + 0.5) / PHASES, &fracture) - 0.5;
         *largest = real_max(*largest, fabs(error)), *mean += error / PHASES;
-        if (rule == LAST_FORCE_MOMENT) assert_near(fracture, 1, 1e-12); /* linear in time between two places */
+        if (rule == LAST_FORCE_MOMENT) assert_near(fracture, 1, 1e-12); /* linear in time between two positions */
     }
 }
 
-/* Half steps: a quarter of the error in every single run, within 20 % at these steps. With half the force in the first
- * step beyond, single runs have half of it (their phase), and only the mean over phases a quarter. */
+/* Half the step reduces the error in every run to a quarter, within 20 %. With half the force in the first step
+ * beyond the limit, the error of single runs is halved (it depends on the phase), and only the mean over phases is
+ * quartered. */
 static void test_two_particles(void **state)
 {
     (void)state;
@@ -85,7 +86,7 @@ static void burst_make(struct burst *b, int dim, enum pd_model model, bool local
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) b->c.limit[k] = LIMIT;
     cloud_bonds(&b->c);
     kernels_choose(&b->k, dim, model, SHAPE_LINEAR, TRANSFER_FLIP);
-    struct particles *p = &b->c.p; /* flies apart along x, the more so the farther right */
+    struct particles *p = &b->c.p; /* separates along x, faster to the right */
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < dim; d++)
             p->v[d][i] = (d == 0 ? 4e6 * square(p->X[0][i]) : 0) + cloud_between(&seed, -2, 2);
@@ -100,7 +101,7 @@ static real burst_kinetic(const struct burst *b, real *const *before)
     return energy;
 }
 
-/* Energy that is missing after a time, over that of fracture; of steps of `dt`. */
+/* Returns the energy lost after a time over the fracture energy, with steps of `dt`. */
 static real burst_lost(int dim, enum pd_model model, bool local, real dt, real duration)
 {
     struct burst b;
@@ -112,7 +113,7 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     int64_t broken = 0;
     for (int d = 0; d < dim; d++) before[d] = NEW("test.v", p->n, real);
     const int steps = (int)(duration / dt);
-    for (int n = 0; n < steps; n++) { /* none breaks in the last: a sample */
+    for (int n = 0; n < steps; n++) { /* no bond breaks in the last step: a sample */
         broken += b.k.bond_force(&b.c.bonds, p, n < steps - 1 ? &limit : &bond_limit_never, NULL);
         for (int d = 0; d < dim; d++) memcpy(before[d], p->v[d], (size_t)p->n * sizeof(real));
         for (int d = 0; d < dim; d++)
@@ -128,20 +129,20 @@ static real burst_lost(int dim, enum pd_model model, bool local, real dt, real d
     return (kinetic + elastic + fracture - start) / fracture;
 }
 
-/* Root mean square over runs that differ in their steps only. */
+/* Returns the root mean square over runs with different steps. */
 static real burst_error(int dim, enum pd_model model, bool local, real step)
 {
     enum { RUNS = 5 };
     real sum = 0;
     for (int r = 0; r < RUNS; r++) {
-        const real dt = step * (0.9 + 0.05 * r) * 1e-7; /* spacing over wave speed: some 2e-7 s */
+        const real dt = step * (0.9 + 0.05 * r) * 1e-7; /* spacing over wave speed: about 2e-7 s */
         sum += square(burst_lost(dim, model, local, dt, 6e-6));
     }
     return sqrt(sum / RUNS);
 }
 
-/* A quarter of the step: a sixteenth of the error by second order, 12 to 20 measured (5.5 with ospd local in the plane,
- * whose first is small by chance); first order, as of half forces with families, has 4. */
+/* A quarter of the step reduces the error to a sixteenth (second order): factors of 12 to 20 measured (5.5 with ospd
+ * local in 2D, whose first error is small by chance); half forces with families have first order, a factor of 4. */
 static void test_bursts(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* Nodes that APIC's points have hardly reached take accelerations from their neighbours
- * (kernels/mpm/grid_move.c). */
+/* Nodes with little mass in APIC take accelerations from their neighbours (kernels/mpm/grid_move.c). */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -13,8 +12,8 @@
 
 enum { BORDER = 4 };
 
-/* Mass of node I of a body that ends at node BORDER of the first two axes but for a share of 1e-7 of a node; none
- * beyond. */
+/* Returns the mass of node I of a body that ends at node BORDER along the first two axes, where nodes have a share of
+ * 1e-7; none beyond. */
 static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
 {
     real mass = cloud_between(seed, 0.5, 1);
@@ -26,9 +25,9 @@ static real light_body(const struct grid *g, int64_t I, uint64_t *seed)
     return mass;
 }
 
-/* Accelerations of APIC's nodes by a force on one of them: m a of all is that force and has its moment; a_i by a
- * force at j is a_j by one at i; and a light node is no livelier than its neighbours, though it weighs a ten
- * millionth of them. */
+/* Accelerations by a force on one node: sum m a is that force and has its moment; the response is symmetric (a_i by a
+ * force at j equals a_j by one at i); and a light node, with 1e-7 of the mass, has no larger response than its
+ * neighbours. */
 static void test_light_nodes(void **state)
 {
     (void)state;
@@ -56,10 +55,10 @@ static void test_light_nodes(void **state)
                     moment += mass[I] * own * (real)(I / g.stride[1] % g.count[1] - J / g.stride[1] % g.count[1]);
             }
             assert_near(total, 1, 1e-12);
-            assert_near(moment, 0, 1e-5); /* but for what the light ones themselves weigh */
+            assert_near(moment, 0, 1e-5); /* up to the mass of the light nodes themselves */
         }
         for (int64_t k = 0; k < g.n * g.n; k++) assert_near(a[k], a[k % g.n * g.n + k / g.n], 1e-12 * largest);
-        assert_true(largest < 30); /* (2 + 1)^2 of the heavy ones' 1/m, each below 2, and no more at corners */
+        assert_true(largest < 30); /* (2 + 1)^2 of the heavy nodes' 1/m, each below 2, and no more at corners */
         memory_free(mass);
         memory_free(a);
         grid_free(&g);

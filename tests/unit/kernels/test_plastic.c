@@ -1,5 +1,5 @@
-/* The return mappings against the conditions that define them, against each other and against closed forms;
- * the plastic part of the energy balance against the work done on a point. */
+/* Return mappings compared with the conditions that define them, with each other and with closed forms; plastic part of
+ * the energy balance compared with the work done on a point. */
 #include "tests/support/near.h"
 
 #include "tests/support/cloud.h"
@@ -8,10 +8,10 @@
 #include "kernels/mpm/stress.h"
 #include "probes/diagnostics.h"
 
-/* A few dozen roundings of 1.1e-16, some at stresses beyond the result. */
+/* Tolerance: a few dozen roundings of 1.1e-16, some at stresses larger than the result. */
 #define CLOSE 1e-12
 
-/* Of the tests below: E = 1 Pa makes strains and stresses alike. */
+/* Yield strain of the tests below; with E = 1 Pa strains equal stresses. */
 #define YIELD 1e-3
 
 struct point {
@@ -20,7 +20,7 @@ struct point {
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
-/* E = 1, H as given. */
+/* Returns a material with E = 1 and hardening modulus H. */
 static struct material material(enum space space, real poisson, real hardening)
 {
     struct material m = {.young = 1,
@@ -49,7 +49,7 @@ static struct elastic steel(enum space space, real hardening)
     return constants(&m, space);
 }
 
-/* A step of strain L dt, as in g2p.c. Returns the increment of plastic strain. */
+/* Performs a step of strain L dt, as in g2p.c. Returns the increment of plastic strain. */
 static real step(struct point *p, const struct elastic *m, const real *L)
 {
     const int dim = space_dim(m->space);
@@ -65,7 +65,7 @@ static real step(struct point *p, const struct elastic *m, const real *L)
     return more;
 }
 
-/* The six components of a point's stress, whatever its space. */
+/* Computes the six components of a point's stress in any space. */
 static void whole_stress(const struct point *p, const struct elastic *m, real *s)
 {
     memset(s, 0, SYM_MAX * sizeof *s);
@@ -78,7 +78,7 @@ static void whole_stress(const struct point *p, const struct elastic *m, real *s
     if (m->space == SPACE_PLANE_STRAIN) s[2] = m->poisson * (s[0] + s[1]) + p->zz;
 }
 
-/* Von Mises: sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2)/2 + 3 (xy^2 + yz^2 + zx^2)). */
+/* Returns the von Mises stress sqrt(((xx - yy)^2 + (yy - zz)^2 + (zz - xx)^2)/2 + 3 (xy^2 + yz^2 + zx^2)). */
 static real equivalent(const real *s)
 {
     return sqrt(0.5 * (square(s[0] - s[1]) + square(s[1] - s[2]) + square(s[2] - s[0])) +
@@ -92,7 +92,7 @@ static real equivalent_of(const struct point *p, const struct elastic *m)
     return equivalent(s);
 }
 
-/* Hooke's law in three dimensions: the strain of a stress, E = 1. */
+/* Computes the strain of a stress by Hooke's law in 3D, E = 1. */
 static void strain_of(const real *s, real poisson, real *strain)
 {
     const real trace = s[0] + s[1] + s[2];
@@ -101,9 +101,9 @@ static void strain_of(const real *s, real poisson, real *strain)
 
 /* ---- the conditions ---------------------------------------------------------------------------------------------- */
 
-/* Where the return went: on the surface, along its normal there, never back; and only what is beyond it moves. The
- * strain that flow has taken from the trial stress must be da dq/dsigma. In plane strain eps_zz is that of the
- * trial, too. */
+/* Checks the conditions: the result is on the yield surface, reached along its normal there, with non-negative plastic
+ * strain; only trial stresses beyond the surface change. The strain removed from the trial stress is da dq/dsigma. In
+ * plane strain eps_zz is unchanged. */
 static void check_return(const struct elastic *m, const struct point *trial, const struct point *p, real more)
 {
     real before[SYM_MAX], after[SYM_MAX], strain[SYM_MAX];
@@ -115,12 +115,12 @@ static void check_return(const struct elastic *m, const struct point *trial, con
         assert_true(more == 0 && p->zz == trial->zz && memcmp(p->s, trial->s, sizeof p->s) == 0);
         return;
     }
-    assert_true(more > 0); /* so the dissipation q da is positive */
+    assert_true(more > 0); /* the dissipation q da is positive */
     assert_near(q, bound + m->hardening * more, CLOSE * size);
     for (int c = 0; c < SYM_MAX; c++) before[c] -= after[c];
     strain_of(before, m->poisson, strain);
     const real mean = (after[0] + after[1] + after[2]) / 3;
-    /* under a pressure of `size` the direction of a deviator q is known to their ratio in roundings */
+    /* Under a pressure of `size` the direction of a deviator q is known to their ratio in roundings. */
     const real slack = CLOSE * size + 1e-15 * size / q * more;
     const int n = symmetric_count(space_dim(m->space));
     static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
@@ -132,7 +132,7 @@ static void check_return(const struct elastic *m, const struct point *trial, con
     if (m->space == SPACE_PLANE_STRAIN) assert_near(strain[2], more * 1.5 * (after[2] - mean) / q, slack);
 }
 
-/* Trials from inside the surface to a million times its size, with hardly any and with hard hardening. */
+/* Trial stresses from inside the surface to a million times its size, with weak and strong hardening. */
 static void test_conditions(void **state)
 {
     (void)state;
@@ -154,7 +154,7 @@ static void test_conditions(void **state)
         }
 }
 
-/* Behind the surface a step back is elastic to the last bit, at any spin. */
+/* After yielding, an unloading step is bitwise elastic for any spin. */
 static void test_unloading(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void test_unloading(void **state)
     }
 }
 
-/* Turning a stress on the surface, with no strain: it stays there and nothing flows but round-off. */
+/* Rotation of a stress on the yield surface without strain: it stays there, and plastic flow is round-off. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -187,7 +187,7 @@ static void test_rotation(void **state)
         struct point p = {.a = 0};
         const real pull2[] = {9e-3, 4e-3, 2e-3, -3e-3}, pull3[] = {9e-3, 4e-3, 1e-3, 2e-3, -3e-3, 2e-3, 0, 5e-3, 1e-3};
         const real spin2[] = {0, 0.02, -0.02, 0}, spin3[] = {0, 0.02, 0.01, -0.02, 0, -0.03, -0.01, 0.03, 0};
-        real rotation[DIM_MAX * DIM_MAX]; /* W + W W/2: free of strain */
+        real rotation[DIM_MAX * DIM_MAX]; /* W + W W/2: without strain */
         const bool solid = spaces[s] == SPACE_SOLID;
         assert_true(step(&p, &m, solid ? pull3 : pull2) > 0);
         const struct point start = p;
@@ -202,13 +202,13 @@ static void test_rotation(void **state)
         for (int n = 0; n < 100; n++) step(&p, &m, rotation);
         assert_near(equivalent_of(&p, &m), q, 100 * 1e-15 * q);
         assert_near(p.a, start.a, 100 * 1e-15);
-        assert_true(fabs(p.s[0] - start.s[0]) > 0.1 * q); /* it did turn */
+        assert_true(fabs(p.s[0] - start.s[0]) > 0.1 * q); /* check: it rotated */
     }
 }
 
 /* ---- one space against another ----------------------------------------------------------------------------------- */
 
-/* eps_zz = 0 in the solid, along a crooked path with spin. */
+/* Plane strain agrees with eps_zz = 0 in 3D, along an irregular path with spin. */
 static void test_plane_strain_is_solid(void **state)
 {
     (void)state;
@@ -229,7 +229,7 @@ static void test_plane_strain_is_solid(void **state)
     assert_true(p.a > 10 * YIELD);
 }
 
-/* The solid whose eps_zz is such that sigma_zz = 0, by bisection. */
+/* Performs a 3D step with eps_zz such that sigma_zz = 0, by bisection. */
 static void step_free(struct point *q, const struct elastic *m, const real *L)
 {
     real low = -1, high = 1;
@@ -264,8 +264,8 @@ static void test_plane_stress_is_solid(void **state)
 
 /* ---- closed forms ------------------------------------------------------------------------------------------------ */
 
-/* A bar pulled and pushed: on the curve of slope E_t where it yields, slope E elsewhere, reverse yield where |sigma|
- * has been before. */
+/* A bar under cyclic load: slope E_t during yielding, slope E elsewhere, reverse yield at the largest previous
+ * |sigma|. */
 static void test_bilinear_law(void **state)
 {
     (void)state;
@@ -285,7 +285,7 @@ static void test_bilinear_law(void **state)
     assert_near(p.a, 4 * YIELD, CLOSE * YIELD); /* H a = |sigma| - sigma_y */
 }
 
-/* Pure shear: yields at sigma_y/sqrt(3), then d tau = G H/(3 G + H) d gamma; in the three spaces that have one. */
+/* Pure shear: yields at sigma_y/sqrt(3), then d tau = G H/(3 G + H) d gamma; in the three spaces with shear. */
 static void test_pure_shear(void **state)
 {
     (void)state;
@@ -328,7 +328,7 @@ static void test_uniaxial_strain(void **state)
         }
 }
 
-/* A thin sheet pulled alike along x and y: q = sigma, sigma = E/(1 - nu) (e - a/2). */
+/* A thin sheet under equibiaxial strain: q = sigma, sigma = E/(1 - nu) (e - a/2). */
 static void test_biaxial(void **state)
 {
     (void)state;
@@ -345,7 +345,7 @@ static void test_biaxial(void **state)
     assert_true(p.a > YIELD);
 }
 
-/* A thin sheet pulled along x with free sides is the bar: sigma = sigma_y + E_t (e - sigma_y/E). */
+/* A thin sheet with free sides agrees with the bar: sigma = sigma_y + E_t (e - sigma_y/E). */
 static void test_uniaxial_stress(void **state)
 {
     (void)state;
@@ -367,7 +367,7 @@ static void test_uniaxial_stress(void **state)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* One particle of unit volume with the state of p; energies of the energy balance. */
+/* Returns the energies of the balance for one particle of unit volume with the state of p. */
 static real balance_energy(const struct point *p, const struct material *m, enum space space,
                            const struct partial_stress *partial)
 {
@@ -382,9 +382,9 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     return energy;
 }
 
-/* Work of the stress on the strain of a path is what the energy balance holds: strain energy and plastic work. There
- * and half-way back in other proportions; the mean of the stress before and after a step leaves its square: 2e3
- * steps, below 1e-5. */
+/* The work of the stress along a path equals strain energy plus plastic work in the balance. Loading and half-way
+ * unloading in other proportions; the mean of the stress before and after a step leaves an error of second order: below
+ * 1e-5 with 2e3 steps. */
 static void test_work_is_booked(void **state)
 {
     (void)state;
@@ -412,7 +412,7 @@ static void test_work_is_booked(void **state)
         const real energy = balance_energy(&p, &given, spaces[s], NULL);
         assert_close(energy, work, 1e-5);
 
-        /* a point that leaves half its stress to bonds has half of both */
+        /* A point that leaves half its stress to bonds has half of both energies. */
         int32_t entry = 0;
         real half[SYM_MAX * SYM_MAX] = {0};
         for (int c = 0; c < n; c++) half[c * n + c] = 0.5;

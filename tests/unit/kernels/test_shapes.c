@@ -1,5 +1,5 @@
-/* What every shape function owes, through the kernels that scatter with it: weights that add up to one and
- * slopes that see a linear field exactly, at any place, for any width, in one, two and three dimensions. */
+/* Properties of every shape function, through the kernels that scatter with it: partition of unity and exact gradients
+ * of linear fields, at any position and width, in one, two and three dimensions. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -11,7 +11,8 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* A few points on a small grid; spacing 1/2 and node distance 1, so that errors are those of weights and slopes [m]. */
+/* A few points on a small grid, with spacing 1/2 and node distance 1, so that errors are those of weights and slopes
+ * [m]. */
 struct points {
     struct particles p;
     struct grid g;
@@ -34,8 +35,7 @@ static void points_make(struct points *s, int dim)
     particles_list(&s->p);
 }
 
-/* Anywhere between -4 and 4, every fourth on a node or in the middle of a cell; stretched up to a width of two
- * cells. */
+/* Places points between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two cells. */
 static void points_place(struct points *s, uint64_t *seed)
 {
     for (int64_t i = 0; i < POINTS; i++)
@@ -54,7 +54,7 @@ static void points_free(struct points *s)
     particles_free(&s->p);
 }
 
-/* Sum over the nodes of a field times 1 (axis -1) or times the place of the node [m]. */
+/* Returns the sum over the nodes of a field times 1 (axis -1) or times the position of the node [m]. */
 static real moment(const struct grid *g, const real *field, int axis)
 {
     real sum = 0;
@@ -63,7 +63,8 @@ static real moment(const struct grid *g, const real *field, int axis)
     return sum;
 }
 
-/* sum N = 1, sum N x_I = x: the scatter of a single value. Sums of up to 64 terms of at most 10: round-off 1e-14. */
+/* Checks sum N = 1 and sum N x_I = x by scattering a single value. Tolerance 1e-14: sums of up to 64 terms of at most
+ * 10. */
 static void check_weights(struct points *s, enum shape shape)
 {
     const int dim = s->p.dim;
@@ -77,9 +78,8 @@ static void check_weights(struct points *s, enum shape shape)
     memory_free(field);
 }
 
-/* sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0: the forces of a point of unit volume under the unit stress
- * of component `c`, one point at a time. Slopes are means over at least a twentieth of a cell: round-off 20 times
- * larger. */
+/* Checks sum dN/dx_b x_Ia = 1 for a = b, else 0, and sum dN = 0, by the forces of a point of unit volume under unit
+ * stress of component `c`. Slopes are means over at least a twentieth of a cell: round-off 20 times larger. */
 static void check_slopes(struct points *s, enum shape shape, enum transfer transfer)
 {
     static const int component[DIM_MAX + 1][DIM_MAX][DIM_MAX] = {

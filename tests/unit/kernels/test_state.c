@@ -1,5 +1,5 @@
-/* State-based peridynamics: patch tests against classical energies, finite rotation, force as the exact
- * gradient of energy on irregular cracked bodies, momentum and angular momentum, and the critical step. */
+/* State-based peridynamics: patch tests compared with classical energies, finite rotation, force as the exact gradient
+ * of energy for irregular cracked bodies, momentum and angular momentum, and the critical step. */
 #include "run/critical_step.h"
 #include "kernels/kernels.h"
 
@@ -45,7 +45,7 @@ static real energy(struct body *b)
 
 /* ---- patch tests ------------------------------------------------------------------------------------------------- */
 
-#define STRAIN 1e-6 /* its square is not seen */
+#define STRAIN 1e-6 /* small enough for its square to be negligible */
 
 enum patch_load { DILATATION, UNIAXIAL, SHEAR, PATCH_LOADS };
 
@@ -57,7 +57,7 @@ static void strain_of(enum patch_load load, int dim, real strain[DIM_MAX][DIM_MA
     if (load == SHEAR) strain[0][1] = STRAIN; /* simple shear: half of it is rotation */
 }
 
-/* Classical energy per volume. */
+/* Returns the classical energy per volume. */
 static real classical(const struct material *m, enum patch_load load, int dim)
 {
     switch (load) {
@@ -70,7 +70,7 @@ static real classical(const struct material *m, enum patch_load load, int dim)
     }
 }
 
-/* Is particle i a whole horizon and more inside? */
+/* Returns true if particle i is farther than `reach` from every face. */
 static bool inside(const struct particles *p, int64_t i, const int *count, real reach)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -80,7 +80,8 @@ static bool inside(const struct particles *p, int64_t i, const int *count, real 
     return true;
 }
 
-/* Energy of an inner particle over the classical one, from its row; the largest inner force is round-off. */
+/* Returns the energy of an inner particle over the classical one, from its row; checks that the largest inner force is
+ * round-off. */
 static real patch_ratio(struct body *b, const int *count, enum patch_load load, enum space space)
 {
     struct particles *p = &b->c.p;
@@ -99,15 +100,15 @@ static real patch_ratio(struct body *b, const int *count, enum patch_load load, 
             int a = s < dim ? s : row[3 + s - dim], c = s < dim ? s : column[3 + s - dim];
             work += 0.5 * p->stress[s][i] * (s < dim ? strain[a][c] : strain[a][c] + strain[c][a]);
         }
-        /* stretches of 1e-6 carry round-off of 1e-10; their squares are 1e-6 */
+        /* Stretches of 1e-6 have round-off of 1e-10; their squares are 1e-6. */
         assert_true(sqrt(f2) < 1e-5 * b->c.material[0].young * STRAIN * pow(CLOUD_SPACING, dim - 1));
         ratio = work / classical(&b->c.material[0], load, dim);
     }
     return ratio;
 }
 
-/* A body that is stretched and then turned by a quarter about z: what was sigma_xx is sigma_yy, and no more than
- * round-off of STRAIN is left of it. */
+/* Rotates a stretched body by a quarter turn about z: sigma_xx becomes sigma_yy, and sigma_xx is round-off of
+ * STRAIN. */
 static void check_quarter_turn(struct body *b)
 {
     struct particles *p = &b->c.p;
@@ -125,7 +126,7 @@ static void check_quarter_turn(struct body *b)
     }
     force(b);
     state_stress_table[dim][b->model](&b->c.bonds, p);
-    const real close = 1e-4 * b->c.material[0].young * STRAIN; /* stretches of 1e-6 carry round-off of 1e-10 */
+    const real close = 1e-4 * b->c.material[0].young * STRAIN; /* stretches of 1e-6 have round-off of 1e-10 */
     for (int64_t i = 0; i < p->n; i++) {
         assert_near(p->stress[0][i], before[p->n + i], close);
         assert_near(p->stress[1][i], before[i], close);
@@ -134,8 +135,8 @@ static void check_quarter_turn(struct body *b)
     memory_free(before);
 }
 
-/* Silling et al. 2007 on a lattice: dilatation exact, shear by the lattice's fourth moments. Figures of plane
- * stress, nu = 0.3, printed with three decimals. */
+/* Silling et al. 2007 on a lattice in plane stress, nu = 0.3: dilatation exact, shear by the lattice's fourth moments.
+ * Expected values have three decimals. */
 static void test_ospd_plane_stress(void **state)
 {
     (void)state;
@@ -162,8 +163,8 @@ static void test_ospd_plane_stress(void **state)
         }
 }
 
-/* With effective displacements only second moments enter: exact on every lattice, for every influence function,
- * Poisson's ratio and space. 1e-5: squares of the strain and the single precision of weights. */
+/* With effective displacements only second moments contribute: exact on every lattice, for every influence function,
+ * Poisson's ratio and space. Tolerance 1e-5: squares of the strain and single precision of weights. */
 static void test_mospd_exact(void **state)
 {
     (void)state;
@@ -204,9 +205,9 @@ static void test_turned_stress(void **state)
         }
 }
 
-/* Energy of the ordinary model over the classical one by the sums of its definition over a full family of the lattice,
- * all weights one: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G sum e^2/(2 q), S = sum r e/q, q = sum r^2 (Silling et al.
- * 2007). */
+/* Returns the energy of the ordinary model over the classical one from the sums of its definition over a full family of
+ * the lattice with unit weights: W = D^2 (lambda' - G) S^2/2 + D (D + 2) G sum e^2/(2 q), S = sum r e/q, q = sum r^2
+ * (Silling et al. 2007). */
 static real lattice_ratio(const struct material *m, enum patch_load load, int dim)
 {
     const int reach = 3, top = dim == 3 ? reach : 0;
@@ -227,8 +228,8 @@ static real lattice_ratio(const struct material *m, enum patch_load load, int di
            classical(m, load, dim);
 }
 
-/* Every space, Poisson's ratio and load against those sums (1e-5 as above); they against what is printed: dilatation
- * exact, in plane stress at 0.3 uniaxial strain 1.012, shear 0.965; in 3D 0.93-0.95 and 1.09-1.11. */
+/* Every space, Poisson's ratio and load compared with these sums (1e-5 as above), and the sums with published values:
+ * dilatation exact; plane stress at nu = 0.3: uniaxial strain 1.012, shear 0.965; 3D: 0.93-0.95 and 1.09-1.11. */
 static void test_ospd_spaces(void **state)
 {
     (void)state;
@@ -284,8 +285,9 @@ static void cracked_make(struct body *b, enum space space, enum pd_model model, 
             b->c.p.x[d][i] = b->c.p.X[d][i] + cloud_between(&seed, -0.02, 0.02) * CLOUD_SPACING;
 }
 
-/* f = -dE/dx by central differences of step 1e-6 of a spacing: their error is (1e-6)^2 over strains of 0.02, and
- * round-off 1e-16 E/(1e-6): 1e-6 of the largest force. Momentum and angular momentum of the forces are round-off. */
+/* f = -dE/dx by central differences with step 1e-6 of a spacing. Tolerance 1e-6 of the largest force: truncation error
+ * (1e-6)^2 over strains of 0.02, and round-off 1e-16 E/(1e-6). Momentum and angular momentum of the forces are
+ * round-off. */
 static void gradient_case(enum space space, enum pd_model model, bool local)
 {
     struct body b;
@@ -336,7 +338,7 @@ static void test_gradient(void **state)
         }
 }
 
-/* A rigid rotation, however large, makes no force: 1e-12 of what a strain of 1 would. */
+/* A rigid rotation of any size causes no force: 1e-12 of the force of a strain of 1. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -362,8 +364,9 @@ static void test_rotation(void **state)
             }
 }
 
-/* A particle with another volume than that of its cell, inside a lattice: Q of a full family is the sum over its bonds,
- * up to the single precision of weights. Without the local normalisation a particle at a corner has the same. */
+/* A particle whose volume differs from that of its cell, inside a lattice: Q of a full family is the sum over its
+ * bonds, up to the single precision of weights. Without the local normalisation a particle at a corner has the same
+ * Q. */
 static void test_volumes(void **state)
 {
     (void)state;
@@ -391,7 +394,7 @@ static void test_volumes(void **state)
     }
 }
 
-/* The same at corners, where weights are those of classes of particles near faces. */
+/* Q agrees with these sums at corners, too, where weights are those of classes of particles near faces. */
 static void test_volumes_at_faces(void **state)
 {
     (void)state;
@@ -414,9 +417,9 @@ static void test_volumes_at_faces(void **state)
 
 /* ---- critical step ----------------------------------------------------------------------------------------------- */
 
-/* Plane stress, m = 3.015, nu = 0.3: OSPD 1.79, MOSPD 1.94 D/c of large plates; a block's free surfaces move them by
- * some percent, and two percent are taken off. Bond-based: 2.00 D/c, nu = 1/3. It goes with the root of the density
- * over all magnitudes: the powers of a light or fine body's large frequencies must not overflow. */
+/* Plane stress, m = 3.015, nu = 0.3: 1.79 D/c for OSPD and 1.94 D/c for MOSPD in large plates; free surfaces of a block
+ * change them by some percent, and two percent are subtracted. Bond-based: 2.00 D/c, nu = 1/3. The step scales with the
+ * root of the density over all magnitudes: powers of the high frequencies of a light or fine body must not overflow. */
 static void test_critical_step(void **state)
 {
     (void)state;

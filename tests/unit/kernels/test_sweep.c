@@ -1,5 +1,5 @@
-/* Motion in the sweep of forces against all forces first: the same bits for every law, any number of threads, with
- * particles that wait for loads, are inactive, or are moved by the grid. */
+/* Motion fused with the force sweep, compared with all forces followed by all motion: bitwise equal for every law and
+ * number of threads, with particles that wait for loads, are inactive, or are moved by the grid. */
 #include <omp.h>
 #include <stdlib.h>
 
@@ -9,11 +9,12 @@
 #include "tests/support/sets.h"
 #include "base/team.h"
 
-/* Ways of a body, to be added. */
+/* Variants of a body, as bits. */
 enum { SHAKEN = 1, MIXED = 2, LOADED = 4, ASLEEP = 8, WAYS = 16 };
 enum { THREADS_MOST = 7 };
 
 static const enum space space_of[DIM_MAX + 1] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+
 /* Long enough for every thread to have row blocks that only its own part reads. */
 static const int count_of[DIM_MAX + 1][DIM_MAX] = {{0}, {701}, {9, 111}, {5, 4, 61}};
 
@@ -23,7 +24,7 @@ struct body {
     uint8_t *loaded;
 };
 
-/* Every third row block, but for the first, is inactive: its particles have no new forces, do not move, and keep the
+/* Deactivates every third row block except the first: its particles have no new forces, do not move, and keep the
  * states of their families. */
 static void put_to_sleep(struct bonds *b, struct particles *p, enum pd_model model)
 {
@@ -57,7 +58,7 @@ static void body_make(struct body *b, int dim, enum pd_model model, int way)
     if (model >= PD_OSPD)
         b->c.source.modulus = b->modulus, b->c.source.rotates = model == PD_MOSPD, b->c.source.local = true;
     cloud_bonds(&b->c);
-    b->c.source.limit.last_force = LAST_FORCE_MOMENT, b->c.source.limit.dt = 2e-6; /* velocities are read, too */
+    b->c.source.limit.last_force = LAST_FORCE_MOMENT, b->c.source.limit.dt = 2e-6; /* velocities are also read */
     if (way & ASLEEP) put_to_sleep(&b->c.bonds, p, model);
 }
 
@@ -67,13 +68,13 @@ static void body_free(struct body *b)
     cloud_free(&b->c);
 }
 
-/* Places after the step in which dt v is some hundredths of a spacing. */
+/* Returns the motion after the step, in which dt v is some hundredths of a spacing. */
 static struct pd_motion motion_of(const struct body *b, int way, real fastest)
 {
     return (struct pd_motion){2e-6, 1e-6, fastest, way & LOADED ? b->loaded : NULL, false};
 }
 
-/* All forces, then the motion of all particles that would move in the sweep. */
+/* Computes all forces, then moves all particles that the sweep would move. */
 static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way, struct pd_motion *motion)
 {
     struct particles *p = &b->c.p;
@@ -90,7 +91,7 @@ static int64_t forces_then_motion(struct body *b, bond_force_fn *force, int way,
     return broken;
 }
 
-/* A body after all forces, then all motion. */
+/* A body after all forces and all motion. */
 struct plain {
     struct body body;
     int64_t broken;
@@ -109,7 +110,7 @@ static void plain_make(struct plain *plain, bond_force_fn *force, int dim, enum 
     assert_int_equal(plain->diverged, fastest_of(way) < 1);
 }
 
-/* The same by a sweep of so many threads; one makes the body, in less time than a team. */
+/* Compares with a sweep on a given number of threads. One thread creates the body, which is faster than a team. */
 static void check_sweep(const struct plain *plain, bond_force_fn *force, int dim, enum pd_model model, int way,
                         int threads)
 {
@@ -146,7 +147,7 @@ static void test_sweep(void **state)
             if (dim > 1 || model < PD_OSPD) check_sweeps(dim, model);
 }
 
-/* Neither less than the farthest row that a row reads, nor the whole body. */
+/* The reach of a row is not less than the farthest row that it reads, and not the whole body. */
 static void test_reach(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Every transfer kernel in the tables against its plain twin: maps, nodal updates, stresses. */
+/* Every transfer kernel in the tables compared with its reference implementation: maps, nodal updates, stresses. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -12,13 +12,13 @@
 #include "kernels/mpm/shape.h"
 #include "base/team.h"
 
-/* Of the largest entry of a field. Weights come from positions with an absolute error of 1e-16 times the cells between
- * point and anchor (about ten), sums have up to 64 terms: 1e-14 is usual. */
+/* Tolerance relative to the largest entry of a field. Weights come from positions with an absolute error of 1e-16 times
+ * the cells between point and anchor (about ten), sums have up to 64 terms: 1e-14 is typical. */
 #define CLOSE 1e-12
-/* Sums over all points against sums over all nodes: round-off only, of the sum of magnitudes. */
+/* Tolerance of sums over all points compared with sums over all nodes: round-off of the sum of magnitudes. */
 #define CONSERVED 1e-13
 
-/* ---- a cloud on a grid ------------------------------------------------------------------------------------------- */
+/* ---- points on a grid -------------------------------------------------------------------------------------------- */
 
 struct scene {
     struct cloud c;
@@ -55,7 +55,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
     particles_list(p);
 }
 
-/* Every second point leaves some of its stress to bonds. */
+/* Gives every second point a random partial stress, which it leaves to bonds. */
 static void random_partial(struct scene *s, uint64_t *seed)
 {
     const int64_t size = square(symmetric_count(s->dim));
@@ -79,7 +79,8 @@ static void scene_grid(struct scene *s)
     assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
 }
 
-/* Every fifth point stands so close to the end of its cell, in one direction, that it enters the next in the step. */
+/* Places every fifth point so close to the end of its cell in one direction that it enters the next cell in the
+ * step. */
 static void scene_crossers(struct scene *s)
 {
     for (int64_t i = 0; i < s->c.p.n; i += 5) {
@@ -89,7 +90,8 @@ static void scene_crossers(struct scene *s)
     }
 }
 
-/* `spin`: difference of neighbours' velocities [m/s]; 2 m/s turn a point by less than 1e-3 rad in the step. */
+/* Creates a scene. spin: difference of neighbours' velocities [m/s]; 2 m/s rotate a point by less than 1e-3 rad in the
+ * step. */
 static void scene_make(struct scene *s, const struct choice *k, real spin)
 {
     static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -128,7 +130,7 @@ static void scene_free(struct scene *s)
     cloud_free(&s->c);
 }
 
-/* One step of the kernels, as the loop calls them. */
+/* Performs a step of the kernels, as the time loop does. */
 static int64_t scene_step(struct scene *s, const struct choice *k, real *impulse, real *work)
 {
     struct kernels kernel;
@@ -150,14 +152,14 @@ static void for_all(void (*check)(const struct choice *k))
             for (int transfer = 0; transfer < TRANSFERS; transfer++) check(&(struct choice){dim, shape, transfer});
 }
 
-/* ---- kernels against their twins --------------------------------------------------------------------------------- */
+/* ---- kernels and reference implementations ----------------------------------------------------------------------- */
 
 static void check_fields(real *const *got, real *const *expected, int dim, int64_t n)
 {
     for (int d = 0; d < dim; d++) assert_true(cloud_difference(got[d], expected[d], n) <= CLOSE);
 }
 
-/* m v of nodes: the velocity of a node that a point touches with a corner has the relative error of its tiny mass. */
+/* Compares m v of nodes: the velocity of a node that a point only touches has the relative error of its tiny mass. */
 static void check_motion(const struct scene *s, real *const *got, real *const *expected)
 {
     real *a = NEW("test.a", s->g.n, real), *b = NEW("test.b", s->g.n, real);
@@ -175,7 +177,7 @@ static void check_particles(const struct scene *s, const struct particles *expec
         const struct particle_field *field = &particle_fields[f];
         for (int k = 0; k < field->count(s->dim, s->optional); k++) {
             void *got = particle_array(&s->c.p, field, k), *want = particle_array(expected, field, k);
-            /* velocities near 300 m/s that differ by 2: gradients have two digits less */
+            /* Velocities near 300 m/s that differ by 2: gradients have two digits less. */
             real close = strcmp(field->name, "gradient") == 0 ? 10 * CLOSE : CLOSE;
             if (field->size == sizeof(real))
                 assert_true(cloud_difference(got, want, expected->n) <= close);
@@ -185,7 +187,8 @@ static void check_particles(const struct scene *s, const struct particles *expec
     }
 }
 
-/* Marks of points whose principal stress passed the trigger, and how many points entered another cell. */
+/* Checks the marks of points whose principal stress exceeds the trigger; returns how many points entered another
+ * cell. */
 static int64_t marks(const struct scene *s, struct particles *expected, const struct particles *before)
 {
     int64_t entered = 0;
@@ -268,8 +271,8 @@ static void step_case(const struct choice *k, real spin, real smallest_mass, boo
 static void step_cases(const struct choice *k)
 {
     step_case(k, 2, GRID_MASS_SMALLEST, true);
-    step_case(k, 2, 0.1, false);                 /* many nodes lighter than the smallest: at rest */
-    step_case(k, 200, GRID_MASS_SMALLEST, true); /* turns of 0.01 rad and more a step */
+    step_case(k, 2, 0.1, false);                 /* many nodes lighter than the smallest mass: at rest */
+    step_case(k, 200, GRID_MASS_SMALLEST, true); /* rotations of 0.01 rad and more per step */
 }
 
 static void test_steps(void **state) { (void)state, for_all(step_cases); }
@@ -292,8 +295,9 @@ static struct total total_of(const struct particles *p)
     return t;
 }
 
-/* Mass and momentum of nodes are those of points; after the step points have gained dt f and what walls gave. The work
- * of walls is their impulse times the mean of the velocity before and after: that is the change of kinetic energy. */
+/* Mass and momentum of nodes are those of points; after the step the points have gained dt f and the impulse of
+ * walls. The work of walls is their impulse times the mean velocity before and after, which is the change of kinetic
+ * energy. */
 static void conserved(const struct choice *k)
 {
     for (int walls = 0; walls < 2; walls++) {
@@ -313,7 +317,7 @@ static void conserved(const struct choice *k)
         for (int d = 0; d < s.dim; d++)
             assert_true(fabs(grid_coupled[d] - before.momentum[d]) <= CONSERVED * before.size);
 
-        s.smallest_mass = 1e-30; /* no node with any mass rests */
+        s.smallest_mass = 1e-30; /* no node with any mass is at rest */
         for (int64_t I = 0; I < s.g.n && walls; I += 7)
             if (s.g.mass[I] > 0.1 * p->mass[0])
                 grid_add_wall(&s.g,
@@ -329,7 +333,7 @@ static void conserved(const struct choice *k)
                         CONSERVED * before.size);
         }
         for (int64_t w = 0; w < s.g.walls; w++) {
-            const struct wall *wall = &s.g.wall[w]; /* on the wall's own way, at the mean of 247 and 250 m/s */
+            const struct wall *wall = &s.g.wall[w]; /* along the wall's motion, at the mean of 247 and 250 m/s */
             expected_work += (wall->reaction + s.g.mass[wall->node] * wall->change) * 248.5;
         }
         assert_true(fabs(work - expected_work) <= CONSERVED * 250 * before.size);
@@ -345,8 +349,8 @@ static void conserved(const struct choice *k)
 
 static void test_conserved(void **state) { (void)state, for_all(conserved); }
 
-/* A body that moves and stretches uniformly hands its velocity over unchanged: with APIC the nodes have the linear
- * field exactly, and points get it back. */
+/* A body in uniform motion and deformation keeps its velocity: with APIC the nodes have the exact linear field, and
+ * points recover it. */
 static void linear_field(const struct choice *k)
 {
     static const real gradient[DIM_MAX][DIM_MAX] = {{3, -7, 2}, {5, 1, -4}, {-6, 8, 9}};
@@ -378,8 +382,8 @@ static void linear_field(const struct choice *k)
 
 static void test_linear_field(void **state) { (void)state, for_all(linear_field); }
 
-/* Stress of a body that only turns turns with it, to second order in the angle w below 1e-3 rad, exactly above, and
- * nothing strains it: displacements of the step W + W W/2, W its spin. */
+/* The stress of a purely rotating body rotates with it, to second order in the angle w below 1e-3 rad, exactly above,
+ * and causes no strain: displacements of the step W + W W/2, W its spin. */
 static void test_rotation(void **state)
 {
     (void)state;
@@ -390,7 +394,7 @@ static void test_rotation(void **state)
             const struct choice choice = {dim, SHAPE_QUADRATIC, TRANSFER_APIC};
             scene_make(&s, &choice, 0);
             struct particles *p = &s.c.p;
-            s.t.dt_velocity = 0; /* stresses turn, and move nothing */
+            s.t.dt_velocity = 0; /* stresses rotate, but cause no motion */
             for (int64_t i = 0; i < p->n; i++) {
                 for (int d = 0; d < dim; d++) p->v[d][i] = p->f[d][i] = 0;
                 for (int c = 0; c < dim * dim; c++) p->gradient[c][i] = 0;
@@ -406,7 +410,7 @@ static void test_rotation(void **state)
             for (int64_t i = 0; i < p->n; i++) {
                 if (p->kind[i] != KIND_MPM) continue;
                 int xy = reference_symmetric(dim, 0, 1);
-                /* round-off strains of 1e-15 times c11 = 2e11 Pa; of a small turn the third order is left out */
+                /* Round-off strains of 1e-15 times c11 = 2e11 Pa; for small rotations the third order is neglected. */
                 assert_true(fabs(p->stress[0][i] - 1e8 * cos(angle) * cos(angle)) <= 0.1);
                 assert_true(fabs(p->stress[xy][i] - 1e8 * (k ? cos(angle) * sin(angle) : angle)) <= 0.1);
             }
@@ -414,7 +418,7 @@ static void test_rotation(void **state)
         }
 }
 
-/* ---- one field of few points ------------------------------------------------------------------------------------- */
+/* ---- few points -------------------------------------------------------------------------------------------------- */
 
 static void spread_case(const struct choice *k)
 {

@@ -1,5 +1,5 @@
-/* Points that turn in groups (data/turning.h): what the two halves of the second map keep, of any motion, for all
- * shapes, in the plane and in space. */
+/* Points that rotate in groups (data/turning.h): conserved quantities of the two halves of the second map, for any
+ * motion and all shapes, in 2D and 3D. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "data/turning.h"
 #include "kernels/kernels.h"
 
-/* Of the largest term: sums of some hundred terms, of weights with errors of 1e-15. */
+/* Tolerance relative to the largest term: sums of some hundred terms, with weights that have errors of 1e-15. */
 #define CLOSE 1e-12
 
 struct scene {
@@ -23,7 +23,7 @@ struct scene {
     int dim, shape;
 };
 
-/* A shaken cloud of two bodies, of which every fifth particle is peridynamic; the second has a few points left. */
+/* Creates irregular points of two bodies, every fifth of them peridynamic; the second body has few points. */
 static void scene_make(struct scene *s, int dim, int shape)
 {
     static const int count[DIM_MAX + 1][DIM_MAX] = {{0}, {0}, {15, 11}, {9, 8, 7}};
@@ -77,7 +77,7 @@ static void node_place(const struct grid *g, int64_t I, real *x)
     for (int d = 0; d < 3; d++) x[d] = d < g->dim ? grid_position(g, d, I / g->stride[d] % g->count[d]) : 0;
 }
 
-/* Adds m a, and m x x a, to six sums; their magnitudes to size[2]. */
+/* Adds m a and m x x a to six sums; size[2]: sums of their magnitudes. */
 static void moments_add(real m, const real *x, const real *a, real *sum, real *size)
 {
     for (int c = 0; c < 3; c++) {
@@ -97,7 +97,7 @@ static void points_moments(const struct particles *p, real *const *v, real *sum,
     }
 }
 
-/* Gives points any change of nodal velocities. */
+/* Applies a given change of nodal velocities to the points. */
 static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
@@ -107,7 +107,7 @@ static void gather(struct scene *s)
     turning_share(&s->turning, &s->c.p);
 }
 
-/* Nodal velocities of the second map, of points that nothing has changed. */
+/* Computes the nodal velocities of the second map for unchanged points. */
 static void scatter(struct scene *s)
 {
     turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
@@ -117,7 +117,7 @@ static void scatter(struct scene *s)
         for (int64_t I = 0; I < s->g.n; I++) s->g.momentum[d][I] /= s->g.mass[I] > 0 ? s->g.mass[I] : 1;
 }
 
-/* Points have gained the momentum and the angular momentum of the change of the nodes. */
+/* The points gain the momentum and angular momentum of the change of the nodes. */
 static void keeps_moments(struct scene *s)
 {
     real given[6] = {0}, before[6] = {0}, after[6] = {0}, size[2] = {0}, none[2];
@@ -133,7 +133,7 @@ static void keeps_moments(struct scene *s)
     for (int c = 0; c < 6; c++) assert_true(fabs(after[c] - before[c] - given[c]) <= CLOSE * size[c / 3]);
 }
 
-/* Nodes of a body that turns and flies have the velocity of their place. */
+/* Nodes of a rotating and translating body have the velocity of their position. */
 static void turns_rigidly(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -156,7 +156,8 @@ static void turns_rigidly(struct scene *s)
     }
 }
 
-/* Both halves are adjoint in the mass: what points gain along their velocity is what nodes gain along theirs. */
+/* Both halves are adjoint in the mass metric: the energy gained by points along their velocity equals that gained by
+ * nodes along theirs. */
 static void keeps_energy(struct scene *s)
 {
     struct particles *p = &s->c.p;
@@ -196,7 +197,7 @@ static void test_moments(void **state) { (void)state, for_all(keeps_moments); }
 static void test_rigid(void **state) { (void)state, for_all(turns_rigidly); }
 static void test_energy(void **state) { (void)state, for_all(keeps_energy); }
 
-/* Points of a body that is held are left as they are; those of few groups join others; a point alone gains nothing. */
+/* Points of a constrained body are unchanged; small groups are merged; a single point gains nothing. */
 static void test_groups(void **state)
 {
     struct scene s;
@@ -218,7 +219,7 @@ static void test_groups(void **state)
     scene_free(&s);
 }
 
-/* Groups on both sides of the middle are neighbours; a body that is held is left alone. */
+/* Groups on both sides of the middle are neighbours; a constrained body is unchanged. */
 static void test_held(void **state)
 {
     struct scene s;

@@ -1,5 +1,5 @@
-/* The weights and slopes of every shape in one dimension against their definitions, in every piece and at
- * its edges. */
+/* Weights and slopes of every shape in one dimension compared with their definitions, in every piece and at its
+ * edges. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "tests/support/reference_points.h"
 #include "kernels/mpm/shape.h"
 
-/* All weights of a shape at place r, in node distances, from the kernels' side; partition of unity and linear
+/* Checks all weights of a shape at position r (in node distances) from the kernels; partition of unity and linear
  * completeness: sum N = 1, sum N x_I = x, sum dN = 0, sum dN x_I = 1. */
 static void check_shape(enum shape shape, real r, real l)
 {
@@ -21,9 +21,9 @@ static void check_shape(enum shape shape, real r, real l)
     for (int64_t node = base - 3; node < base + ROW + 3; node++) {
         bool inside = node >= base && node < base + ROW;
         struct reference_shape s = reference_shape(shape, r - (real)node, 1, l);
-        /* round-off of (r +- l), up to ten, in an integral over 2 l >= 0.02 */
+        /* Round-off of (r +- l), up to ten, in an integral over 2 l >= 0.02. */
         assert_true(fabs(s.value - (inside ? N[node - base] : 0)) <= 1e-13);
-        if (!(shape == SHAPE_LINEAR && r == floor(r))) /* a kink: the slope on either side is right */
+        if (!(shape == SHAPE_LINEAR && r == floor(r))) /* at a kink the slope of either side is correct */
             assert_true(fabs(s.slope - (inside ? dN[node - base] : 0)) <= 1e-12);
         if (!inside) continue;
         sum[0] += N[node - base], sum[1] += N[node - base] * (real)node;
@@ -41,7 +41,7 @@ static void test_shapes(void **state)
         for (int k = 0; k < 2000; k++)
             check_shape((enum shape)shape, cloud_between(&seed, -9, 9),
                         cloud_between(&seed, 0.01, shape == SHAPE_CPGIMP ? 1 : 0.5));
-        for (int k = -16; k <= 16; k++) { /* on nodes, mid-cells and the edges of pieces */
+        for (int k = -16; k <= 16; k++) { /* on nodes, in the middle of cells and at the edges of pieces */
             check_shape((enum shape)shape, 0.25 * k, 0.25);
             check_shape((enum shape)shape, 0.25 * k, 0.5);
             check_shape((enum shape)shape, 0.25 * k + 1e-15, 0.25);
