@@ -1,5 +1,5 @@
-/* Absorbing faces: the kick of a dashpot in closed form; bars, plates and blocks from which waves leave; what mirrors,
- * supports and conversion make of the faces; long runs. */
+/* Absorbing faces: velocity update of a dashpot in closed form; bars, plates and blocks from which waves leave; effects
+ * of mirrors, supports and conversion; long runs. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ static const char bonds[] = "method: pd", cells[] = "method: mpm\nmpm: {frame: r
                   flip[] = "method: mpm\nmpm: {frame: current}",
                   apic[] = "method: mpm\nmpm: {frame: current, transfer: apic}";
 
-/* ---- one kick ---------------------------------------------------------------------------------------------------- */
+/* ---- velocity update --------------------------------------------------------------------------------------------- */
 
 /* m (v+ - v-)/dt = f - k (v- + v+)/2 at every particle of the face, with k of its material for bonds, and the force
  * alone at the others. */
@@ -41,7 +41,7 @@ static void test_kick(void **state)
     assert_int_equal(l.absorbing.n, 5 * 2 + 4 * 2 - 4); /* two layers deep, for nodes */
     real right = -INFINITY, top = -INFINITY;
     for (int64_t i = 0; i < p->n; i++) right = real_max(right, p->X[0][i]), top = real_max(top, p->X[1][i]);
-    for (int64_t k = 0; k < l.absorbing.n; k++) { /* points bear the face by 3/2 less 1/2 of those behind */
+    for (int64_t k = 0; k < l.absorbing.n; k++) { /* weights of points: 3/2 at the face, -1/2 behind */
         const int32_t i = l.absorbing.particle[k];
         const real behind = (right - p->X[0][i]) / CLOUD_SPACING;
         if (p->X[1][i] > top - 1.5 * CLOUD_SPACING) continue;
@@ -105,9 +105,9 @@ static struct left run_text(const char *text)
     return m;
 }
 
-/* A pulse 32 spacings wide leaves a bar by its end. What stays of its energy is the square of what comes back (cleave
- * bench absorbing), up to 2.3 %; points of FLIP keep some noise. The balance: FLIP's is of second order, APIC loses
- * 1 % on the way; bonds and cells have the round-off of positions. */
+/* A pulse 32 spacings wide leaves a bar through its end. The remaining energy is the square of the reflected amplitude
+ * (cleave bench absorbing), up to 2.3 %; FLIP points keep some noise. Energy balance: second order for FLIP; APIC
+ * dissipates 1 % on the way; bonds and cells have the round-off of positions. */
 static void test_bar(void **state)
 {
     (void)state;
@@ -135,9 +135,8 @@ static void test_bar(void **state)
     }
 }
 
-/* A block that is struck in its middle, with all faces absorbing, 1e5 steps: it loses its energy, never has more than
- * at the start, and the balance stays closed: of bonds and cells to the second order of their strains, 1e-3, in the
- * step. */
+/* A block that is hit in its middle, with all faces absorbing, 1e5 steps: it loses its energy, never has more than the
+ * initial energy, and the balance closes: for bonds and cells to second order of their strains, 1e-3, in the step. */
 static void test_long(void **state)
 {
     (void)state;
@@ -166,8 +165,8 @@ static void test_long(void **state)
 
 /* ---- with mirrors, supports, conversion -------------------------------------------------------------------------- */
 
-/* Half a plate at a mirror that meets the faces absorbs half of what the whole one does: the mirror on a row of nodes
- * of the mesh, and half-way between two. Points with APIC lose energy at mirrors and without them not quite alike. */
+/* Half a plate at a mirror that intersects absorbing faces absorbs half of what the whole plate does: mirror on a row
+ * of nodes of the mesh, and midway between two. APIC points dissipate slightly differently at mirrors. */
 static void test_mirror_faces(void **state)
 {
     (void)state;
@@ -199,7 +198,7 @@ static void test_mirror_faces(void **state)
     }
 }
 
-/* A bar held at its absorbing end: the dashpots of held components are not there, and all of the pulse comes back. */
+/* A bar fixed at its absorbing end: fixed components have no dashpots, and the whole pulse is reflected. */
 static void test_held(void **state)
 {
     (void)state;
@@ -220,8 +219,8 @@ static void test_held(void **state)
     }
 }
 
-/* An adaptive plate whose points convert up to the absorbing faces, which bonds bear from then on. Conversion in motion
- * loses energy (15 % in so small a plate), and the faces change that by 1 % at most. */
+/* An adaptive plate whose points convert up to the absorbing faces, which then act on bonds. Conversion in motion
+ * dissipates energy (15 % in so small a plate), and the faces change this by at most 1 %. */
 static void test_conversion_at_face(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Clamped planes (`mirror: ..., tangential: held`): forces have an energy, in any model, at corners and on
- * scattered particles; beams run long; supports and loads balance. */
+/* Clamped planes (`mirror: ..., tangential: held`): forces derive from an energy, for every model, at corners and on
+ * irregular particles; long runs of beams; supports and loads balance. */
 #include <math.h>
 #include <omp.h>
 #include <setjmp.h>
@@ -19,12 +19,13 @@
 #include "probes/diagnostics.h"
 #include "scene/scene_read.h"
 
-/* Differences of forces: a step of 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry, and
- * the last bits of stretches, 2^-49, are 1e-10 of it. */
+/* Step of finite differences of forces: 2e-5 of a spacing has a second-order error below 1e-9 of the largest entry; the
+ * last bits of stretches, 2^-49, are 1e-10 of it. */
 #define STEP 2e-5
-#define SYMMETRIC 1e-8 /* of the largest entry; without the energy it is 0.1 */
-#define NEGATIVE 1e-8  /* of the largest entry: round-off of zero modes, of which a clamped body has none */
-/* Energies: differences over 2e-4 of a spacing miss by its square, 4e-8, times third derivatives of order one. */
+#define SYMMETRIC 1e-8 /* relative to the largest entry; without the energy it is 0.1 */
+#define NEGATIVE 1e-8  /* relative to the largest entry: round-off of zero modes, which a clamped body does not have */
+/* Step of finite differences of energies: 2e-4 of a spacing has an error of its square, 4e-8, times third derivatives
+ * of order one. */
 #define SLIDE 2e-4
 #define GRADIENT 1e-6
 
@@ -44,7 +45,7 @@ struct body {
     struct run e;
 };
 
-/* A scene with the overrides `key=value`, NULL behind the last. */
+/* Creates a scene with the overrides `key=value`, terminated by NULL. */
 static void body_make(struct body *a, const char *text, const char *const *with)
 {
     enum { MOST = 8 };
@@ -68,7 +69,7 @@ static void body_free(struct body *a)
     scene_free(&a->s);
 }
 
-/* The calls of the engine in a step, nothing breaking. */
+/* Computes the forces by the calls of a time step, without breaking. */
 static void forces(struct run *e)
 {
     loads_mirror(&e->loads, &e->part);
@@ -83,7 +84,7 @@ static real energy(struct run *e)
 
 /* ---- the operator ------------------------------------------------------------------------------------------------ */
 
-/* -df/dx at the reference positions, n by n. */
+/* Returns -df/dx at the reference positions, n x n, allocated. */
 static real *stiffness_of(struct run *e)
 {
     struct particles *p = &e->part;
@@ -122,7 +123,7 @@ static void check_operator(struct run *e, const char *name)
     memory_free(K);
 }
 
-/* Far from the reference positions: the energy that rows count changes as forces say, along random motions. */
+/* Far from the reference positions, the energy of rows changes along random motions by the work of the forces. */
 static void check_gradient(struct run *e, const char *name)
 {
     struct particles *p = &e->part;
@@ -198,9 +199,9 @@ static void test_energy(void **state)
     }
 }
 
-/* Bonds that have yielded, each by what depends on the place of its middle: the force is that of the elastic stretch,
- * from the sweep and from the images of clamped planes alike. A bond across the plane of symmetry y = 0 and its image
- * have yielded alike. The yield stress is too high for more to yield. */
+/* Bonds that have yielded, each by an amount that depends on the position of its middle: the force is that of the
+ * elastic stretch, both from the sweep and from the images at clamped planes. A bond across the plane of symmetry y = 0
+ * and its image have equal plastic stretch. The yield stress is too high for further yielding. */
 static void test_yielded(void **state)
 {
     (void)state;
@@ -222,7 +223,7 @@ static void test_yielded(void **state)
 
 /* ---- threads ----------------------------------------------------------------------------------------------------- */
 
-/* So many bonds that a team shares them. */
+/* A wall with enough bonds for several threads. */
 #define WALL                                                                                                           \
     "space: solid\nduration: 1 us\nmethod: pd\nmodel: mospd\nmaterial: {young: 200 GPa, poisson: 1/4, density: "       \
     "7850}\n"                                                                                                          \
@@ -257,7 +258,7 @@ static void test_threads(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs to the end; returns the largest error of the energy balance on the way. */
+/* Runs to the end; returns the largest error of the energy balance. */
 static real run(struct run *e)
 {
     real most = 0;
@@ -267,7 +268,7 @@ static real run(struct run *e)
         assert_ok(report_step(e));
         most = real_max(most, fabs(e->diagnostics->now.balance_error));
     }
-    assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are in the account */
+    assert_true(e->diagnostics->now.momentum_error < 1e-11); /* round-off of 1e5 steps; supports are included */
     return most;
 }
 
@@ -276,8 +277,9 @@ static real run(struct run *e)
     "body: {box: {from: [0, 0], to: [20 mm, 4 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "  - body_force: [0, 1e4]\n    time: {step: {until: 0.2 ms}}\n"
 
-/* A beam let go: 25,000 steps and more. The energy balance closes to 6e-8 (at four times the length, too). Without the
- * energy the first three are stopped after 3e3 to 3e4 steps and the last gains 5 % in 1e5. */
+/* A beam released from a deflected state: 25,000 steps and more. The energy balance closes to 6e-8 (also for four times
+ * the length). Without the energy of clamps the first three would stop after 3e3 to 3e4 steps and the last would gain 5
+ * % in 1e5. */
 static void test_long(void **state)
 {
     (void)state;
@@ -296,8 +298,8 @@ static void test_long(void **state)
     }
 }
 
-/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and half-way between
- * two, whose mesh moves nodes as images of others. */
+/* Material points beside bonds at the clamp, in the reference frame, with the plane on nodes and midway between two,
+ * where nodes move as images of others. */
 #define COUPLED                                                                                                        \
     "space: plane stress\nthickness: 1 mm\nduration: 2 ms\nmethod: adaptive\n" STEEL                                   \
     "body: {box: {from: [0, 0], to: [40 mm, 12 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n"                    \
@@ -321,7 +323,7 @@ static void test_coupled(void **state)
     }
 }
 
-/* A clamp through particles: they stay where they are, and the accounts close. */
+/* A clamp through particles: these do not move, and the energy and momentum balances close. */
 static void test_in_plane(void **state)
 {
     (void)state;
@@ -349,7 +351,7 @@ static void test_in_plane(void **state)
     "  - {mirror: {axis: y, at: 0, tangential: free}}\n  - {mirror: {axis: y, at: 4 mm, tangential: free}}\n"          \
     "  - traction: [1 MPa, 0]\n    face: x+\n    time: {pulse: {from: 0, until: 4 us}}\n"
 
-/* A plane wave comes back from a clamp as from a plane of symmetry: there is no motion along it. */
+/* A plane wave is reflected from a clamp as from a plane of symmetry, because it has no motion along the plane. */
 static void test_reflection(void **state)
 {
     (void)state;
@@ -378,9 +380,9 @@ static void test_reflection(void **state)
     "body: {box: {from: [0, 0], to: [20 mm, 8 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT                \
     "initial: [{velocity: [50, 20]}]\n"
 
-/* A body that tears itself off its clamp: bonds break at their images only, which act as long as they do, with a share
- * of their reaction in that step. What breaking leaves of the balance at the end: 6e-5 to 4.3e-4 measured with half the
- * critical step, 1.5e-5 to 7e-5 with an eighth; with half of all last forces 5e-3 and up to 4.5e-4. */
+/* A body that tears off its clamp: bonds break only at their images, which act until then, with a share of their
+ * reaction in that step. Final error of the balance: 6e-5 to 4.3e-4 measured with half the critical step, 1.5e-5 to
+ * 7e-5 with an eighth; with half of all last forces 5e-3 and up to 4.5e-4. */
 static void test_torn(void **state)
 {
     (void)state;
@@ -391,7 +393,7 @@ static void test_torn(void **state)
             struct body a;
             int64_t broken = 0;
             body_make(&a, TORN, (const char *const[]){model[k], fine ? "time.safety=0.125" : "time.safety=0.5", NULL});
-            run(&a.e); /* on the way bonds that break in a sampled step have one side of it only */
+            run(&a.e); /* during a sampled step, breaking bonds have only one of their two contributions */
             error[fine] = fabs(a.e.diagnostics->now.balance_error);
             for (int64_t q = 0; q < a.e.bonds.clamped.n; q++) broken += a.e.bonds.w[a.e.bonds.clamped.entry[q]] == 0;
             assert_true(broken > a.e.bonds.clamped.n / 2);
@@ -409,8 +411,8 @@ static void test_torn(void **state)
     "body: {box: {from: [0, 0], to: [50 mm, 10 mm]}}\nparticles: {spacing: 1 mm, horizon: 3.015}\n" LEFT               \
     "  - body_force: [0, 1e4]\n"
 
-/* Tip of a cantilever under its own weight b: b L^4/(8 E h^2/12) + b L^2/(2 G 5/6) (Timoshenko 1921), bent
- * within 2 % by ten layers of each model; the clamp carries the weight. */
+/* Tip displacement of a cantilever under its own weight b: b L^4/(8 E h^2/12) + b L^2/(2 G 5/6) (Timoshenko 1921),
+ * within 2 % for ten layers of each model; the clamp carries the weight. */
 static void test_cantilever(void **state)
 {
     (void)state;

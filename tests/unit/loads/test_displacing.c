@@ -1,4 +1,4 @@
-/* Displacements that boundaries prescribe: of `displacement` itself, of velocities their integral, of rotations. */
+/* Displacements prescribed by boundaries: of `displacement` itself, of velocities their integral, of rotations. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* x^2/(1 m) and, with t, x t/(1 s) [m, or m/s]. */
+/* Sets the expression x^2/(1 m) or, with time, x t/(1 s) [m, or m/s]. */
 static void by_x(struct expression *e, bool with_time)
 {
     const struct expression_step step[] = {
@@ -19,7 +19,7 @@ static void by_x(struct expression *e, bool with_time)
     e->in_space = true, e->in_time = with_time;
 }
 
-/* Displacement of the particle k of a body under one boundary. */
+/* A body under one boundary. */
 struct displaced {
     struct cloud c;
     struct loads l;
@@ -37,7 +37,7 @@ static void displaced_free(struct displaced *m)
     cloud_free(&m->c);
 }
 
-/* A component that is free is 0, whatever its value; numbers and formulas times a function of time. */
+/* A free component is 0 whatever its value; numbers and formulas are multiplied by the function of time. */
 static void test_values(void **state)
 {
     (void)state;
@@ -68,7 +68,8 @@ static void test_values(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* In space about an axis askew: Rodrigues' formula for vectors, the arm along the axis, across it and turned. */
+/* Rotation about an oblique axis in 3D: Rodrigues' formula for the component of the arm along the axis and across
+ * it. */
 static void test_turn_in_space(void **state)
 {
     (void)state;
@@ -94,13 +95,13 @@ static void test_turn_in_space(void **state)
         assert_near(displacing_at(&by, X, d), to - arm[d], 1e-14);
         way[d] = driving_at(&step, X, d, false);
     }
-    /* the chord of a step from 1.8 to 2 s, over it */
+    /* The chord of a step from 1.8 to 2 s, over the step. */
     const real across = sqrt(dot(arm, arm, 3) - square(along));
     assert_near(sqrt(dot(way, way, 3)), 2 * across * sin(0.5 * 0.7 * 0.2) / 0.2, 1e-13);
     assert_near(dot(way, axis, 3), 0, 1e-14);
 }
 
-/* A quarter of a turn about (1, 2) spacings, at a rate that grows evenly. */
+/* A quarter turn about (1, 2) spacings, at a linearly increasing rate. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -125,7 +126,8 @@ static void test_turn(void **state)
     displaced_free(&m);
 }
 
-/* Formulas of t: of a displacement its value then, of a velocity none is known; of a static problem that of its end. */
+/* Formulas of t: a displacement is its current value; a velocity has no integral; in a static problem the value at the
+ * end applies. */
 static void test_formula_of_time(void **state)
 {
     (void)state;
@@ -151,7 +153,7 @@ static void test_formula_of_time(void **state)
     expression_free(&b.formula[0]);
 }
 
-/* The steepest slope of a function of time, against differences; infinite where it jumps, 0 where it is not yet. */
+/* The largest slope of a function of time, compared with finite differences; infinite at a jump, 0 before the start. */
 static void test_steepest(void **state)
 {
     (void)state;
@@ -174,7 +176,8 @@ static void test_steepest(void **state)
     assert_true(time_function_steepest(&step, 0.9) == 0 && isinf(time_function_steepest(&step, 1.1)));
 }
 
-/* Static: displacements at the end, by particle; half the forces on supports times them is the work. */
+/* Static problem: displacements at the end, per particle; half the support forces times the displacements is the
+ * work. */
 static void test_static(void **state)
 {
     (void)state;
@@ -188,7 +191,7 @@ static void test_static(void **state)
                     end;
     struct displaced m;
     by_x(&b.formula[0], true);
-    loads_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, by a factor 1/2 */
+    loads_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
     displaced_make(&m, &end);
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;

@@ -1,5 +1,5 @@
-/* Tractions: on every body the resultant is the traction times the area that the body shows along the
- * face's normal, whatever its shape, which particles carry it, and what it gives in a run. */
+/* Tractions: on every body the resultant is the traction times the projected area of the body along the face's normal,
+ * for any shape; which particles carry it; its effect in a run. */
 #include <string.h>
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ struct sample {
     struct loads l;
 };
 
-/* Scene of a body with one traction; the loads are made, or refused with `refusal`. */
+/* Creates a body with one traction; the loads must be valid, or refused with the message `refusal`. */
 static void sample_try(struct sample *a, const char *space, const char *body, const char *more, const char *traction,
                        const char *refusal)
 {
@@ -63,7 +63,7 @@ static void sample_free(struct sample *a)
     scene_free(&a->s);
 }
 
-/* Sum of a load's shares along d [m^2]. */
+/* Returns the sum of a load's shares along d [m^2]. */
 static real area(const struct sample *a, int d)
 {
     real sum = 0;
@@ -71,7 +71,7 @@ static real area(const struct sample *a, int d)
     return sum;
 }
 
-/* Share of the particle nearest to a place. */
+/* Returns the share of the particle nearest to a position. */
 static real share_at(const struct sample *a, int d, real x, real y)
 {
     for (int64_t k = 0; k < a->l.load[0].n; k++) {
@@ -81,7 +81,7 @@ static real share_at(const struct sample *a, int d, real x, real y)
     return 0;
 }
 
-/* Columns of a lattice along an axis: particles that no other of the same column precedes. */
+/* Returns the number of columns of a lattice along an axis: particles without another one in front of them. */
 static int64_t lattice_columns(const struct particles *p, int face)
 {
     int64_t n = 0;
@@ -109,7 +109,7 @@ static const char corner[] = "body: [" BOX(0, 0, 30, 10) ", " BOX(0, 10, 8, 25) 
 static const char overhang[] = "body: [" BOX(0, 0, 30, 30) ", " CUT(10, 10, 31, 20) "]\n";
 static const char holed[] = "body: [" BOX(0, 0, 30, 30) ", {subtract: " DISC(15, 15, 6) "}]\n";
 
-/* What the solid shows along x and along y (and z) [m, m^2], and how much one spacing all round changes it. */
+/* Projected area of a solid along x and y (and z) [m, m^2], and its change for a layer of one spacing all around. */
 static const struct solid_shown {
     const char *name, *space, *body;
     real shows[DIM_MAX], spacing[DIM_MAX];
@@ -141,7 +141,7 @@ static const struct solid_shown {
      {1e-9}},
 };
 
-/* Shaken by less than half a spacing, a lattice has the columns that it had. */
+/* Irregularity of less than half a spacing does not change the columns of a lattice. */
 static void check_shape(const struct solid_shown *q, int face, int side)
 {
     static const char *const shaken[] = {"", ", irregularity: 0.5", ", irregularity: 0.8, seed: 3"};
@@ -173,10 +173,10 @@ static void test_shapes(void **state)
             for (int side = -1; side <= 1; side += 2) check_shape(&shapes[k], face, side);
 }
 
-/* ---- particles that carry it ------------------------------------------------------------------------------------- */
+/* ---- loaded particles -------------------------------------------------------------------------------------------- */
 
-/* Steps are seen, what an overhang hides and the bottom of a hole are not; a region that leaves out what hides them
- * loads them, with no more than their own width. */
+/* Steps are loaded; surfaces hidden by an overhang and the bottom of a hole are not. A region without the hiding
+ * particles loads the hidden ones, only over their own width. */
 static void test_hidden(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void test_hidden(void **state)
     assert_exact(share_at(&a, 1, 20.5 * H, 9.5 * H), 0);
     sample_free(&a);
     sample_make(&a, "plane stress", overhang, "", "traction: [0, 1], face: y+, region: " BOX(0, 0, 30, 12));
-    assert_int_equal(a.l.load[0].n, 20); /* the lower arm; the web beside it goes on upwards */
+    assert_int_equal(a.l.load[0].n, 20); /* the lower arm; the web beside it continues upwards */
     assert_close(share_at(&a, 1, 20.5 * H, 9.5 * H), H * T, 1e-12);
     sample_free(&a);
 
@@ -200,7 +200,7 @@ static void test_hidden(void **state)
     for (int64_t k = 0; k < a.l.load[0].n; k++) assert_true(a.p.X[1][a.l.load[0].particle[k]] > 29 * H);
     sample_free(&a);
     sample_make(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " DISC(15, 15, 8));
-    assert_close(area(&a, 1), 12 * H * T, 1e-12); /* the hole is as wide */
+    assert_close(area(&a, 1), 12 * H * T, 1e-12); /* the hole has the same width */
     for (int64_t k = 0; k < a.l.load[0].n; k++) {
         const int32_t i = a.l.load[0].particle[k];
         assert_true(a.p.X[1][i] < 15 * H && hypot(a.p.X[0][i] - 15 * H, a.p.X[1][i] - 15 * H) < 7.5 * H);
@@ -225,8 +225,8 @@ static void test_refused(void **state)
     sample_free(&a);
 }
 
-/* Bodies hide each other where the traction acts on all of them, also with lattices that do not meet; one that is
- * named stands alone. */
+/* Bodies hide each other if the traction acts on all of them, also for different lattices; a named body is considered
+ * alone. */
 static void test_bodies(void **state)
 {
     (void)state;
@@ -244,14 +244,14 @@ static void test_bodies(void **state)
         for (int shaken = 0; shaken < 2; shaken++) {
             struct sample a;
             sample_make(&a, "plane stress", towers, shaken ? ", irregularity: 0.3" : "", row[k].traction);
-            /* shaken, a column that is hidden by half shows or does not */
+            /* With irregularity a half-hidden column may or may not be loaded. */
             assert_near(area(&a, row[k].face), row[k].shows * T, shaken ? (1 + 1e-12) * H * T : 1e-12 * H * T);
             sample_free(&a);
         }
 }
 
-/* What acts along a stepped face does so half a spacing outside of every column's first particle: its moment is that
- * of the steps. Where a column has but one particle, there it acts. */
+/* The tangential component on a stepped face acts half a spacing outside of every column's first particle: its moment
+ * is that of the steps. In a column with a single particle it acts on this particle. */
 static void test_along(void **state)
 {
     (void)state;
@@ -271,8 +271,8 @@ static void test_along(void **state)
 
 static char list_name[64];
 
-/* Rings of a disc of radius 20, hexagons, two sizes of squares, nodes on the border with halves and quarters, a
- * lattice as wide as 1.3 spacings: all fill their solid [mm]. */
+/* Rings of a disc of radius 20, hexagons, squares of two sizes, nodes on the border with halves and quarters, a lattice
+ * of spacing 1.3: all fill their solid [mm]. */
 enum list { RINGS, HEXAGONS, TWO_SIZES, NODES, WIDE, LISTS };
 
 static void put_list(FILE *out, enum list list)
@@ -334,7 +334,7 @@ static void test_lists(void **state)
     remove(list_name);
 }
 
-/* In space: balls of radius 8 from a close packing, shaken, with volumes that differ by a half. */
+/* In 3D: balls of radius 8 from an irregular close packing, with volumes that differ by a half. */
 static void test_packed(void **state)
 {
     (void)state;
@@ -367,8 +367,8 @@ static void test_packed(void **state)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* A free body has the momentum t A T after a time T, whatever moves it: the sum of the momenta, not what the loads
- * say they gave. */
+/* A free body has the momentum t A T after a time T with every method; the sum of momenta is checked, not the impulse
+ * reported by the loads. */
 static void check_impulse(const struct solid_shown *q, int64_t columns, const char *method, const char *more)
 {
     enum { STEPS = 12 };
@@ -404,7 +404,7 @@ static void check_impulse(const struct solid_shown *q, int64_t columns, const ch
     const real t = run_observed(e).t_velocity, shows = (real)columns * pow(H, s.dim - 1) * (one ? 3e-6 : three ? 1 : T);
     for (int d = 0; d < s.dim; d++) {
         const real given = (const real[]){3e5, three || one ? 2e5 : -2e5, -1e5}[d] * shows * t;
-        if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* of 3e5: round-off of 12 steps */
+        if (!(fabs(w.now.momentum[d] - given) <= 1e-10 * fabs(given))) /* round-off of 12 steps for 3e5 */
             fail_msg("%s, %s: momentum %.12g where %.12g was given", q->name, method, w.now.momentum[d], given);
     }
     engine_free(e);
@@ -424,7 +424,9 @@ static void test_impulse(void **state)
         "method: adaptive\nmpm: {frame: reference}\npd: {region: {half-space: {point: [%s], normal: [1%s]}}}"};
     for (size_t k = 0; k < COUNT_OF(shapes); k++) {
         struct sample a;
-        if (strcmp(shapes[k].name, "shell") == 0 || strcmp(shapes[k].name, "cylinder") == 0) continue; /* as the ball */
+        if (strcmp(shapes[k].name, "shell") == 0 || strcmp(shapes[k].name, "cylinder") == 0)
+            continue; /* like the
+                       * ball */
         sample_make(&a, shapes[k].space, shapes[k].body, "",
                     *shapes[k].space == 'l'   ? "traction: 1, face: x+"
                     : *shapes[k].space == 'p' ? "traction: [1, 0], face: x+"

@@ -1,4 +1,4 @@
-/* Applied forces: what a body force that varies over the body gives to every particle. */
+/* Applied forces: force of a varying body force on every particle. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <stdlib.h>
@@ -10,8 +10,8 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* A sine along (3, 4)/5 with its origin inside, pulling in x and y; the particles have moved since, which must not
- * matter: the profile holds on reference positions. */
+/* A sine along (3, 4)/5 with its origin inside, acting in x and y. The profile refers to reference positions:
+ * displacements have no effect. */
 static void test_sine(void **state)
 {
     (void)state;
@@ -30,7 +30,7 @@ static void test_sine(void **state)
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
     loads_clear(&l, p);
-    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt); /* a kick round t = 1: a quarter of the ramp */
+    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
         real factor = 0.25 * sin(2 * M_PI * along / length);
@@ -40,23 +40,23 @@ static void test_sine(void **state)
     }
     for (int d = 0; d < 2; d++) assert_near(l.impulse[d], sum[d], 1e-12 * 3e6 * volume * dt * (double)p->n);
 
-    real work = 0; /* over the way they go, with the same forces */
+    real work = 0; /* over the displacement, with the same forces */
     for (int64_t i = 0; i < p->n; i++)
         for (int d = 0; d < 2; d++) {
             real way = 1e-6 * (real)(i + d);
             p->x[d][i] += way;
             work += way * p->f[d][i];
         }
-    loads_hold(&l, p, 1, dt);         /* as if the step's middle were at t = 1 */
-    assert_close(l.work, work, 1e-8); /* ways of 1e-6 of positions near 1e-2, to 1e-18 */
+    loads_hold(&l, p, 1, dt);         /* as if the middle of the step were at t = 1 */
+    assert_close(l.work, work, 1e-8); /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
     cloud_free(&c);
 }
 
-/* Loads of the same particles go together, with terms of equal shares as one; what they give is that of each alone,
- * on any number of threads. Two of one profile, one of another, one of a part of the body, one whose region is every
- * particle but in other words, and a traction. */
+/* Loads of the same particles are combined, with terms of equal shares as one; results equal the sum of separate loads
+ * on any number of threads. Two loads with one profile, one with another, one on a part of the body, one whose region
+ * contains every particle in another notation, and a traction. */
 static void check_together(int threads, bool together, real *impulse, real *work, real *f)
 {
     const real length = 5 * CLOUD_SPACING, dt = 1e-6;
@@ -114,7 +114,7 @@ static void test_together(void **state)
         check_together(threads, true, impulse[threads], &work[threads], f[threads]);
     for (int i = 0; i < 2 * N; i++) assert_near(f[1][i], f[0][i], 1e-14 * 2e7 * square(CLOUD_SPACING) * 2e-3);
     for (int d = 0; d < 2; d++) assert_close(impulse[1][d], impulse[0][d], 1e-12);
-    assert_close(work[1], work[0], 1e-10); /* terms of both signs, 1e-3 of them left */
+    assert_close(work[1], work[0], 1e-10); /* terms of both signs, of which 1e-3 remains */
     for (int threads = 2; threads <= 3; threads++) {
         assert_memory_equal(f[threads], f[1], sizeof f[1]);
         assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
@@ -123,9 +123,8 @@ static void test_together(void **state)
     team_make(2);
 }
 
-/* Leap-frog: a half kick, then whole ones, each round the instant of its forces. What a force gives up to the
- * velocities is its integral in time: exactly for what is linear in it or switches at a whole step, else to second
- * order. */
+/* Leap-frog integration: half a velocity update, then full ones, each centred at the time of its forces. The impulse of
+ * a force is its integral in time: exact if it is linear or switches at a whole step, else of second order. */
 static void test_kicks(void **state)
 {
     (void)state;
@@ -135,7 +134,7 @@ static void test_kicks(void **state)
         real until_now;
     } row[] = {
         {{.kind = TIME_CONSTANT}, 9.5 * dt},
-        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt}, /* all of it */
+        {{.kind = TIME_STEP, .until = 5 * dt}, 5 * dt}, /* complete */
         {{.kind = TIME_STEP, .from = 3 * dt, .until = 99}, 6.5 * dt},
         {{.kind = TIME_RAMP, .until = 20 * dt}, 9.5 * 9.5 / 40 * dt}, /* integral of t/20 dt */
     };
@@ -156,15 +155,15 @@ static void test_kicks(void **state)
     }
 }
 
-/* Every particle has its cell's volume, as where a scene fills a body. */
+/* Sets the volume of every particle to that of its cell, as in a filled body. */
 static void even_volumes(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) p->volume0[i] = square(CLOUD_SPACING) * 2e-3;
 }
 
-/* A traction's force is t A and its moment that of a force on the face, half a spacing outside the particles,
- * whatever its direction and however far the lattice is shaken (shifts of 0.3 spacings: a layer 0.6 thick); the
- * moment of what acts along the face is exact on the lattice, where the layers' depths are. */
+/* The force of a traction is t A and its moment that of a force on the face, half a spacing outside the particles, for
+ * any direction and irregularity (shifts of 0.3 spacings: a layer 0.6 thick); the moment of the tangential component is
+ * exact on the lattice, where the depths of layers are known. */
 static void test_traction(void **state)
 {
     (void)state;
@@ -200,8 +199,8 @@ static void test_traction(void **state)
         }
 }
 
-/* The displacement of a load is the mean by what its particles bear, that of its work; where the shares add up to
- * nothing, the plain mean. */
+/* The displacement of a load is the mean weighted by the shares of its particles, as in its work; the plain mean if the
+ * shares add up to zero. */
 static void test_mean_displacement(void **state)
 {
     (void)state;
@@ -231,7 +230,7 @@ static void test_mean_displacement(void **state)
     cloud_free(&c);
 }
 
-/* The force of a load at a time: its value, function and formula of time, and the volume of the particle. */
+/* Force of a load at a time: its value, function and formula of time, times the volume of the particle. */
 static void test_force_at(void **state)
 {
     (void)state;
@@ -259,7 +258,7 @@ static void test_force_at(void **state)
     expression_free(&push.formula[0]);
 }
 
-/* What turns a body that nothing holds is met by its inertia: no moment is left, nor does a force come in. */
+/* The resultant of loads on a free body is balanced by its inertia: no moment remains, and no force is added. */
 static void test_relief(void **state)
 {
     (void)state;
@@ -273,7 +272,7 @@ static void test_relief(void **state)
         &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2, .seed = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-    assert_true(loads_static_balance(&l, &c.p) > 0.3); /* nothing but moment, not at the farthest from the centre */
+    assert_true(loads_static_balance(&l, &c.p) > 0.3); /* only moment; not largest at the farthest particles */
     loads_static_force(&l, &c.p);
     for (int64_t i = 0; i < c.p.n; i++) {
         for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);

@@ -1,4 +1,4 @@
-/* A quarter of a body between two mirrors against the whole body: forces, also of bonds that break, energy, surface
+/* A quarter of a body between two mirrors compared with the whole body: forces, also of breaking bonds, energy, surface
  * correction, partial stresses, conversion. */
 #include <stdarg.h>
 #include <setjmp.h>
@@ -13,14 +13,14 @@
 #include "tests/support/near.h"
 #include "base/team.h"
 
-/* Sums of the same bonds in another order. */
+/* Tolerance: sums of the same bonds in another order. */
 #define CLOSE 1e-12
 
-/* Planes of symmetry x = 0 and y = 0. */
+/* A quarter with planes of symmetry x = 0 and y = 0, and the whole body. */
 struct quarter {
     struct cloud whole, part;
     struct loads loads;
-    int32_t *twin; /* particle of the whole at the place of a particle of the part */
+    int32_t *twin; /* particle of the whole at the position of a particle of the quarter */
 };
 
 static const struct boundary mirror[] = {
@@ -28,7 +28,7 @@ static const struct boundary mirror[] = {
     {.name = "below", .kind = BOUNDARY_MIRROR, .body = -1, .axis = 1, .at = 0},
 };
 
-/* A deformation and a choice of kinds that the mirrors leave as they are. */
+/* Sets a deformation and kinds of particles that are symmetric about the mirrors. */
 static void deform(struct particles *p, real pd_radius)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -93,7 +93,7 @@ static void quarter_free(struct quarter *q)
     cloud_free(&q->part);
 }
 
-/* A field of the part against that of the whole. */
+/* Returns the largest difference between a field of the quarter and of the whole. */
 static real deviation(const struct quarter *q, const real *part, const real *whole)
 {
     real *twin = NEW("test.field", q->part.p.n, real);
@@ -165,14 +165,14 @@ static void test_mirror(void **state)
     for (size_t k = 0; k < COUNT_OF(space); k++)
         for (int surface = SURFACE_NONE; surface <= SURFACE_VOLUME; surface++) {
             quarter_case(space[k], (enum surface_rule)surface, 3.3); /* a core of peridynamic particles */
-            quarter_case(space[k], (enum surface_rule)surface, 0.9); /* so small that all its bonds reach over */
-            quarter_case(space[k], (enum surface_rule)surface, 99);  /* all of them */
+            quarter_case(space[k], (enum surface_rule)surface, 0.9); /* so small that all its bonds cross the mirrors */
+            quarter_case(space[k], (enum surface_rule)surface, 99);  /* all particles */
         }
 }
 
-enum { LOOKS_MOST = 4096 }; /* more than a quarter has particles */
+enum { LOOKS_MOST = 4096 }; /* more than the number of particles in a quarter */
 
-/* How often each particle was listed, and that no list holds a particle twice. */
+/* Counts how often each particle is listed; a list must not hold a particle twice. */
 static void count_looks(void *context, const int32_t *list, int64_t n)
 {
     int *looks = context, before[LOOKS_MOST];
@@ -183,8 +183,9 @@ static void count_looks(void *context, const int32_t *list, int64_t n)
     }
 }
 
-/* A point beside a mirror is converted with its horizon: its images and what they touch go the same way as in the
- * whole body, where all four twins are marked. Bonds see each converted particle and its family, each of them once. */
+/* A point beside a mirror is converted with its horizon: its images and their neighbours behave as in the whole body,
+ * where all four symmetric points are marked. The bonds are updated for each converted particle and its family, once
+ * each. */
 static void test_mirror_convert(void **state)
 {
     (void)state;
@@ -215,9 +216,9 @@ static void test_mirror_convert(void **state)
     quarter_free(&q);
 }
 
-/* ---- bonds that break ------------------------------------------------------------------------------------------ */
+/* ---- bonds that break -------------------------------------------------------------------------------------------- */
 
-/* Families of 0.2 where the bonds of these models leave Poisson's ratio open. */
+/* Creates families with Poisson's ratio 0.2 for the models that allow it. */
 static void quarter_families(struct quarter *q, enum space space, enum pd_model model, struct state_modulus *modulus)
 {
     static const int axis[] = {0, 1};
@@ -232,8 +233,8 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
         }
 }
 
-/* All bonds beyond a stretch of 1.2 %, which many were not a step ago, break in one sweep; as many of the quarter, and
- * with the same last forces, as of the whole. */
+/* All bonds beyond a stretch of 1.2 %, many of which were below one step ago, break in one sweep: the quarter agrees
+ * with the whole in number and last forces. */
 static void breaks_case(enum space space, enum pd_model model)
 {
     const int dim = space_dim(space);
@@ -285,8 +286,8 @@ struct points {
 
 static const struct elastic steel = {.c11 = 2e11, .c12 = 7e10, .shear = 6.5e10, .trigger = INFINITY};
 
-/* A motion and stresses that the mirrors leave as they are, in a body so deformed that points stand anywhere in
- * cells. */
+/* Sets a motion and stresses that are symmetric about the mirrors, in a body deformed such that points are at arbitrary
+ * positions in cells. */
 static void points_state(struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -307,7 +308,7 @@ static void points_state(struct particles *p)
     particles_list(p);
 }
 
-/* `offset`: of the planes from a node [node distances]. */
+/* Creates the body. offset: of the planes from a node [node distances]. */
 static void points_make(struct points *s, struct particles *p, const struct boundary *b, int n, real offset)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -370,8 +371,8 @@ static void points_compare(const struct quarter *q)
         assert_true(deviation(q, part->stress[c], whole->stress[c]) <= CLOSE);
 }
 
-/* The quarter moves as the whole does, whatever shapes reach over the planes; what the planes give is the change of its
- * momentum. */
+/* The quarter moves as the whole does for all shapes that extend beyond the planes; the impulse of the planes is the
+ * change of its momentum. */
 static void points_case(enum space space, enum shape shape, enum transfer transfer, real offset)
 {
     const int n[2] = {6, 5};
@@ -416,13 +417,13 @@ static void test_mirror_points(void **state)
         for (int shape = 0; shape < SHAPES; shape++)
             for (int transfer = 0; transfer < TRANSFERS; transfer++) {
                 points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0);   /* planes on nodes */
-                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0.5); /* half-way between */
+                points_case(space[k], (enum shape)shape, (enum transfer)transfer, 0.5); /* midway between nodes */
             }
 }
 
-/* Of a strip between two mirrors, far from the origin of one and near that of the other, moved by less than a bond
- * can resolve: i is as far from the image of j as j from that of i, to the last bit, so no force remains along the
- * mirrors. */
+/* A strip between two mirrors, far from the origin of one and near that of the other, displaced by less than a bond can
+ * resolve: the distance from i to the image of j is bitwise equal to that from j to the image of i, so that no force
+ * along the mirrors remains. */
 static void test_mirror_places(void **state)
 {
     (void)state;

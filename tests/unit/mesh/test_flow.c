@@ -1,5 +1,5 @@
-/* Points of a mesh that yield (mesh_flow.h): forces are the gradient of one incremental energy from any state of flow,
- * that energy is what the accounts of strain and plastic work hold, and where nothing yields all is as elastic. */
+/* Plastic flow of points of a mesh (mesh_flow.h): forces are the gradient of one incremental energy from any plastic
+ * state, this energy is that of strain and plastic work in the balance, and without yielding results are elastic. */
 #include "tests/support/mesh_block.h"
 
 #include "data/material.h"
@@ -8,7 +8,8 @@ enum { FLOWS = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
 enum { STATES = 2 + SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
-/* A block whose points yield at this share of the shear modulus, material 1 hardening; 0: no point does. */
+/* Creates a block whose points yield at this fraction of the shear modulus, material 1 with hardening; 0: no
+ * yielding. */
 static void flow_block_make(struct block *b, enum space space, real yield)
 {
     block_make_with(b, space, true, false, FLOWS);
@@ -21,7 +22,7 @@ static void flow_block_make(struct block *b, enum space space, real yield)
     }
 }
 
-/* The arrays of flow of a block. */
+/* Lists the arrays of the plastic state of a block. */
 static int states_of(const struct block *b, real *array[STATES])
 {
     int n = 0;
@@ -39,7 +40,7 @@ static void states_copy(const struct block *b, real *kept, bool back)
         memcpy(back ? array[k] : kept + k * n, back ? kept + k * n : array[k], (size_t)n * sizeof(real));
 }
 
-/* Incremental energy of the block from the state `kept`, less what is constant; moves the state on [J]. */
+/* Returns the incremental energy of the block from the state `kept`, without constants, and updates the state [J]. */
 static real incremental_energy(struct block *b, real *kept, bool finite)
 {
     real sum = 0;
@@ -60,8 +61,8 @@ static int64_t flowed(const struct block *b)
     return n;
 }
 
-/* f = -dW/du by central differences at some nodes, from a state of flow that another way has left. Where a point begins
- * to yield within the step, its second derivative jumps: that adds 1e-6 of the largest force. */
+/* f = -dW/du by central differences at some nodes, from a plastic state left by another path. Where a point starts to
+ * yield within the step its second derivative jumps, which adds 1e-6 of the largest force. */
 static void flow_gradient_of(enum space space, bool finite)
 {
     struct block b;
@@ -101,8 +102,8 @@ static void test_flow_gradient(void **state)
         for (int finite = 0; finite < 2; finite++) flow_gradient_of(flow_spaces[s], finite);
 }
 
-/* Points that never reach their yield stress give the forces and energies of the closed forms, by which elastic cells
- * are computed. */
+/* Points that never reach their yield stress have the forces and energies of the closed forms used for elastic
+ * cells. */
 static void test_flow_elastic(void **state)
 {
     (void)state;
@@ -124,8 +125,8 @@ static void test_flow_elastic(void **state)
         }
 }
 
-/* A way and its repetition: the second time all points are on the yield surface and flow no further; the way back is
- * elastic, and what is left are stresses and the same plastic work. */
+/* A loading path and its repetition: the second time all points are on the yield surface without further flow;
+ * unloading is elastic, and leaves stresses and unchanged plastic work. */
 static void test_flow_state(void **state)
 {
     (void)state;
@@ -140,7 +141,7 @@ static void test_flow_state(void **state)
     assert_close(incremental_energy(&b, kept, true), first, 1e-12);
     assert_close(largest_force(&b), most, 1e-12);
     rotation(&b, 0.9, 0.2);
-    assert_close(incremental_energy(&b, kept, true), first, 1e-12); /* rotation changes nothing */
+    assert_close(incremental_energy(&b, kept, true), first, 1e-12); /* unchanged by rotation */
     rotation(&b, 0.3, 0.19);
     incremental_energy(&b, kept, true);
     assert_close(b.c.p.plastic_strain[b.c.p.n - 1], strain, 1e-12);

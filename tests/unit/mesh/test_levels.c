@@ -1,6 +1,6 @@
 /* Coarse cells of the reference frame: forces are the gradient of one energy, patches carry uniform strain across
- * levels, changes of levels keep momentum and affine motion, impulses of their own keep energy and momentum below the
- * resonance and not above, and pulses travel as in cells of level 0. */
+ * levels, changes of levels conserve momentum and affine motion, multirate time stepping conserves energy and momentum
+ * below the resonance and not above, and pulses travel as in cells of level 0. */
 #include <omp.h>
 
 #include "src/mesh/levels_parts.h"
@@ -11,8 +11,8 @@
 
 static const enum space spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
 
-/* A block of points with coarse cells but round one corner, and round a bend of cells near its middle: coarse cells
- * meet finer ones at salient and at re-entrant corners. */
+/* A block of points with coarse cells except near one corner and along an angled band of cells near its middle: coarse
+ * cells adjoin finer ones at convex and concave corners. */
 struct plate {
     struct cloud c;
     struct mesh mesh;
@@ -23,7 +23,7 @@ struct plate {
     int64_t step;
 };
 
-/* `bend`: cells of level 0 there; else at one end only. */
+/* Marks the cells that must be of level 0: the band (`bend`), or only one end. */
 static void demand_mark(const struct plate *b, uint8_t *demand, bool bend)
 {
     const struct grid *g = &b->mesh.grid;
@@ -50,7 +50,7 @@ static void levels_set(struct plate *b, bool bend)
     memory_free(demand);
 }
 
-/* Of two materials if `parted`: the second beyond the middle of the cells along x. */
+/* Creates a plate. parted: the second material beyond the middle of the cells along x. */
 static void plate_make_of(struct plate *b, enum space space, int levels, int length, bool parted)
 {
     const int dim = space_dim(space), across = dim == 3 ? 40 : 48;
@@ -92,7 +92,7 @@ static void plate_free(struct plate *b)
     cloud_free(&b->c);
 }
 
-/* Is the motion of node I of a level its own: has it mass? */
+/* Returns true if node I of a level is independent: it has mass. */
 static bool node_free(const struct mesh_levels *l, int level, int64_t I)
 {
     return level_mesh_of(l, level)->grid.mass[I] > 0;
@@ -103,7 +103,7 @@ static real place_of(const struct mesh *mesh, int64_t I, int d)
     return grid_position(&mesh->grid, d, I / mesh->grid.stride[d] % mesh->grid.count[d]);
 }
 
-/* Sets u or v of all nodes: A X + c, and of random motion as much as `by`. */
+/* Sets u or v of all nodes to A X + c plus a random motion of at most `by`. */
 static void motion_set(struct plate *b, const real A[9], const real *c, real by, bool velocity)
 {
     uint64_t seed = 3;
@@ -140,7 +140,8 @@ static real strain_of(struct plate *b, bool finite)
     return mesh_strain(&b->mesh, &b->c.p, b->elastic, finite) + levels_strain(&b->levels, &b->c.p, b->elastic, finite);
 }
 
-/* Force on a component of node I of a level by all cells: by its own level, and half the doubled one of the next. */
+/* Returns the force on a component of node I of a level by all cells: of its own level, plus half the doubled one of
+ * the next. */
 static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
 {
     const struct grid *g = &level_mesh(&b->levels, level)->grid;
@@ -151,8 +152,8 @@ static real force_of(struct plate *b, bool finite, int level, int64_t I, int d)
     return own + 0.5 * (g->force[d][I] - own);
 }
 
-/* f = -dW/du by central differences of the energy of all cells, at some nodes of each level: third derivatives times
- * the square of the step, and round-off of the whole energy over the step, 1e-6 of the largest force together. */
+/* f = -dW/du by central differences of the energy of all cells, at some nodes of each level. Tolerance 1e-6 of the
+ * largest force: third derivatives times the squared step, and round-off of the total energy over the step. */
 static void gradient_across(enum space space, bool finite)
 {
     struct plate b;
@@ -193,7 +194,7 @@ static void test_gradient(void **state)
     gradient_across(SPACE_SOLID, true);
 }
 
-/* Is the node on a face of the block? */
+/* Returns true if the node is on a face of the block. */
 static bool on_face(const struct plate *b, int level, int64_t I)
 {
     const struct mesh *mesh = level_mesh_of(&b->levels, level);
@@ -207,7 +208,8 @@ static bool on_face(const struct plate *b, int level, int64_t I)
     return face;
 }
 
-/* No force on inner nodes of a level, of its own cells and those of the next, to 1e-12 of those of single cells. */
+/* Checks that inner nodes of a level have no force from its own cells and those of the next, to 1e-12 of the forces of
+ * single cells. */
 static void patch_level(struct plate *b, bool finite, int level)
 {
     const struct mesh *mesh = level_mesh(&b->levels, level);
@@ -228,7 +230,7 @@ static void patch_level(struct plate *b, bool finite, int level)
     }
 }
 
-/* Uniform strain and rotation leave no force at inner nodes: round-off of forces of cells, 1e-12 of them. */
+/* Uniform strain and rotation cause no force at inner nodes: round-off of forces of cells, 1e-12. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -257,8 +259,8 @@ static void momentum_of(const struct plate *b, real *sum)
 
 static real kinetic_of(const struct plate *b) { return mesh_kinetic(&b->mesh) + levels_kinetic(&b->levels); }
 
-/* Mass and momentum of random motion survive every change, to round-off; affine motion survives as it is; energy of
- * random motion never rises by a split. */
+/* Every change of levels conserves mass and momentum of random motion to round-off, keeps affine motion exactly, and a
+ * split never increases the energy of random motion. */
 static void test_changes(void **state)
 {
     (void)state;
@@ -310,7 +312,7 @@ static void steps_make(struct plate *b, int64_t n, bool finite)
     }
 }
 
-/* Energy between two steps, 1/2 p- . v+ + W at a time of all levels. */
+/* Returns the energy between two steps, 1/2 p- . v+ + W, at a time common to all levels. */
 static real energy_of(struct plate *b, bool finite)
 {
     const real strain = strain_of(b, finite), before = kinetic_of(b);
@@ -322,8 +324,8 @@ static real energy_of(struct plate *b, bool finite)
     return before + 0.5 * b->dt * (own + power) + strain;
 }
 
-/* Largest energy over `rounds` of 100 steps, and the mean of the last tenth, over that of the first, of a bar or plate
- * with random velocities. share: dt in spacings over wave speed. */
+/* Returns the largest energy over `rounds` of 100 steps and the mean of the last tenth over that of the first, for a
+ * bar or plate with random velocities. share: dt in spacings over wave speed. */
 static real energy_growth(enum space space, int levels, real share, int rounds, bool parted, real *momentum_error)
 {
     struct plate b;
@@ -348,8 +350,9 @@ static real energy_growth(enum space space, int levels, real share, int rounds, 
     return last / first;
 }
 
-/* Random velocities over 1e5 steps at 1.4 spacings over wave speed, 0.7 of the critical step: 0.5 % of the energy, and
- * momentum to round-off. Beyond the resonance at pi/2 of the finest cells' period, 1.57, it grows without bound. */
+/* Random velocities over 1e5 steps at 1.4 spacings over wave speed, 0.7 of the critical step: the energy is constant to
+ * 0.5 %, the momentum to round-off. Beyond the resonance at pi/2 of the finest cells' period, 1.57, the energy grows
+ * without bound. */
 static void test_steps(void **state)
 {
     (void)state;
@@ -363,7 +366,8 @@ static void test_steps(void **state)
     assert_true(energy_growth(SPACE_LINE, 2, 1.8, 1000, false, NULL) > 2);
 }
 
-/* Where two materials meet cells are not matched, as masses of nodes differ: momentum to round-off, and the energy. */
+/* At an interface of two materials the inertia of cells is not matched, because masses of nodes differ: momentum is
+ * conserved to round-off, and the energy is bounded. */
 static void test_materials(void **state)
 {
     (void)state;
@@ -378,7 +382,7 @@ static void test_materials(void **state)
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
-/* A pulse of this width (4 Gaussian radii) [spacings] in a bar, at `at` [m], travels to the right. */
+/* Sets a pulse of this width (4 Gaussian radii) [spacings] in a bar, centred at `at` [m], that travels to the right. */
 static void pulse_set(struct plate *b, real at, real width)
 {
     struct mesh_levels *l = &b->levels;
@@ -387,7 +391,7 @@ static void pulse_set(struct plate *b, real at, real width)
         struct mesh *mesh = level_mesh(l, level);
         for (int64_t I = 0; I < mesh->grid.n; I++) {
             const real x = (place_of(mesh, I, 0) - at) / s;
-            const real early = x + 0.5 * (real)(1 << level) * b->dt * c / s; /* half a step before */
+            const real early = x + 0.5 * (real)(1 << level) * b->dt * c / s; /* half a step earlier */
             const bool own = node_free(l, level, I);
             mesh->displacement[0][I] = own ? 1e-6 * s * exp(-0.5 * x * x) : 0;
             mesh->grid.velocity[0][I] = own ? 1e-6 * c * early * exp(-0.5 * early * early) : 0;
@@ -397,15 +401,15 @@ static void pulse_set(struct plate *b, real at, real width)
     levels_sync(l);
 }
 
-/* Displacement at the nodes of level 0. */
+/* Computes the displacement at the nodes of level 0. */
 static void profile_of(struct plate *b, real *u)
 {
     levels_prolong(&b->levels);
     memcpy(u, b->mesh.displacement[0], (size_t)b->mesh.grid.n * sizeof *u);
 }
 
-/* Difference in the mean square of a pulse that has gone 190 spacings through cells of `levels` from one in cells of
- * level 0, at nodes that both have, over the mean square of it. */
+/* Returns the mean-square difference between a pulse that has travelled 190 spacings through cells of `levels` and one
+ * in cells of level 0, at their common nodes, over its mean square. */
 static real pulse_difference(int levels, real width, bool matched)
 {
     enum { LENGTH = 640 };
@@ -434,10 +438,10 @@ static real pulse_difference(int levels, real width, bool matched)
     return sqrt(difference / all);
 }
 
-/* Cells of four spacings whose inertia is matched carry a pulse of 64 spacings as those of two do, within 0.2 %, one of
- * 128 within 0.02 %: the dispersion that is left falls with the fourth power of the width (measured 0.08, 0.008 %).
- * Lumped ones are off by 2.4 %, which falls with its square. With cells of eight spacings behind those of four 2 and
- * 0.1 %. */
+/* Cells of four spacings with matched inertia carry a pulse of 64 spacings as those of two within 0.2 %, one of 128
+ * within 0.02 %: the dispersion decreases with the fourth power of the width (measured 0.08 and 0.008 %). With
+ * lumped mass the error is 2.4 %, decreasing with the square. With cells of eight spacings after those of four: 2
+ * and 0.1 %. */
 static void test_dispersion(void **state)
 {
     (void)state;
@@ -448,7 +452,7 @@ static void test_dispersion(void **state)
     assert_true(pulse_difference(2, 128, true) < 0.001);
 }
 
-/* What a pulse of this width leaves behind an interface to cells of four spacings, over its peak. */
+/* Returns the amplitude reflected at an interface to cells of four spacings, over the peak of the pulse. */
 static real reflection(int levels, real width)
 {
     enum { LENGTH = 1600 };
@@ -476,8 +480,8 @@ static real reflection(int levels, real width)
     return back / peak;
 }
 
-/* The impedance of lumped cells gives 2.0, 0.6, 0.15 % at 32, 64, 128 spacings for steps from 2 to 4; the limits are a
- * fifth to a quarter more. */
+/* The impedance of lumped cells gives 2.0, 0.6, 0.15 % at 32, 64, 128 spacings for the transition from 2 to 4; the
+ * limits are larger by a fifth to a quarter. */
 static void test_reflection(void **state)
 {
     (void)state;

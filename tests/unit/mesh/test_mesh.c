@@ -1,12 +1,12 @@
-/* The mesh of the reference frame against plain sums over its points: forces are the exact gradient of the
- * energy, patches carry uniform strain, nothing resists a rotation, momentum of both kinds is kept, converted points
- * take their share along, the critical step is that of the mesh, and kicks have the inertia of matched cells. */
+/* Mesh of the reference frame compared with plain sums over its points: forces are the exact gradient of the energy,
+ * patches carry uniform strain, rotation causes no force, momentum and angular momentum are conserved, converted points
+ * take their share, the critical step is that of the mesh, and velocity updates have the inertia of matched cells. */
 #include "tests/support/mesh_block.h"
 
 #include "coupling/conversion.h"
 
-/* f = -dW/du by central differences of the plain energy of the cells round a node. Their error is third derivatives
- * times the square of the step, and round-off of the energy over the step: 1e-7 of the largest force together. */
+/* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
+ * force: third derivatives times the squared step, and round-off of the energy over the step. */
 static void gradient_of(enum space space, bool finite, bool cubic)
 {
     struct block b;
@@ -45,11 +45,11 @@ static void test_gradient(void **state)
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
         for (int finite = 0; finite < 2; finite++) gradient_of(spaces[s], finite, false);
-    gradient_of(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, not isotropic */
+    gradient_of(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, anisotropic */
     gradient_of(SPACE_SOLID, true, true);
 }
 
-/* The closed form of whole cells and the stiffness of cut ones are the same sums over points, to round-off. */
+/* The closed form of complete cells and the stiffness of cut ones equal the same sums over points, to round-off. */
 static void test_whole_and_cut(void **state)
 {
     (void)state;
@@ -80,7 +80,8 @@ static void test_whole_and_cut(void **state)
         }
 }
 
-/* What a point at small strain gives: C : e less what bonds carry of it, and less the skew part. */
+/* Computes the stress that a point transfers at small strain: C : e minus the part carried by bonds, without its
+ * antisymmetric part. */
 static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
@@ -107,8 +108,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     }
 }
 
-/* Partial cells that leave any part of their stress to bonds that has an energy, against sums of V P grad N point by
- * point: round-off of a few hundred terms. What changes after the mesh is made is followed, cell by cell. */
+/* Partial cells with a random partial stress that derives from an energy, compared with sums of V P grad N over points:
+ * round-off of a few hundred terms. Later changes are followed cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;
@@ -130,7 +131,7 @@ static void test_partial(void **state)
         mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
-        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cell less is cut */
+        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cut cell less */
         mesh_follow(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
         assert_true(mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 1));
@@ -153,8 +154,8 @@ static void test_partial(void **state)
     }
 }
 
-/* Uniform strain leaves no force inside, whole cells and cut ones: round-off of sums of stresses times faces. Inside
- * are nodes all of whose neighbours have their full mass. */
+/* Uniform strain causes no force inside, for complete and cut cells: round-off of sums of stresses times faces. Inner
+ * nodes are those whose neighbours all have their full mass. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -168,7 +169,7 @@ static void test_patch(void **state)
             int inside = 0;
             for (int64_t I = 0; I < b.mesh.grid.n; I++) full = real_max(full, b.mesh.grid.mass[I]);
             const real scale = b.elastic[0].c11 * 0.01 * b.mesh.volume / CLOUD_SPACING;
-            assert_true(largest_force(&b) > 0.1 * scale); /* its edges do have forces */
+            assert_true(largest_force(&b) > 0.1 * scale); /* check: the edges have forces */
             for (int64_t I = 0; I < b.mesh.grid.n; I++) {
                 if (b.mesh.grid.mass[I] < full * (1 - 1e-12)) continue;
                 inside++;
@@ -179,8 +180,8 @@ static void test_patch(void **state)
         }
 }
 
-/* A rotation costs nothing at finite strain, and any displacement leaves neither force nor moment on the whole body:
- * 1e-13 of the sums' terms. Small strain keeps the force, and fails the moment. */
+/* A rotation causes no force at finite strain, and no displacement causes a resultant force or moment on the whole
+ * body: 1e-13 of the terms. At small strain the resultant force vanishes, but not the moment. */
 static void test_momentum(void **state)
 {
     (void)state;
@@ -213,8 +214,8 @@ static void test_momentum(void **state)
         }
 }
 
-/* Least squares give linear fields back to their nodes, and to the points again: the residual's tolerance times the
- * condition of the mass matrix. */
+/* Least squares reproduce linear fields at nodes, and at the points again: tolerance of the residual times the
+ * condition number of the mass matrix. */
 static void test_start(void **state)
 {
     (void)state;
@@ -235,7 +236,7 @@ static void test_start(void **state)
     }
 }
 
-/* Converted points take their share of mass and momentum along; what is left is the mesh of the points that stay. */
+/* Converted points take their share of mass and momentum; the remainder is the mesh of the other points. */
 static void test_release(void **state)
 {
     (void)state;
@@ -269,8 +270,8 @@ static void test_release(void **state)
     }
 }
 
-/* Whole cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 =
- * 16/3 (1 + nu) c^2/h^2. In a bar h/c. */
+/* Complete cells of 2 D in plane stress, nu = 1/3, are stable to 2 D/c, a single point in a cell to 1.5 D/c: omega^2 =
+ * 16/3 (1 + nu) c^2/h^2. In a bar: h/c. */
 static void test_step(void **state)
 {
     (void)state;
@@ -290,7 +291,7 @@ static void test_step(void **state)
     block_free(&b);
 }
 
-/* What is no lattice of two points a cell is refused by name of the place. */
+/* Points that do not form a lattice of two points per cell are refused, with the position. */
 static void test_refused(void **state)
 {
     (void)state;
@@ -315,8 +316,8 @@ static void test_refused(void **state)
 
 enum { EDGE = 4, NODES = EDGE * EDGE * EDGE };
 
-/* a . (L - C) a of a cell of unit mass with the values a at its corners: of L a 2^dim-th, of C a third or a sixth for
- * each axis along which two corners are alike or not. */
+/* Returns a . (L - C) a of a cell of unit mass with corner values a: L a divides a by 2^dim, C a by a factor 3 or 6 for
+ * each axis along which two corners are equal or different. */
 static real plain_form(int dim, const real *a)
 {
     real sum = 0;
@@ -329,8 +330,8 @@ static real plain_form(int dim, const real *a)
     return sum;
 }
 
-/* Kick energy of cells whose inertia is matched, of random forces and masses, some cells of a second material and some
- * not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
+/* Kinetic energy of a velocity update with matched inertia, for random forces and masses, with some cells of a second
+ * material and some not matched: dt^2/4 (f^2/m + match M a . (L - C) a) with a = f/m, to round-off. */
 static void test_matched_kick(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* How coarse cells may be by how thick the body is: plates, strips, tubes, wedges, slits, half bodies with a mirror. */
+/* Largest level of coarse cells from the thickness of the body: plates, strips, tubes, wedges, slits, half bodies with
+ * a mirror. */
 #include "tests/support/near.h"
 
 #include "base/memory.h"
@@ -8,7 +9,7 @@
 #define EDGE 0.4e-3 /* of a cell [m] */
 enum { MARGIN = 2 };
 
-/* A box of cells, all of them full of the body. */
+/* A box of cells inside the body. */
 struct body {
     struct mesh mesh;
     uint8_t *room;
@@ -52,7 +53,8 @@ static int64_t cell_at(const struct body *b, int x, int y, int z)
     return I;
 }
 
-/* The level of which six cells lie across `thick` cells of level 0; half a cell of it less will do. */
+/* Returns the level for which six cells fit across `thick` cells of level 0, with half a cell of that level as
+ * tolerance. */
 static int level_for(int thick)
 {
     int level = 0;
@@ -60,7 +62,7 @@ static int level_for(int thick)
     return level;
 }
 
-/* Plates in space, strips in the plane: as thick everywhere, whatever their length. */
+/* Plates in 3D, strips in 2D: equal thickness everywhere, for any length. */
 static void plates_and_strips(void **state)
 {
     (void)state;
@@ -77,7 +79,7 @@ static void plates_and_strips(void **state)
         }
 }
 
-/* A square tube: its wall counts, not its breadth. */
+/* A square tube: the thickness of its wall counts, not its width. */
 static void tubes(void **state)
 {
     (void)state;
@@ -92,7 +94,7 @@ static void tubes(void **state)
     }
 }
 
-/* A wedge, one cell higher every four: level L where a square of its side fits, up to its own length behind that. */
+/* A wedge, one cell higher every four: level L where a square of its size fits, up to its own length beyond. */
 static void wedges(void **state)
 {
     (void)state;
@@ -103,14 +105,14 @@ static void wedges(void **state)
     assert_int_equal(mesh_room(&b.mesh, NULL, 0, b.room), level_for(40)); /* 4 (40 - 1) + 40 cells */
     for (int x = 0; x < 200; x++)
         for (int level = 1; level <= LEVELS_MAX; level++) {
-            const int side = 6 * (1 << level) - 1, from = 4 * (side - 1); /* so high from there on */
+            const int side = 6 * (1 << level) - 1, from = 4 * (side - 1); /* this height from there on */
             const bool fits = side <= 50 && from + side <= 200 && x >= from;
             assert_int_equal(b.room[cell_at(&b, x, 0, 0)] >= level, fits);
         }
     body_free(&b);
 }
 
-/* Half of a strip beside a plane of symmetry is as thick as all of it; a slit in the middle halves it. */
+/* Half of a strip beside a plane of symmetry has the thickness of the whole; a slit in the middle halves it. */
 static void mirrors_and_slits(void **state)
 {
     (void)state;

@@ -1,17 +1,17 @@
 /* Slits of the mesh: free surfaces between points. Forces are the gradient of the energy of the points, momentum is
- * kept, masses are those of the points, a slit along the load does not disturb it, one across it carries nothing, and
- * points leave and come back. */
+ * conserved, masses are those of the points, a slit along the load has no effect, one across it transmits nothing, and
+ * points can leave and return. */
 #include "tests/support/mesh_block.h"
 
-/* Slits of the block in cells of two spacings from its lower corner: between cells, inside cells, oblique, and an end
- * in the block. Cells begin half a spacing before the first particle. */
+/* Slits of the block: between cells of two spacings, inside cells, oblique, and an end inside the block. Cells begin
+ * half a spacing before the first particle. */
 enum slit_kind { BETWEEN_CELLS, INSIDE_CELLS, OBLIQUE, SLITS };
 
 static real slit_corner[4][DIM_MAX];
 static struct crack slit_made;
 
-/* A slit from x = -1 to `to`, at height y; oblique: that much higher at its end. All in spacings from the corner of the
- * block. In space through the whole thickness. */
+/* Returns a slit from x = -1 to `to`, at height y; oblique: higher by this amount at its end. All in spacings from the
+ * corner of the block. In 3D through the whole thickness. */
 static const struct crack *slit_of(const struct block *b, enum slit_kind kind, real to)
 {
     const struct grid *g = &b->mesh.grid;
@@ -26,7 +26,7 @@ static const struct crack *slit_of(const struct block *b, enum slit_kind kind, r
     return &slit_made;
 }
 
-/* The block, with a slit. */
+/* Creates the block with a slit. */
 static void slit_block(struct block *b, enum space space, enum slit_kind kind, real to, bool hole)
 {
     block_make(b, space, hole, false);
@@ -61,7 +61,7 @@ static real point_mass(const struct block *b)
     return sum;
 }
 
-/* No two points that a slit through the block parts share a cell or a node; and masses are those of the points. */
+/* Two points separated by a slit through the block share no cell and no node; masses are those of the points. */
 static void test_parts(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void test_parts(void **state)
             int64_t pairs = 0;
             for (int64_t i = 0; i < b.c.p.n; i++)
                 for (int64_t j = 0; j < i; j++) {
-                    bool near = true; /* others share no node anyway */
+                    bool near = true; /* others share no node in any case */
                     for (int d = 0; d < dim; d++)
                         near = near && fabs(b.c.p.X[d][i] - b.c.p.X[d][j]) < 4 * CLOUD_SPACING;
                     if (!near || !parted(&b, i, j)) continue;
@@ -90,8 +90,8 @@ static void test_parts(void **state)
         }
 }
 
-/* Forces on some of the doubled nodes by central differences of the energy of all points: third derivatives times the
- * square of the step, and round-off of the sum over the step, are 1e-5 of the largest force together. */
+/* Forces on some of the doubled nodes by central differences of the energy of all points. Tolerance 1e-5 of the largest
+ * force: third derivatives times the squared step, and round-off of the sum over the step. */
 static void test_gradient(void **state)
 {
     (void)state;
@@ -108,7 +108,7 @@ static void test_gradient(void **state)
                 for (int64_t I = 0; I < b.mesh.grid.n; I++)
                     for (int d = 0; d < b.c.p.dim && b.mesh.slits.split[I] && b.mesh.grid.mass[I] > 0; d++) {
                         real *u = &b.mesh.displacement[d][I], W[2];
-                        if (tried++ % (s == 2 ? 97 : 7)) continue; /* of many */
+                        if (tried++ % (s == 2 ? 97 : 7)) continue; /* a sample of many */
                         *u += step, W[1] = plain_energy(&b, finite);
                         *u -= 2 * step, W[0] = plain_energy(&b, finite);
                         *u += step;
@@ -122,7 +122,7 @@ static void test_gradient(void **state)
             }
 }
 
-/* Largest force on nodes away from the ends of the block, which are pulled, over stress times a point's face [1]. */
+/* Returns the largest force on nodes away from the loaded ends of the block, over stress times a point's face [1]. */
 static real residual(const struct block *b, real stress)
 {
     real most = 0, low = INFINITY, high = -INFINITY;
@@ -138,8 +138,8 @@ static real residual(const struct block *b, real stress)
     return most / (stress * mesh->volume / CLOUD_SPACING);
 }
 
-/* Uniaxial tension along the slit: nothing acts on its faces, which are free. u = e x, -nu e y (, z): in the plane
- * stress and in space the stress is E e along x alone. */
+/* Uniaxial tension along the slit, u = e x, -nu e y (, z): no force on its free faces; in plane stress and 3D the
+ * stress is E e along x only. */
 static void test_patch(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void test_patch(void **state)
         }
 }
 
-/* A slit through the block parts it: one side moves and the other feels nothing. */
+/* A slit through the block separates it: motion of one side causes no force on the other. */
 static void test_loose(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static void test_loose(void **state)
         }
 }
 
-/* A linear field is projected to the nodes of both sides exactly, and to 1e-12 a jump across a slit that parts the
- * block. Points that leave take their mass; inserted again they bring it back, with their displacement. */
+/* A linear field is projected exactly to the nodes of both sides, and a jump across a slit through the block to 1e-12.
+ * Points that leave take their mass; when they are inserted again they return it, with their displacement. */
 static void test_points(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tests of checkpoints: what comes back, and what damage, kills and a full disk may not do. */
+/* Tests of checkpoints: restored data, and effects of damage, kills and a full disk. */
 #include <errno.h>
 #include <fcntl.h>
 #include <libgen.h>
@@ -35,7 +35,7 @@ static void assert_message(const char *part)
     if (!strstr(status_message(), part)) fail_msg("message \"%s\" lacks \"%s\"", status_message(), part);
 }
 
-/* The state of a toy: a counter, an array whose length must be known first, an empty array. */
+/* State of a test object: a counter, an array whose length must be known first, an empty array. */
 struct toy {
     struct output *out;
     int64_t step, n;
@@ -48,7 +48,7 @@ static status toy_archive(void *context, struct archive *a)
     struct toy *toy = context;
     toy->calls++;
     ARCHIVE_VALUE(a, "toy/step", toy->step);
-    ARCHIVE_VALUE(a, "toy", toy->n); /* begins as the others do: no clash */
+    ARCHIVE_VALUE(a, "toy", toy->n); /* a name that begins as the others do: no conflict */
     if (!a->saving) {
         int64_t size = a->stored_size(a, "toy/value");
         if (size != toy->n * (int64_t)sizeof(real))
@@ -75,7 +75,7 @@ static void toy_check(const struct toy *toy, int64_t step, int64_t n)
     for (int64_t i = 0; i < n; i++) assert_true(toy->value[i] == (real)(i * step));
 }
 
-/* Writes a checkpoint of a toy at `step`. */
+/* Writes a checkpoint of the object at `step`. */
 static status write_step(struct output *o, int64_t step, int64_t n)
 {
     struct toy toy = toy_make(o, step, n);
@@ -84,7 +84,7 @@ static status write_step(struct output *o, int64_t step, int64_t n)
     return s;
 }
 
-/* Restores into a new toy and compares. */
+/* Restores into a new object and compares. */
 static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
 {
     struct output other = {0};
@@ -95,7 +95,7 @@ static void assert_resumes_at(const struct output *o, int64_t step, int64_t n)
     output_close(&other);
 }
 
-/* No checkpoint may be taken, and no byte of it may reach the state. */
+/* Checks that no checkpoint is accepted and no byte of it reaches the state. */
 static void assert_not_restored(const struct output *o)
 {
     struct output other = {0};
@@ -112,7 +112,7 @@ static int64_t file_size(const char *path)
     return s.st_size;
 }
 
-/* Inverts one byte of a file; twice is as before. */
+/* Inverts one byte of a file; a second call restores it. */
 static void flip(const char *path, int64_t at)
 {
     unsigned char byte;
@@ -124,7 +124,7 @@ static void flip(const char *path, int64_t at)
     close(fd);
 }
 
-/* ---- what comes back --------------------------------------------------------------------------------------------- */
+/* ---- restored data ----------------------------------------------------------------------------------------------- */
 
 static void state_comes_back(void **state)
 {
@@ -153,7 +153,7 @@ static void state_comes_back(void **state)
     output_close(&o);
 }
 
-/* HDF5 opens the file as if its footer were not there. */
+/* HDF5 opens the file although it has a footer. */
 static void hdf5_ignores_the_footer(void **state)
 {
     (void)state;
@@ -203,7 +203,7 @@ static void every_truncation_is_found(void **state)
     output_close(&o);
 }
 
-/* Replaces standard error by a file for one call and returns what was said. */
+/* Redirects standard error to a file during a restore and returns its contents. */
 static char *said_by_resume(const struct output *o, int64_t step, int64_t n)
 {
     char *text;
@@ -231,9 +231,9 @@ static void older_checkpoint_stands_in(void **state)
     assert_non_null(strstr(said, "older/checkpoint.h5 is damaged"));
     assert_non_null(strstr(said, "resuming from checkpoint.previous.h5"));
     memory_free(said);
-    /* The damaged one is out of the way: the next checkpoint keeps the whole one. */
+    /* The damaged file is renamed: the next checkpoint keeps the whole one. */
     assert_int_equal(write_step(&o, 7, 100), OK);
-    unlink("older/checkpoint.h5"); /* as a kill between the two renames */
+    unlink("older/checkpoint.h5"); /* as after a kill between the two renames */
     said = said_by_resume(&o, 5, 100);
     assert_non_null(strstr(said, "older/checkpoint.h5 is missing"));
     memory_free(said);
@@ -273,7 +273,7 @@ static void other_scenes_are_refused(void **state)
     output_close(&o);
 }
 
-/* Makes a sound file, with the right footer, of a format that is not ours yet. */
+/* Creates a valid file, with the right footer, of a future format. */
 static status future_archive(void *context, struct archive *a)
 {
     int32_t version = 1000;
@@ -320,12 +320,12 @@ static void fault_of_a_module_loses_nothing(void **state)
 
 /* ---- a full disk ------------------------------------------------------------------------------------------------- */
 
-/* Child: every write must fail cleanly; returns the number of the first expectation that does not hold. */
+/* Child process: every write must fail without a crash; returns the number of the first violated expectation. */
 static int write_to_full_disk(struct output *o, bool frame_first)
 {
     struct particles p;
     struct rlimit limit = {.rlim_cur = 20000, .rlim_max = RLIM_INFINITY};
-    omp_set_num_threads(1); /* the team of threads stayed behind in the parent */
+    omp_set_num_threads(1); /* the thread team exists only in the parent */
     particles_make(&p, 2, 5000, 0);
     for (int64_t i = 0; i < p.n; i++) p.id[i] = (int32_t)i;
     if (setrlimit(RLIMIT_FSIZE, &limit) != 0) return 1;
@@ -338,7 +338,7 @@ static int write_to_full_disk(struct output *o, bool frame_first)
         s = write_step(o, 7, 5000);
     if (s != FAILED) return 2;
     if (strcmp(status_message(), expected) != 0) return 3;
-    /* HDF5 is not called again, and the first message stands. */
+    /* HDF5 is not called again, and the first message is kept. */
     if (output_frame(o, &p, 0, 0, scene_text) != FAILED || write_step(o, 7, 1) != FAILED) return 4;
     if (strcmp(status_message(), expected) != 0) return 5;
     if (path_exists("full/checkpoint.h5.cleave.tmp") || path_exists("full/frames/000000.hdf.cleave.tmp")) return 6;
@@ -380,7 +380,7 @@ static int start(void **state)
 
 int main(int argc, char **argv)
 {
-    /* All files of the tests lie beside the program. */
+    /* Folder beside the program for all files of the tests. */
     struct path folder = {{0}};
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(state_comes_back),

@@ -1,4 +1,4 @@
-/* Tests of what reads runs back: summary.json, history.csv, `cleave compare`, `cleave plot`. */
+/* Tests of reading results: summary.json, history.csv, `cleave compare`, `cleave plot`. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -141,7 +141,7 @@ static void history_is_read_by_name(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* A square plate whose right half moves apart by `gap`; `shift` is added to every displacement. */
+/* Sets a square plate whose right half is displaced by `gap`; `shift` is added to every displacement. */
 static void fill_plate(struct particles *p, double gap, double shift)
 {
     particles_make(p, 2, SIDE * SIDE, 0);
@@ -197,7 +197,7 @@ static status run(status (*command)(int, char **), int argc, char **argv, char *
     return s;
 }
 
-/* The first number after a label. */
+/* Returns the first number after a label. */
 static double number_after(const char *text, const char *label)
 {
     const char *at = strstr(text, label);
@@ -213,10 +213,10 @@ static void runs_are_compared(void **state)
     write_run("b", 1e-6, 8, 0.013);
     char *words[] = {"compare", "a", "b"};
     assert_int_equal(run(command_compare, 3, words, printed), OK);
-    /* the last frame of b is shifted by 2e-6; frames are single precision: one part in 1e4 of it at X ~ 1e-2 */
+    /* The last frame of b is shifted by 2e-6; frames are in single precision: 1e-4 of this shift at X of about 1e-2. */
     double apart = number_after(printed, "displacement [m]");
     assert_true(fabs(apart - 2e-6) < 1e-9);
-    double largest = 0, mean = 0; /* alike at all particles */
+    double largest = 0, mean = 0; /* equal at all particles */
     assert_int_equal(sscanf(strstr(printed, "displacement [m]"), "displacement [m] %lf %lf", &largest, &mean), 2);
     assert_true(fabs(mean - largest) < 1e-9);
     assert_true(number_after(printed, "damage") == 0);
@@ -227,7 +227,7 @@ static void runs_are_compared(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: yes"));
 }
 
-/* In plane strain runs may differ in the stress across the plane alone. */
+/* Runs in plane strain that differ only in the out-of-plane stress are reported. */
 static void stress_across_is_compared(void **state)
 {
     (void)state;
@@ -261,8 +261,8 @@ static void unequal_runs_are_told_apart(void **state)
     assert_non_null(strstr(printed, "comparable particle by particle: no"));
 }
 
-/* Two particles that LAMMPS moved by -1.3 mm and 2.2 mm and of whose bonds made there it broke 0.25 and 0.5, when 0.4
- * and 0 were broken from the start: damage 0.55 and 0.5. */
+/* Results of LAMMPS: two particles displaced by -1.3 mm and 2.2 mm, with 0.25 and 0.5 of the bonds of LAMMPS broken,
+ * when 0.4 and 0 were broken initially: damage 0.55 and 0.5. */
 static void runs_of_lammps_are_read(void **state)
 {
     (void)state;
@@ -320,7 +320,7 @@ static void wrong_words_are_refused(void **state)
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
-/* Width of a PNG picture [pixel]; its signature and first chunk are checked. */
+/* Returns the width of a PNG picture [pixel] after checking its signature and first chunk. */
 static int picture_width(const char *path)
 {
     unsigned char head[24];
@@ -364,10 +364,10 @@ static void missing_gnuplot_is_named(void **state)
     assert_false(is_there("a/pictures/damage.png"));
 }
 
-/* The share of pixels of a rectangle [spacings] that show a body. */
+/* Returns the share of pixels of a rectangle [spacings] that show a body. */
 static double covered(const struct cloud *c, double from_x, double to_x)
 {
-    enum { PIXELS = 20 * SIDE }; /* twenty a spacing: a seam of a tenth of it shows */
+    enum { PIXELS = 20 * SIDE }; /* 20 pixels per spacing: a gap of a tenth of a spacing is visible */
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     struct view v = {.from = {from_x * SPACING, 0}, .to = {to_x * SPACING, SIDE * SPACING}, .top = 0.5};
     raster_paint(pixel, PIXELS, PIXELS, &v, c, MAP_DAMAGE);
@@ -388,14 +388,14 @@ static void bodies_are_closed_and_gaps_open(void **state)
     cloud_make(&c, &f, NULL);
     assert_true(c.aligned);
     assert_int_equal(c.n, SIDE * SIDE);
-    assert_true(covered(&c, 0, SIDE) == 1); /* no seam between neighbours */
+    assert_true(covered(&c, 0, SIDE) == 1); /* no gap between neighbours */
     assert_true(covered(&c, SIDE + 1, SIDE + 3) == 0);
     cloud_free(&c);
     for (int64_t i = 0; i < f.n; i++) f.u[0][i] = f.X[0][i] > 0.5F * SIDE * 1e-3F ? 2e-3F : 0;
     cloud_make(&c, &f, NULL);
     assert_true(covered(&c, 0.5 * SIDE + 0.2, 0.5 * SIDE + 1.8) == 0); /* two spacings apart */
     cloud_free(&c);
-    const double rotation = 0.5; /* radian: a turned lattice is closed too */
+    const double rotation = 0.5; /* radian: a rotated lattice has no gaps either */
     for (int64_t i = 0; i < f.n; i++) {
         double x = f.X[0][i] - 6e-3, y = f.X[1][i] - 6e-3;
         f.u[0][i] = (float)(x * cos(rotation) - y * sin(rotation) - x);
@@ -411,7 +411,7 @@ static void bodies_are_closed_and_gaps_open(void **state)
     frame_free(&f);
 }
 
-/* ---- a folder for all -------------------------------------------------------------------------------------------- */
+/* ---- common folder ----------------------------------------------------------------------------------------------- */
 
 static char folder[] = "/tmp/cleave_compare_XXXXXX";
 

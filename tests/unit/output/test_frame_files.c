@@ -1,4 +1,4 @@
-/* Tests of how frames are read: fields by name, all frames as one file, frames of regions. */
+/* Tests of reading frames: fields by name, all frames as one file, frames of regions. */
 #include <errno.h>
 #include <ftw.h>
 #include <libgen.h>
@@ -28,7 +28,7 @@ static void open_fresh(struct output *o, const char *folder)
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, false), OK);
 }
 
-/* Particles with something in the fields; ids run backwards. */
+/* Creates particles with values in the fields; ids are in reverse order. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -39,7 +39,7 @@ static void make_particles(struct particles *p, int dim, int64_t n)
     }
 }
 
-/* Fields by name: those that follow from what a frame holds, those that it holds, and a line for others. */
+/* Fields by name: derived ones, those in the file, and a message for others. */
 static void fields_are_read_by_name(void **state)
 {
     (void)state;
@@ -76,7 +76,7 @@ static void fields_are_read_by_name(void **state)
 }
 
 /* Reads what VTK's reader of temporal grids reads of a step: the part PartOffsets[step]; points from PointOffsets on,
- * one cell offset more than cells for each part before, rows of a field from its own offset on. */
+ * one cell offset more than cells for each preceding part, rows of a field from its own offset on. */
 static void check_step(struct hdf *f, int step, int steps, const struct particles *p)
 {
     static const char *const start[] = {
@@ -105,7 +105,7 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
     hdf_read_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, corner);
     assert_false(f->failed);
     for (int64_t k = 0; k < p->n; k++) {
-        const int64_t i = p->n - 1 - k; /* ids run backwards */
+        const int64_t i = p->n - 1 - k; /* ids are in reverse order */
         assert_true(points[3 * (at[1] + k)] == (float)p->x[0][i]);
         assert_true(stress[6 * (at[4] + k)] == (float)p->stress[0][i]);
         assert_int_equal(offset[at[2] + at[0] + k], k);
@@ -115,7 +115,7 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
     free(all), free(points), free(stress), free(offset), free(corner);
 }
 
-/* frames.vtkhdf has the layout that VTK publishes, holds no rows of its own, and moves with its folder. */
+/* frames.vtkhdf has the layout published by VTK, contains no rows of its own, and can be moved with its folder. */
 static void frames_in_one_file(void **state)
 {
     (void)state;
@@ -155,7 +155,7 @@ static void frames_in_one_file(void **state)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-/* A series of a region has its particles by id, its own folder and indices, and goes with the run that is replaced. */
+/* A series of a region has its particles by id, its own folder and indices, and is removed with a replaced run. */
 static void frames_of_a_region(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void frames_of_a_region(void **state)
 
 int main(int argc, char **argv)
 {
-    /* All files of the tests lie beside the program. */
+    /* Folder beside the program for all files of the tests. */
     static const char folder[] = "test_frame_files.files";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fields_are_read_by_name),

@@ -1,6 +1,6 @@
-/* Text dumps of LAMMPS: what is written is read, in any order of ids and columns; a dump that is being written is read
- * as far as it is whole; damaged ones, thousands of them, are read or refused in one line, and never more is read than
- * the file holds. */
+/* Text dumps of LAMMPS: written data are read for any order of ids and columns; an incomplete dump is read up to its
+ * last complete step; thousands of damaged dumps are read or refused in one line, and never more than the file contains
+ * is read. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* Tests of output.h: frames, indices, history, checkpoints, and what a full disk or damaged bytes do. */
+/* Tests of output.h: frames, indices, history, checkpoints, and effects of a full disk and damaged bytes. */
 #include <errno.h>
 #include <ftw.h>
 #include <libgen.h>
@@ -38,21 +38,21 @@ static int remove_one(const char *path, const struct stat *s, int type, struct F
 
 static void remove_tree(const char *path) { nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS); }
 
-/* A folder of one test, empty. */
+/* Opens an empty folder for one test. */
 static void open_fresh(struct output *o, const char *folder, bool compress)
 {
     remove_tree(folder);
     assert_int_equal(output_open(o, folder, scene_text, OUTPUT_OVERWRITE, compress), OK);
 }
 
-/* A number in [0, 1) that depends on i and k only. */
+/* Returns a number in [0, 1) that depends only on i and k. */
 static real noise(int64_t i, int k)
 {
     uint64_t a = (uint64_t)(i * 8 + k + 1) * UINT64_C(0x9E3779B97F4A7C15);
     return (real)((a ^ a >> 31) * UINT64_C(0xBF58476D1CE4E5B9) >> 11) * 0x1p-53;
 }
 
-/* Particles with something in every field; ids run backwards and have gaps. */
+/* Creates particles with values in every field; ids are in reverse order with gaps. */
 static void make_particles(struct particles *p, int dim, int64_t n)
 {
     particles_make(p, dim, n, 0);
@@ -95,7 +95,7 @@ static void check_frame(const struct frame *f, const struct particles *p)
     assert_int_equal(f->n, p->n);
     assert_int_equal(f->dim, p->dim);
     for (int64_t k = 0; k < f->n; k++) {
-        int64_t i = p->n - 1 - k; /* ids run backwards */
+        int64_t i = p->n - 1 - k; /* ids are in reverse order */
         assert_int_equal(f->id[k], p->id[i]);
         for (int d = 0; d < p->dim; d++) {
             assert_true(f->X[d][k] == (float)p->X[d][i]);
@@ -130,7 +130,7 @@ static void frames_come_back(void **state)
         }
 }
 
-/* The layout that the reader of VTK 9.1 needs. */
+/* Frames have the layout required by the reader of VTK 9.1. */
 static void frames_have_vtk_layout(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void frames_have_vtk_layout(void **state)
     output_close(&o);
 }
 
-/* Plastic strain is in frames and their index if the particles have it, and only then. */
+/* Plastic strain is in frames and their index if and only if the particles have it. */
 static void plastic_strain_where_it_is(void **state)
 {
     (void)state;
@@ -186,7 +186,7 @@ static void plastic_strain_where_it_is(void **state)
     }
 }
 
-/* Forces of contact and fragments are in frames that are given them, by id, and only there. */
+/* Contact forces and fragments are in frames, by id, if and only if they are passed. */
 static void frames_hold_what_they_are_given(void **state)
 {
     (void)state;
@@ -233,7 +233,7 @@ static void indices_list_all_frames(void **state)
     for (int k = 0; k < 40; k++) assert_int_equal(output_frame(&o, &p, k / 7.0, k, scene_text), OK);
     assert_int_equal(frames_list("indices", &n, &list), OK);
     assert_int_equal(n, 40);
-    /* 17 digits: the same double */
+    /* 17 digits: the same double. */
     for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);
     memory_free(list);
     assert_int_equal(file_get("indices/frames.xdmf", &text, &length), OK);
@@ -299,7 +299,7 @@ static void folders_of_others_are_refused(void **state)
     memset(name, 'x', sizeof name - 1);
     name[sizeof name - 1] = '\0';
     assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), REFUSED);
-    name[300] = '\0'; /* longer than any file system's names */
+    name[300] = '\0'; /* longer than names of any file system */
     assert_int_equal(output_open(&o, name, scene_text, OUTPUT_FIRST, false), FAILED);
     assert_message("choose another -o");
     mkdir("folder/empty", 0777);
@@ -328,7 +328,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_FIRST, false), REFUSED);
     assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
-    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* it has but begun */
+    assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* the run has only begun */
     assert_int_equal(output_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
@@ -340,7 +340,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
         assert_true(file_holds(path_join("again", others[k]).text, "mine", 4));
 }
 
-/* A table of others in the folder of a run is never written over; one that was cut short is the run's own. */
+/* A table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the run's own. */
 static void tables_of_others_stay(void **state)
 {
     (void)state;
@@ -403,7 +403,7 @@ static void history_is_cut_back(void **state)
     output_close(&o);
 }
 
-/* A limit of the length of files stands in for a full disk. */
+/* A limit on the file length represents a full disk. */
 static void history_on_a_full_disk_fails(void **state)
 {
     (void)state;
@@ -465,7 +465,7 @@ static void summary_has_the_figures(void **state)
     assert_null(strstr(text, "inf"));
     assert_null(strstr(text, "message"));
     memory_free(text);
-    remove_tree("summary"); /* where it cannot be written, the run's own fault stands */
+    remove_tree("summary"); /* if it cannot be written, the fault of the run is kept */
     assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
     assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
@@ -484,7 +484,7 @@ static int start(void **state)
 
 int main(int argc, char **argv)
 {
-    /* All files of the tests lie beside the program. */
+    /* Folder beside the program for all files of the tests. */
     struct path folder = {{0}};
     static const struct CMUnitTest tests[] = {
         cmocka_unit_test(frames_come_back),

@@ -1,4 +1,4 @@
-/* Tests of pictures: what they would show, by the numbers that are drawn. */
+/* Tests of pictures through the numbers that are drawn. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@
 
 static const double SPACING = 1e-3; /* [m] */
 
-/* A block of nx x ny x nz particles at rest, without damage. */
+/* Creates a block of nx x ny x nz particles at rest, without damage. */
 static struct frame block_make(int nx, int ny, int nz, int dim)
 {
     const int count[3] = {nx, ny, nz};
@@ -47,8 +47,7 @@ static float value_of(struct frame *f, const char *name)
     return first;
 }
 
-/* Closed forms: plane stress of 30 and 10 across each other with a shear of 10 has its principal ones at
- * 20 +- sqrt(200) (Mohr 1882). */
+/* Closed form: plane stress of 30 and 10 with a shear of 10 has the principal stresses 20 +- sqrt(200) (Mohr 1882). */
 static void fields_follow_from_stress(void **state)
 {
     (void)state;
@@ -56,7 +55,7 @@ static void fields_follow_from_stress(void **state)
     f.stress[0][0] = 30, f.stress[1][0] = 10, f.stress[2][0] = 10;
     f.v[0][0] = 3, f.v[1][0] = -4;
     assert_float_equal(value_of(&f, "principal_stress"), 20 + sqrt(200), 1e-4);
-    assert_float_equal(value_of(&f, "principal_stress_3"), 0, 1e-4); /* that across the plane */
+    assert_float_equal(value_of(&f, "principal_stress_3"), 0, 1e-4); /* the out-of-plane stress */
     assert_float_equal(value_of(&f, "pressure"), -40.0 / 3, 1e-4);
     assert_float_equal(value_of(&f, "von_mises"), sqrt(30 * 30 + 10 * 10 - 30 * 10 + 3 * 10 * 10), 1e-3);
     assert_float_equal(value_of(&f, "speed"), 5, 1e-5);
@@ -74,7 +73,7 @@ static void unknown_fields_are_refused(void **state)
     assert_int_equal(plot_field_find(&field, "stress_yy", 1), REFUSED);
 }
 
-/* The component that a name means, in the order of the frames: normal ones first, then xy, yz, zx. */
+/* Index of the component for a name, in the order of frames: normal components first, then xy, yz, zx. */
 static void fields_name_components(void **state)
 {
     (void)state;
@@ -105,7 +104,8 @@ static void fields_name_components(void **state)
     }
 }
 
-/* The slice with most damage, not the middle one; the one that is nearest to the middle where nothing is damaged. */
+/* The default slice is that with the largest damage, not the middle one; in an undamaged body the one nearest to the
+ * middle. */
 static void slices_show_damage(void **state)
 {
     (void)state;
@@ -131,9 +131,8 @@ static void slices_show_damage(void **state)
     frame_free(&f);
 }
 
-/* One particle that flies changes neither the rectangle nor the colours, and is counted. */
-/* Of layers that are damaged nearly alike, within 2 %, the one nearest to the middle; one with 9 tenths of the most,
- * nearer still, is none of them. Points of several sizes have the spacing of the smallest. */
+/* Among layers with damage equal within 2 %, the one nearest to the middle is used; one with 0.9 of the largest damage,
+ * still nearer, is not. Points of several sizes have the spacing of the smallest. */
 static void slices_are_near_the_middle(void **state)
 {
     (void)state;
@@ -149,7 +148,7 @@ static void slices_are_near_the_middle(void **state)
     frame_free(&f);
 }
 
-/* Axes have the prefix that leaves numbers from 1 to 1000. */
+/* Axes have the SI prefix for which numbers are between 1 and 1000. */
 static void axes_have_prefixes(void **state)
 {
     (void)state;
@@ -166,6 +165,7 @@ static void axes_have_prefixes(void **state)
     assert_true(unit_for_length(0.04).factor == 1e-3 && unit_for_length(40).factor == 1);
 }
 
+/* A single distant particle changes neither the rectangle nor the range of colours, and is counted as outside. */
 static void one_particle_sets_no_scale(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void one_particle_sets_no_scale(void **state)
 
 enum { PIXELS = 120 };
 
-/* Seen along an axis a block is a rectangle; cracks inside it show through the rest. */
+/* An axial view of a block is a rectangle; cracks inside it are visible through the body. */
 static void solids_are_seen_from_outside(void **state)
 {
     (void)state;
@@ -212,7 +212,7 @@ static void solids_are_seen_from_outside(void **state)
         shown += pixel[q].alpha > 0;
         dark += pixel[q].green < 100 && pixel[q].alpha;
     }
-    assert_true(abs(shown - 100 * 100) <= 4 * 101); /* ten of twelve spacings wide, and the seams */
+    assert_true(abs(shown - 100 * 100) <= 4 * 101); /* ten of twelve spacings wide, and the gaps */
     assert_int_equal(dark, 0);                      /* its damage is hidden */
     boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_CRACKS);
     for (int q = 0; q < PIXELS * PIXELS; q++) dark += pixel[q].green < 100 && pixel[q].alpha;
@@ -233,7 +233,8 @@ static void cameras_are_right_handed(void **state)
     }
 }
 
-/* Maps of quantities grow evenly lighter: grey print and any colour vision keep their order. */
+/* Colour scales of quantities have increasing lightness, so that their order is visible in grey print and with any
+ * colour vision. */
 static void colours_keep_their_order(void **state)
 {
     (void)state;

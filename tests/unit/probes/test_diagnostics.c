@@ -1,9 +1,9 @@
-/* Tests of the energy balance of energy and momentum, the first break, and the alarm. */
+/* Tests of the balance of energy and momentum, the first break, and the stability alarm. */
 #include "tests/support/bodies.h"
 #include "kernels/kernels.h"
 #include "probes/diagnostics.h"
 
-/* v = (2, -1) + a shear that adds nothing to the momentum. */
+/* v = (2, -1) plus a shear without momentum. */
 static void ledger_of_a_known_field(void **state)
 {
     (void)state;
@@ -28,7 +28,7 @@ static void ledger_of_a_known_field(void **state)
     assert_near(w.now.balance_error, 0, 0);
     assert_near(w.now.momentum_error, 0, 0);
 
-    /* a kick and the work of a spring, both booked by the loads */
+    /* An impulse and the work of a spring, both recorded by the loads. */
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
     diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
@@ -36,7 +36,7 @@ static void ledger_of_a_known_field(void **state)
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
-    /* momentum from nowhere shows, and stays on record; so does energy from nowhere */
+    /* An error of momentum is detected and remains recorded; so does an error of energy. */
     impulse[1] -= 0.01 * moving;
     diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
     diagnostics_balance(&w, 2,
@@ -52,7 +52,7 @@ static void ledger_of_a_known_field(void **state)
     body_free(&b);
 }
 
-/* An archive of at most 4 KiB in memory, read in the order in which it was written. */
+/* An archive of at most 4 KiB in memory, read in the order of writing. */
 struct tape {
     unsigned char byte[4096];
     size_t used;
@@ -71,8 +71,8 @@ static status tape_exchange(struct archive *a, const char *name, void *data, siz
     return OK;
 }
 
-/* A body that was fast once and is slow now, and then loses momentum: its error is relative to the fast time, before a
- * restart and after it. */
+/* A body that was fast, is slow now and then loses momentum: its error is relative to the fast state, before and after
+ * a restart. */
 static void ledger_survives_a_restart(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void ledger_survives_a_restart(void **state)
     body_free(&b);
 }
 
-/* Energy of strain e: 1/2 e : C e V, with shear counted twice; half of it where half the stress is left to bonds. */
+/* Energy of strain e: 1/2 e : C e V, with shear counted twice; half of it if half the stress is left to bonds. */
 static void strain_energy_of_material_points(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void alarm_names_the_first_runaway(void **state)
     body_free(&b);
 }
 
-/* For each particle of a list, and none beside it: lists in one piece, with gaps and with ends of every length. */
+/* The alarm checks exactly the listed particles: contiguous lists, lists with gaps and with ends of every length. */
 static void alarm_sees_everybody_listed(void **state)
 {
     (void)state;
@@ -245,7 +245,8 @@ static void alarm_sees_everybody_listed(void **state)
     }
 }
 
-/* The ends of a short list may lie as far apart as those of eight in a row: particles between them are not listed. */
+/* The ends of a short list may be as far apart as those of eight consecutive particles: particles between them that are
+ * not listed are ignored. */
 static void alarm_passes_gaps_at_the_end(void **state)
 {
     (void)state;
@@ -260,9 +261,8 @@ static void alarm_passes_gaps_at_the_end(void **state)
     body_free(&b);
 }
 
-/* Points in plane strain that have yielded, of two materials: elastic energy by Hooke's law in space with the stress
- * across, plastic work by the integral of the yield stress over the strain; points of a mesh have their first volume.
- */
+/* Yielded points in plane strain, of two materials: elastic energy by Hooke's law in 3D including the out-of-plane
+ * stress, plastic work as integral of the yield stress over the strain; points of a mesh have their initial volume. */
 static void energies_of_yielded_points(void **state)
 {
     (void)state;

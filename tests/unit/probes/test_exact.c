@@ -1,5 +1,5 @@
-/* Closed forms of bars against what does not know them: characteristics, jump conditions, the wave
- * equation; the bond flux against all pairs; the figures of an exact probe on fields made by hand. */
+/* Closed forms of bars compared with independent results: characteristics, jump conditions, the wave equation; bond
+ * flux compared with all pairs; figures of an exact probe for fields set by hand. */
 #include <stdlib.h>
 
 #include "tests/support/cloud.h"
@@ -11,8 +11,8 @@
 
 enum { CELLS = 40, TRANSITS = 5 };
 
-/* Characteristics on cells that a wave crosses in one step, exact for steps: w+- = sigma -+ rho c v move right and left
- * by a cell; ends: sigma = F at the loaded one, v = 0 or sigma = 0 at the other. */
+/* Method of characteristics with cells that a wave crosses in one step, exact for steps: w+- = sigma -+ rho c v move
+ * right and left by a cell; ends: sigma = F at the loaded one, v = 0 or sigma = 0 at the other. */
 struct waves {
     real right[CELLS], left[CELLS], displacement[CELLS];
 };
@@ -125,7 +125,7 @@ static void plastic_bar_jumps(void **state)
             assert_int_equal(f[k].ahead, -side);
             assert_near(f[k].place, side > 0 ? place[k] : 1 - place[k], 1e-12);
             assert_near(b.stress - a.stress, -1 * along * (b.velocity - a.velocity), 1e-12); /* momentum */
-            assert_near(b.velocity - a.velocity, -along * (b.strain - a.strain), 1e-13);     /* no gap   */
+            assert_near(b.velocity - a.velocity, -along * (b.strain - a.strain), 1e-13);     /* continuity */
             assert_near(b.displacement, a.displacement, 1e-10);
             assert_near(a.stress, f[k].before, 0);
             assert_near(b.stress, f[k].behind, 0);
@@ -141,13 +141,14 @@ static void plastic_bar_jumps(void **state)
             assert_near((exact_at(&e, X, t + h).displacement - exact_at(&e, X, t - h).displacement) / (2 * h),
                         exact_at(&e, X, t).velocity, 1e-12);
         assert_true(exact_plateau(&e, t, EXACT_PRECURSOR, &from, &to));
-        assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4); /* the windows of the published figures, to a tenth of a */
-        assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4); /* spacing of 5e-3                                       */
+        assert_near(side > 0 ? from : 1 - to, 0.32, 5e-4); /* the windows of the published figures, to a tenth of a
+                                                            * spacing */
+        assert_near(side > 0 ? to : 1 - from, 0.42, 5e-4); /* of 5e-3 */
         assert_true(exact_plateau(&e, t, EXACT_PLATEAU, &from, &to));
         assert_near(side > 0 ? from : 1 - to, 0.55, 5e-4);
         assert_near(side > 0 ? to : 1 - from, 0.9, 5e-4);
         assert_true(isnan(exact_at(&e, 0.5, 0.0101).stress) && exact_fronts(&e, 0.0101, f) == 0);
-        e.load = -0.4; /* below yield nothing follows */
+        e.load = -0.4; /* no plastic front below the yield stress */
         assert_int_equal(exact_fronts(&e, t, f), 1);
         assert_near(exact_at(&e, 0.5, t).strain, -4e-5, 1e-18);
     }
@@ -155,9 +156,9 @@ static void plastic_bar_jumps(void **state)
 
 /* ---- smooth forms: the wave equation ----------------------------------------------------------------------------- */
 
-/* Differences of the displacement against velocity, strain and, for pulses, the wave equation. Central differences
- * are off by h^2/6 of the third derivative; those of the wave equation, with c k = h, cancel but for round-off of
- * paths up to 5 long under strains up to 0.02: 4 x 5 x 0.02 x 2^-53 / h^2, where u_xx is of order 1. */
+/* Compares finite differences of the displacement with velocity, strain and, for pulses, the wave equation. Central
+ * differences have an error of h^2/6 times the third derivative; in the wave equation with c k = h these cancel, up to
+ * the round-off of distances up to 5 with strains up to 0.02: 4 x 5 x 0.02 x 2^-53/h^2, where u_xx is of order 1. */
 static void check_smooth(const struct exact *e, real X, real t, real scale, real tolerance, bool wave)
 {
     real c = sqrt(e->young / e->density), h = 1e-3 * scale, k = h / c;
@@ -186,11 +187,11 @@ static void pulses_obey_the_wave_equation(void **state)
         for (real X = 0.02; X < 1; X += 0.0531) {
             real first = exp(-square((X - 0.3) / 0.05)), second = exp(-square((X - 0.6) / 0.03));
             struct exact_values v = exact_at(&e, X, 0);
-            assert_near(v.velocity, 2 * first + second, 1e-9);         /* along their ways */
+            assert_near(v.velocity, 2 * first + second, 1e-9);         /* along their characteristics */
             assert_near(v.strain, (-2 * first + second) / 100, 1e-11); /* f' = -v/c */
             for (real t = 1e-3; t < 0.05; t += 1.713e-3) check_smooth(&e, X, t, 0.03, 4e-8, true);
         }
-        for (real t = 0; t < 0.05; t += 1e-3) /* what the ends require */
+        for (real t = 0; t < 0.05; t += 1e-3) /* boundary conditions */
             for (int end = 0; end < 2; end++) {
                 struct exact_values v = exact_at(&e, end, t);
                 assert_near(e.reflection[end] > 0 ? v.velocity : 100 * v.strain, 0, 1e-9);
@@ -209,7 +210,7 @@ static void manufactured_is_its_formula(void **state)
                       .period = 0.02,
                       .wavelength = 0.5,
                       .origin = 0.1};
-    assert_near(exact_at(&e, 0.225, 0.01).displacement, 1e-3, 1e-15); /* a quarter wave on, at its peak */
+    assert_near(exact_at(&e, 0.225, 0.01).displacement, 1e-3, 1e-15); /* a quarter wave later, at its peak */
     for (real X = 0; X < 1; X += 0.07) {
         struct exact_values v = exact_at(&e, X, 0);
         assert_near(fabs(v.displacement) + fabs(v.velocity) + fabs(v.stress), 0, 0);
@@ -219,8 +220,8 @@ static void manufactured_is_its_formula(void **state)
 
 /* ---- bond flux --------------------------------------------------------------------------------------------------- */
 
-/* A shaken row with its images in a wall at 0, a third of it material points; every pair of points within the horizon
- * bonds unless it joins two material points. */
+/* Force across a section: an irregular row with its images in a wall at 0, a third of it material points; every pair
+ * within the horizon has a bond unless both are material points. */
 static void flux_is_the_force_across(void **state)
 {
     (void)state;
@@ -272,7 +273,7 @@ static void flux_is_the_force_across(void **state)
         scale = real_max(scale, fabs(sum));
         assert_near(flux[k], sum, 1e-12 * scale + 1);
     }
-    assert_true(scale > 1e7); /* 1 Pa above is nothing */
+    assert_true(scale > 1e7); /* 1 Pa is negligible */
     memory_free(bar.order), memory_free(bar.rank);
     loads_free(&l);
     cloud_free(&c);
@@ -337,7 +338,7 @@ static void measured(struct lab *b, enum exact_form form, real t, struct figures
     real stress[200];
     for (int i = 0; i < 200; i++) stress[i] = b->p.stress[0][i];
     struct exact e = unit_bar(form);
-    for (int i = 0; i < 200; i++) { /* the exact motion; the stress is the test's own */
+    for (int i = 0; i < 200; i++) { /* the exact motion; the stress is set by the test */
         struct exact_values v = exact_at(&e, b->p.X[0][i], t);
         b->p.x[0][i] = b->p.X[0][i] + v.displacement, b->p.v[0][i] = v.velocity + 0.25, b->p.stress[0][i] += v.stress;
     }
@@ -368,9 +369,9 @@ static void figures_of_a_made_up_field(void **state)
     assert_near(figure(&f, "L2_velocity"), 0.25, 1e-14);
     assert_near(figure(&f, "L2_displacement"), 0, 1e-16);          /* round-off of x - X */
     assert_near(figure(&f, "end_displacement"), 0.4975e-4, 1e-15); /* ct - s, s half a spacing */
-    /* particles 99 (0.01 off) and 100 (-0.02): 0.01 to 0.98 over a spacing from 0.4975 */
+    /* Particles 99 (0.01 off) and 100 (-0.02): 0.01 to 0.98 over a spacing from 0.4975. */
     assert_near(figure(&f, "front"), 0.4975 + 0.005 * 0.49 / 0.97, 1e-12);
-    /* the kink lies half-way between them: central differences of 1/4 and 3/4 of the strain, 2 of 200 particles */
+    /* The kink is midway between them: central differences of 1/4 and 3/4 of the strain, 2 of 200 particles. */
     assert_near(figure(&f, "L1_strain"), 2 * 0.25 / 200, 1e-10);
     assert_near(figure(&f, "front_strain"), 0.5, 1e-9);
     assert_near(figure(&f, "plateau_strain"), 1, 1e-9);
@@ -391,7 +392,7 @@ static void figures_of_a_made_up_field(void **state)
     particles_free(&b.p);
 }
 
-/* The same bar the other way round, held at 1 and drawn at 0: its errors are none where it moves as the first does. */
+/* The reversed bar, fixed at 1 and loaded at 0, has no errors if it moves as the first does. */
 static void bars_drawn_at_the_left(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tests of probes, on particles, supports and bonds set by hand. */
+/* Tests of probes, with particles, supports and bonds set by hand. */
 #include <unistd.h>
 
 #include "tests/support/bodies.h"
@@ -164,7 +164,7 @@ static void probe_of_a_support(void **state)
     body_free(&b);
 }
 
-/* Boundaries of one name: their forces add up, their displacement is the mean over all particles. */
+/* Boundaries with one name: their forces add up; their displacement is the mean over all particles. */
 static void probe_of_two_supports(void **state)
 {
     (void)state;
@@ -189,7 +189,7 @@ static void probe_of_two_supports(void **state)
     body_free(&b);
 }
 
-/* The reflected part of a pulse is what moves behind the interface and does not in the run without it. */
+/* The reflected part of a pulse is the motion before the interface that is not present in the run without it. */
 static void probe_of_a_pulse(void **state)
 {
     (void)state;
@@ -213,7 +213,7 @@ static void probe_of_a_pulse(void **state)
     body_free(&b);
 }
 
-/* The largest stress of a turning body in plane strain may be that across the plane; shear is that in it. */
+/* The largest stress of a rotating body in plane strain may be the out-of-plane stress; shear is that in the plane. */
 static void probe_of_a_turning_body(void **state)
 {
     (void)state;
@@ -321,7 +321,7 @@ static struct observed bar_seen(const struct bar *bar, real t)
     return o;
 }
 
-/* Two bodies side by side (0..6 and 6..30) are apart from the start; the second breaks at 25 with its last bond. */
+/* Two adjacent bodies (0..6 and 6..30) are separate from the start; the second breaks at 25 with its last bond. */
 static void probe_of_a_spall(void **state)
 {
     (void)state;
@@ -343,7 +343,7 @@ static void probe_of_a_spall(void **state)
     bar_cut(&bar, 25, 2);
     probes_step(&s, &o);
     probes_figures(&s, &o, figure_keep, &l);
-    assert_int_equal(l.n, 0); /* its shortest bond still holds */
+    assert_int_equal(l.n, 0); /* its shortest bond is intact */
     bar_cut(&bar, 25, 1);
     o.t = 2;
     probes_step(&s, &o);
@@ -360,7 +360,7 @@ static void probe_of_a_spall(void **state)
     body_free(&bar.b);
 }
 
-/* Planes side by side that part together are one fracture, in their middle. */
+/* Adjacent planes that separate at the same time are one fracture, at their middle. */
 static void probe_of_a_wide_spall(void **state)
 {
     (void)state;
@@ -382,7 +382,7 @@ static void probe_of_a_wide_spall(void **state)
     body_free(&bar.b);
 }
 
-/* Material points on both sides within a bond's reach still hold a plane together, until they are cut themselves. */
+/* Material points on both sides within reach of bonds still connect a plane, until they separate themselves. */
 static void probe_of_a_spall_knows_the_grid(void **state)
 {
     (void)state;
@@ -443,7 +443,7 @@ static void probe_of_a_break(void **state)
     assert_near(figure(&l, "right", "x"), 25, 1e-12);
     assert_near(figure(&l, "right", "bonds"), 3, 0);
 
-    /* energy of the intact bonds under stretch e: 1/2 E e^2 for a whole family, less at ends and cuts */
+    /* Energy of the intact bonds under stretch e: 1/2 E e^2 for a complete family, less at ends and cuts. */
     bonds_free(&bar.bonds);
     bar_bond(&bar);
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] = p->X[0][i] * 1.001;

@@ -1,4 +1,4 @@
-/* Tests of the probe of stress-intensity factors: binding, refusals, a tip at rest and one that moves. */
+/* Tests of the probe of stress-intensity factors: binding, refusals, a stationary and a moving tip. */
 #include "tests/support/bodies.h"
 #include "tests/support/glass.h"
 #include "probes/probes.h"
@@ -20,7 +20,7 @@ static void plate_make(struct plate *p, int cracks, const real *tip)
 {
     memset(p, 0, sizeof *p);
     body_make(&p->body, 2, (const int[]){WIDTH, HEIGHT});
-    for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37; /* the thickness [m] */
+    for (int64_t i = 0; i < p->body.p.n; i++) p->body.p.volume0[i] = 0.37; /* thickness [m] */
     for (int k = 0; k < 2; k++) {
         p->material[k] = (struct material){.young = 75.629e9, .poisson = 0.286, .density = 2456};
         material_derive(&p->material[k], SPACE_PLANE_STRAIN);
@@ -48,7 +48,7 @@ static void plate_free(struct plate *p)
     body_free(&p->body);
 }
 
-/* Displacements, or velocities, of a tip at `place` that goes along x with speed v. */
+/* Sets displacements, or velocities, of the field of a tip at `place` that moves along x with speed v. */
 static void plate_field(struct plate *k, const real K[MODES], const real *place, real v, bool velocities)
 {
     struct particles *p = &k->body.p;
@@ -96,7 +96,7 @@ static void figure_keep(void *context, const char *probe, const char *quantity, 
         if (strcmp(quantity, names[k]) == 0) f->value[k] = value, f->n++;
 }
 
-/* A field at rest, measured by probes that find the tip, that have its place, and that have no crack. */
+/* A static field, measured by probes that find the tip, with a given position, and without a crack. */
 static void tip_at_rest(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void bad_requests_are_refused(void **state)
     refused(&p, &(struct probe_request){.outer = 5}, "narrower than 3 spacings; choose a larger outer radius");
     refused(&p, &(struct probe_request){.outer = 12, .inner = 10}, "narrower than 3 spacings; choose");
     refused(&p, &(struct probe_request){.outer = 5.5}, "the ring from 2.75 to 5.5 m is narrower");
-    /* rings to compare are those of the figures, made smaller or larger: 0.8 and 5/17 of their outer radii */
+    /* Rings for comparison are scaled from those of the figures: 0.8 and 5/17 of their outer radii. */
     refused(&p, &(struct probe_request){.outer = 17, .inner = 13.6}, "the ring from 8.16 to 10.2 m is narrower");
     real radius[] = {11.9, 3.4};
     refused(&p, &(struct probe_request){.outer = 17, .inner = 5, .contours = {2, radius}},
@@ -170,7 +170,7 @@ static void bad_requests_are_refused(void **state)
     p.o.part->material[40 * WIDTH + 30] = 1;
     refused(&p, &(struct probe_request){.outer = 20}, "another material");
     p.o.part->material[40 * WIDTH + 30] = 0;
-    plate_make(&two, 2, start); /* its ends stand (10, -20) and (10, 20) away */
+    plate_make(&two, 2, start); /* its ends are (10, -20) and (10, 20) away */
     refused(&two, &(struct probe_request){.outer = 24}, "another crack's tip at (40, ");
     plate_make(&corner, 1, (const real[]){8, 30});
     refused(&corner, &(struct probe_request){.outer = 20}, "choose a smaller outer radius");
@@ -181,7 +181,7 @@ static void bad_requests_are_refused(void **state)
 }
 
 /* A tip that has grown by 12 at 1000 m/s: velocities half a step before and after give acceleration and velocity;
- * speed, place and direction are those of the tip. What a checkpoint keeps is enough to go on. */
+ * speed, position and direction are those of the tip. The state in a checkpoint is sufficient to continue. */
 static void tip_in_motion(void **state)
 {
     (void)state;
@@ -210,7 +210,7 @@ static void tip_in_motion(void **state)
         probes_sample_end(now, &p.o, &(struct velocity_time){p.o.t + 0.5 * dt, 1});
         const struct crack_medium m = crack_medium_of(&p.material[0], SPACE_PLANE_STRAIN);
         const real A[MODES] = {crack_universal(&m, MODE_I, v), crack_universal(&m, MODE_II, v)};
-        assert_near(value_of(now, "sif.K_I"), K[0], 5); /* 0.14 %; a crack at rest would be 5 % off */
+        assert_near(value_of(now, "sif.K_I"), K[0], 5); /* 0.14 %; a stationary crack would be 5 % off */
         assert_near(value_of(now, "sif.K_II"), K[1], 5);
         assert_close(value_of(now, "sif.J"), (A[0] * K[0] * K[0] + A[1] * K[1] * K[1]) / m.modulus, 0.003);
         struct store store = {0};
