@@ -1,5 +1,5 @@
-/* Load steps in which cracks are led: the kink of an inclined crack, the path from a notch in a beam; in space what
- * does not depend on where the axes point, areas and energies of fronts askew, the kink of a crack through a plate. */
+/* SIF-driven cracks in load steps: kink of an inclined crack, path from a notch in a beam; in 3D independence of the
+ * orientation of axes, areas and energies of oblique fronts, kink of a crack through a plate. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,8 +29,8 @@ static void run(struct solution *a, const char *text)
     if (engine_make(&a->e, &a->s, NULL) != OK || engine_run(&a->e) != OK) fail_msg("%s", status_message());
 }
 
-/* A plate of 64 spacings, with a crack of 2 x 12 at `angle` to the normal of the load. It lies a quarter of a spacing
- * off the rows' symmetry, so that no particle is on it. */
+/* Creates a plate of 64 spacings with a crack of 2 x 12 at `angle` to the normal of the load, a quarter of a spacing
+ * off the symmetry of the rows, so that no particle is on it. */
 static void plate(struct solution *a, real angle, int steps, const char *more)
 {
     static char text[2000];
@@ -54,9 +54,9 @@ static void solution_free(struct solution *a)
     scene_free(&a->s);
 }
 
-/* The first stretches, of 15 and of 75 degrees (45: test_kink_through), lead away at the angle of the largest hoop
- * stress (Erdogan & Sih 1963). K_II/K_I is tan(angle) in a wide plate; here, with a crack of 3/8 of the width, within
- * 8 %, which turns the kink by 2 degrees. */
+/* The first increments, for 15 and 75 degrees (45: test_kink_through), have the angle of the largest hoop stress
+ * (Erdogan & Sih 1963). K_II/K_I is tan(angle) in a wide plate; here, with a crack of 3/8 of the width, within 8 %,
+ * which changes the kink by 2 degrees. */
 static void test_kink(void **state)
 {
     (void)state;
@@ -79,9 +79,9 @@ static void test_kink(void **state)
     }
 }
 
-/* ---- a beam with a notch aside ----------------------------------------------------------------------------------- */
+/* ---- beam with an eccentric notch -------------------------------------------------------------------------------- */
 
-/* Three-point bend over 160 spacings, 40 high, with a notch of 16 at 31.75 from the middle. */
+/* Three-point bend with a span of 160 spacings, height 40, with a notch of 16 at 31.75 from the middle. */
 #define BEND                                                                                                           \
     "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsolver_tolerance: 1e-5\n"        \
     "steps: {number: 12, control: energy, path: hoop}\n"                                                               \
@@ -105,7 +105,7 @@ static void test_bend(void **state)
     for (int64_t k = 0; k < l->stretches; k++) {
         const real *to = l->path[k].at[1], *from = l->tip[0].start;
         const real chord = atan2(to[0] - from[0], to[1] - from[1]) / degree;
-        const real expected = bend_chord(2e-3 * (real)(k + 1)); /* increments of the same length, to the same end */
+        const real expected = bend_chord(2e-3 * (real)(k + 1)); /* increments of equal length, with equal chords */
         if (fabs(chord - expected) > 1.5)
             fail_msg("stretch %lld: %g degrees, %g are expected", (long long)k, chord, expected);
     }
@@ -124,8 +124,8 @@ static const char *point(char text[80], const int *order, real x, real y, real z
     return text;
 }
 
-/* A block of 20 x 16 x 4 spacings with an edge crack of 7, whose front lies `askew` to the sides [degree]; pulled along
- * the second axis. */
+/* Creates a block of 20 x 16 x 4 spacings with an edge crack of 7 whose front is rotated by `askew` against the sides
+ * [degree], under tension along the second axis. */
 static void block(struct solution *a, const int *order, real askew, int steps)
 {
     static char text[2000];
@@ -149,9 +149,9 @@ static void block(struct solution *a, const int *order, real askew, int steps)
     run(a, text);
 }
 
-/* A straight crack stays in its plane, however its front lies; its area is that of the plane within the body, and costs
- * what the bonds of a plane of the lattice hold, 0.98 of G_c. Axes change nothing but the order of sums: turned for the
- * front along a side, mirrored for that askew. */
+/* A straight crack stays in its plane for any orientation of its front; its area is that of the plane within the body,
+ * and its energy that of the bonds across a lattice plane, 0.98 G_c. The orientation of axes changes only the order of
+ * sums: rotated for the front along a side, mirrored for the oblique one. */
 static void test_fronts(void **state)
 {
     static const int orders[2][2][3] = {{{0, 1, 2}, {1, 2, 0}}, {{0, 1, 2}, {2, 1, 0}}};
@@ -176,7 +176,7 @@ static void test_fronts(void **state)
     }
 }
 
-/* A crack through a plate of 40 x 40 x 3 spacings kinks as that of a plane body does. */
+/* A crack through a plate of 40 x 40 x 3 spacings kinks as in a 2D body. */
 static void test_kink_through(void **state)
 {
     static char text[2000];

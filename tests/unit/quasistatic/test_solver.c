@@ -1,5 +1,5 @@
-/* Static equilibrium: bars and plates against closed forms, the solvers against each other, supports against
- * loads, parts against wholes, and what has no equilibrium. */
+/* Static equilibrium: bars and plates compared with closed forms, solvers with each other, support forces with loads,
+ * parts with whole bodies; and scenes without equilibrium. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@
 #include "probes/probes.h"
 #include "scene/scene_read.h"
 
-/* Strains are 1e-6 and less in all scenes: what is linear in the solution is so to 1e-5. */
+/* Strains are at most 1e-6 in all scenes: linear quantities are accurate to 1e-5. */
 #define BAR                                                                                                            \
     "space: line\nduration: 2 s\nmethod: pd\n"                                                                         \
     "material: {young: 1000 GPa, density: 1000}\nbody: {box: {from: 0, to: 1 m}}\n"                                    \
@@ -37,7 +37,7 @@ struct solution {
     status made, ran;
 };
 
-/* Solves a scene with the overrides `key=value`, up to NULL. */
+/* Solves a scene with the overrides `key=value`, terminated by NULL. */
 static void solve(struct solution *a, const char *text, ...)
 {
     enum { MOST = 8 };
@@ -97,7 +97,7 @@ static real moved(const struct solution *a, int d, real x, real y)
     return a->e.part.x[d][i] - a->e.part.X[d][i];
 }
 
-/* Mean strain between two places along d. */
+/* Returns the mean strain between two positions along d. */
 static real strain(const struct solution *a, int d, const real *from, const real *to)
 {
     const int64_t i = at(a, from[0], from[1]), j = at(a, to[0], to[1]);
@@ -105,7 +105,7 @@ static real strain(const struct solution *a, int d, const real *from, const real
     return (p->x[d][j] - p->x[d][i]) / (p->X[d][j] - p->X[d][i]) - 1;
 }
 
-/* Largest difference of two solutions over the largest displacement, at the particles of the second. */
+/* Returns the largest difference of two solutions over the largest displacement, at the particles of the second. */
 static real difference(const struct solution *a, const struct solution *b)
 {
     const struct particles *p = &b->e.part;
@@ -139,7 +139,7 @@ static void test_integrals(void **state)
                                       {.kind = TIME_TABLE, .n = 4, .t = t, .value = value}};
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (real end = 0.125; end < 2.2; end += 0.25) {
-            real sum = 0; /* midpoint rule: exact but for a piece with a jump, and h^2 of the pulse */
+            real sum = 0; /* midpoint rule: exact except for a piece with a jump, and h^2 for the pulse */
             for (int i = 0; i < PIECES; i++) sum += time_function_at(&f[k], (i + 0.5) * end / PIECES) * end / PIECES;
             assert_true(fabs(time_function_integral(&f[k], end) - sum) < 2 * end / PIECES);
         }
@@ -149,8 +149,8 @@ static void test_integrals(void **state)
 
 static const real quarter_place[2] = {0.205, 0}, far_place[2] = {0.805, 0};
 
-/* sigma/E = 1e-6 in the interior; the free end is a horizon of incomplete families: with the surface correction the
- * last particle is 0.13 % of the bar's elongation farther than F x/(E A). */
+/* sigma/E = 1e-6 in the interior. The families at the free end are incomplete over a horizon: with surface correction
+ * the displacement of the last particle exceeds F x/(E A) by 0.13 % of the bar's elongation. */
 static void test_bar_traction(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void test_bar_traction(void **state)
     }
 }
 
-/* A velocity of 0.5 um/s held for 2 s is a displacement of 1 um; the reaction is what the traction had to be. */
+/* A velocity of 0.5 um/s for 2 s is a displacement of 1 um; the reaction equals the equivalent traction. */
 static void test_bar_support(void **state)
 {
     (void)state;
@@ -185,7 +185,7 @@ static void test_bar_support(void **state)
     }
 }
 
-/* Dead weight: u = rho g (L x - x^2/2)/E; the value of a ramp is that of the end. */
+/* Own weight: u = rho g (L x - x^2/2)/E; a ramp counts with its final value. */
 static void test_bar_weight(void **state)
 {
     (void)state;
@@ -197,7 +197,7 @@ static void test_bar_weight(void **state)
     solution_free(&a);
 }
 
-/* The largest of the forces that a probe puts out, and their root mean square. */
+/* Stores the largest force and the root mean square that a probe reports. */
 static void reaction_keep(void *context, const char *probe, const char *quantity, real value)
 {
     real *figure = context;
@@ -206,7 +206,7 @@ static void reaction_keep(void *context, const char *probe, const char *quantity
     if (strcmp(quantity, "force_rms") == 0) figure[1] = value;
 }
 
-/* Points come to rest by steps in time; reactions on the way there are none of the body at rest. */
+/* Material points reach equilibrium by time steps; reactions during relaxation are not those of the equilibrium. */
 static void test_points_support(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static void test_points_support(void **state)
     solution_free(&a);
 }
 
-/* A residual of 1e-5 leaves 1e-4 of a strain; so does what light nodes lose at the interfaces (grid.h). */
+/* Tolerance: a residual of 1e-5 leaves 1e-4 of a strain; so does the loss of light nodes at interfaces (grid.h). */
 static void test_bar_points(void **state)
 {
     (void)state;
@@ -243,7 +243,7 @@ static void test_bar_points(void **state)
 
 /* ---- plates ------------------------------------------------------------------------------------------------------ */
 
-/* Lattice anisotropy (C11 +1.1 %, C12 -3.4 %) makes bonds at a horizon of 3.015 some 2 % stiffer along the axes. */
+/* Lattice anisotropy (C11 +1.1 %, C12 -3.4 %) makes bonds with a horizon of 3.015 about 2 % stiffer along the axes. */
 static void test_plate(void **state)
 {
     (void)state;
@@ -264,7 +264,7 @@ static void test_plate(void **state)
     }
 }
 
-/* Equal to what a residual of 1e-7 leaves, and both symmetric in the work they do. */
+/* Solvers agree within a residual of 1e-7, and work is symmetric. */
 static void test_crack(void **state)
 {
     (void)state;
@@ -282,7 +282,7 @@ static void test_crack(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Every law of bonds, at a Poisson's ratio of its own. */
+/* Every law of bonds, each with another Poisson's ratio. */
 static void test_models(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static void test_models(void **state)
     }
 }
 
-/* Peridynamic round the crack, material points elsewhere: the mouth opens as in the whole of bonds. */
+/* Peridynamic around the crack, material points elsewhere: the mouth opens as with bonds everywhere. */
 static void test_crack_coupled(void **state)
 {
     (void)state;
@@ -315,7 +315,7 @@ static void test_crack_coupled(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Held at the bottom: random places of the loads would leave a moment. */
+/* Fixed at the bottom: loads at irregular positions would leave a moment. */
 static void test_irregular(void **state)
 {
     (void)state;
@@ -353,7 +353,7 @@ static void test_quarter(void **state)
     }
 }
 
-/* Particles on planes of symmetry make K self-adjoint in a weighted sum only. */
+/* Particles on planes of symmetry make K self-adjoint only in a weighted sum. */
 static void test_on_plane(void **state)
 {
     (void)state;
@@ -386,7 +386,7 @@ static void test_solid(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* ---- what has no equilibrium ------------------------------------------------------------------------------------- */
+/* ---- no equilibrium ---------------------------------------------------------------------------------------------- */
 
 static void test_limits(void **state)
 {
@@ -407,7 +407,7 @@ static void test_limits(void **state)
     solution_free(&a);
 }
 
-/* Each pair of materials has its limit: that of a body at rest beside it, of another material, counts for none. */
+/* Each pair of materials has its own limit: the limit of an unloaded body of another material is not used. */
 static void test_strength_of_pairs(void **state)
 {
     (void)state;
@@ -425,7 +425,7 @@ static void test_strength_of_pairs(void **state)
     solution_free(&a);
 }
 
-/* Bonds far beyond their critical stretch are counted and hold. */
+/* Bonds far beyond their critical stretch are counted and stay intact. */
 static void test_strength(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Load steps: equilibria against the static solvers of elastic bodies, mirrors against wholes, pieces that nothing
- * holds, trials that leave no trace, what a release in time loses. */
+/* Load steps: equilibria compared with the static solvers for elastic bodies, mirrors with whole bodies, unconstrained
+ * fragments, trials without side effects, energy dissipated in a dynamic release. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,7 +20,7 @@
 #include "probes/diagnostics.h"
 #include "contact/contact.h"
 
-/* Strains are 1e-6 and less: what is linear in the solution is so to 1e-5. */
+/* Strains are at most 1e-6: linear quantities are accurate to 1e-5. */
 #define PLATE                                                                                                          \
     "space: plane stress\nthickness: 1 mm\nduration: 1 s\nmethod: pd\n"                                                \
     "material: {young: 20000 GPa, density: 1000}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"
@@ -44,9 +44,10 @@
 #define STATIC "solver=static", "steps.number=1"
 #define EXACT "solver_tolerance=1e-7"
 
-/* ---- work of a stretch ------------------------------------------------------------------------------------------- */
+/* ---- work of stretching ------------------------------------------------------------------------------------------ */
 
-/* Up to a stretch, of a bond of stiffness 1 that yields and hardens: the sum of small steps under its curve. */
+/* Returns the work up to a stretch of a bond with stiffness 1 that yields and hardens: the sum of small steps under its
+ * curve. */
 static void test_stretch_work(void **state)
 {
     (void)state;
@@ -61,10 +62,10 @@ static void test_stretch_work(void **state)
     near_to("elastic", stretch_work(0.9 * yield, yield, hardening), 0.5 * 0.81 * yield * yield, 1e-12);
 }
 
-/* ---- against the static solvers ---------------------------------------------------------------------------------- */
+/* ---- comparison with the static solvers -------------------------------------------------------------------------- */
 
-/* Every model of bonds, in the plane and in space, with loads and with what is driven: the same up to what a residual
- * of 1e-7 and the square of strains leave. */
+/* Every model of bonds, in 2D and 3D, with loads and driven particles: equal within a residual of 1e-7 and the square
+ * of strains. */
 static void test_models(void **state)
 {
     (void)state;
@@ -84,7 +85,7 @@ static void test_models(void **state)
         }
 }
 
-/* Lattices that are shaken, weights of bonds near faces, plane strain. */
+/* Irregular lattices, weights of bonds near faces, plane strain. */
 static void test_variants(void **state)
 {
     (void)state;
@@ -102,8 +103,8 @@ static void test_variants(void **state)
     }
 }
 
-/* Material points: cells of the reference frame against themselves in the current one, far from free faces, where the
- * shape functions of points differ. */
+/* Material points: cells of the reference frame compared with the current frame, far from free faces, where the shape
+ * functions of points differ. */
 static void test_points(void **state)
 {
     (void)state;
@@ -119,7 +120,7 @@ static void test_points(void **state)
 
 /* ---- mirrors ----------------------------------------------------------------------------------------------------- */
 
-/* A quarter is a quarter of the whole, which nothing holds; of particles and of points. */
+/* A quarter of a free body agrees with the whole, for particles and for points. */
 static void test_quarter(void **state)
 {
     (void)state;
@@ -132,16 +133,16 @@ static void test_quarter(void **state)
         solution_done(&whole), solution_done(&part);
         assert_true(solution_difference(&whole, &part) < 1e-6);
         near_to("energy", 4 * part.e.diagnostics->now.energy.strain, whole.e.diagnostics->now.energy.strain, 1e-6);
-        const int64_t directions = whole.e.statics->balance.directions; /* springs to images are no foundation */
+        const int64_t directions = whole.e.statics->balance.directions; /* springs to images do not constrain motion */
         assert_in_range(part.e.statics->balance.directions, 1, directions + 4);
         solution_free(&whole), solution_free(&part);
     }
 }
 
-/* ---- pieces ------------------------------------------------------------------------------------------------------ */
+/* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* A crack through all of the plate: what is above it is loaded in balance, and is strained as a free plate is, while
- * supports pull at the part below. */
+/* A crack through the whole plate: the upper part has balanced loads and the strain of a free plate, while supports
+ * pull at the lower part. */
 static void test_parted(void **state)
 {
     (void)state;
@@ -152,13 +153,13 @@ static void test_parted(void **state)
     solution_run(&a, parted, STATIC, EXACT, NULL);
     solution_done(&a);
     const real along = solution_moved(&a, 0, 4.25e-3, 2.75e-3, 0) - solution_moved(&a, 0, -4.25e-3, 2.75e-3, 0);
-    near_to("strain", along / 8.5e-3, 5e-8, 0.02); /* the lattice along its axes, and faces */
+    near_to("strain", along / 8.5e-3, 5e-8, 0.02); /* lattice along its axes, and faces */
     const real aside = solution_moved(&a, 0, 4.25e-3, 2.75e-3, 0) + solution_moved(&a, 0, -4.25e-3, 2.75e-3, 0);
     assert_true(fabs(aside) < 1e-6 * along);
     solution_free(&a);
 }
 
-/* Motions that are left to pieces: by mirrors between particles and on them, of particles and of cells. */
+/* Rigid motions that mirrors leave to fragments: mirrors between particles and through them, particles and cells. */
 static void test_motions(void **state)
 {
     (void)state;
@@ -199,7 +200,7 @@ static void test_motions(void **state)
     "body: {box: {from: [-5 mm, -5 mm], to: [5 mm, 5 mm]}}\n" CRACK                                                    \
     "boundary:\n  - {velocity: [0, 12 um/s], region: {box: {from: [-inf, 4 mm], to: [inf, inf]}}}\n" FOOT
 
-/* Copies of what a trial must give back. */
+/* Copies of the state that a trial must restore. */
 struct trace {
     size_t size;
     char *data;
@@ -233,7 +234,7 @@ static void trace_take(struct trace *t, const struct run *e)
     trace_add(t, e->part.flag, (size_t)e->part.n);
 }
 
-/* A trial of an advance, in bodies whose bonds yield and in such as do not. */
+/* A trial of a crack increment, in bodies with and without yielding bonds. */
 static void test_trial(void **state)
 {
     (void)state;
@@ -265,7 +266,7 @@ static void test_trial(void **state)
 
 /* ---- release ----------------------------------------------------------------------------------------------------- */
 
-/* A block on a block that stands on a foot, pressed by a traction on all of its width. */
+/* A block on a block that stands on a foot, compressed by a traction on its whole width. */
 #define STACK                                                                                                          \
     "space: plane stress\nthickness: 1.7 mm\nduration: 1 s\nmethod: pd\nsolver: static\nsteps: {number: 3}\n"          \
     "material: {young: 3 GPa, poisson: 1/3, density: 1180 kg/m^3}\nparticles: {spacing: 1 mm, horizon: 2.015}\n"       \
@@ -274,8 +275,8 @@ static void test_trial(void **state)
     "boundary:\n  - {name: foot, fixed: [x, y], region: {box: {from: [-inf, 0], to: [inf, 2 mm]}}}\n"                  \
     "  - {name: top, body: high, traction: [0, -2.3 MPa], face: y+, time: {ramp: {until: 1 s}}}\n"
 
-/* The upper block is pushed into the lower one as a whole and let go: it comes back to where it was, and what contact
- * took up by the push, less the work against the traction on the way back, is booked as lost. */
+/* The upper block is pushed into the lower one as a rigid body and released: it returns to its position, and the
+ * contact energy of the push, minus the work against the traction on the way back, is recorded as dissipated. */
 static void test_let_go(void **state)
 {
     (void)state;
@@ -292,7 +293,7 @@ static void test_let_go(void **state)
     const real pushed = contact_energy(a.e.contact, p);
     assert_true(rests > 0 && pushed > 100 * rests);
     assert_int_equal(statics_release(&a.e), OK);
-    /* the tolerance of equilibria is 1e-5 */
+    /* The tolerance of equilibria is 1e-5. */
     near_to("contact", contact_energy(a.e.contact, p), rests, 1e-4);
     near_to("lost", a.e.statics->balance.lost - lost, pushed - rests - force * push, 1e-5);
     near_to("damped", a.e.damped - damped, pushed - rests - force * push, 1e-5);
@@ -300,7 +301,8 @@ static void test_let_go(void **state)
     solution_free(&a);
 }
 
-/* Under control of an opening two places have moved apart by what is prescribed, in as many parts as steps. */
+/* Under control by an opening, the distance of two positions increases by the prescribed amount, in as many parts as
+ * steps. */
 static void test_opening(void **state)
 {
     (void)state;

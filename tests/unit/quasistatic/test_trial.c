@@ -1,5 +1,5 @@
-/* Trial equilibria of load steps, one within another: each gives back the plastic state of bonds with which it began,
- * and leaves it as the start of the next solutions. */
+/* Nested trial equilibria of load steps: each restores the plastic state of bonds from its start, and leaves it as the
+ * start of the next solutions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@ static const char plate[] =
     "boundary:\n  - {fixed: all, region: {box: {from: [0, 0], to: [2 mm, 6 mm]}}}\n"
     "  - {traction: [1 MPa, 0], face: x+, time: {ramp: {until: 2 s}}}\noutput: {frames: 0}\n";
 
-/* Number of slots of bonds in the columns of the row blocks. */
+/* Returns the number of slots of bonds in the columns of the row blocks. */
 static int64_t bond_slots(const struct run *e) { return e->bonds.columns * LANES; }
 
 /* Adds `more` to the plastic stretch of all bonds [1]. */
@@ -55,7 +55,7 @@ static void test_trial_within_trial(void **state)
     expect(&e, 0.125);
     flow(&e, 0.5);
     statics_plastic_restore(&e);
-    expect(&e, 0.125); /* what the next solution begins with, not the start of the inner trial */
+    expect(&e, 0.125); /* the start of the next solution, not that of the inner trial */
     engine_free(&e);
     scene_free(&s);
 }

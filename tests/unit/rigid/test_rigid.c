@@ -1,4 +1,5 @@
-/* Rigid bodies: distances beside a search over points of the surface, inertia and free motion beside closed forms. */
+/* Rigid bodies: distances compared with a search over points of the surface, inertia and free motion with closed
+ * forms. */
 #include <math.h>
 #include <string.h>
 
@@ -18,8 +19,8 @@ static struct solid solids[] = {
 };
 static const struct region shape = {.n = 3, .solid = solids};
 
-/* The distance falls to 0 along the normal, and nothing of the body is nearer: the ball of that radius round the point
- * holds no point of it (outside). */
+/* Checks that the distance decreases to 0 along the normal, and that no point of the body is closer: the ball of that
+ * radius around the point contains none of its points (outside). */
 static void check_point(const real *x)
 {
     real normal[DIM_MAX], at[DIM_MAX];
@@ -44,8 +45,8 @@ static void test_distance(void **state)
         check_point((const real[]){-5.03 + 2 * (k % 7), -2.01 + k / 7 % 7, -2.02 + 1.1 * (k / 49)});
 }
 
-/* A ball out of a box: in the cavity the distance is that to its wall, and the normal points from there to the place,
- * as it does beside the box. */
+/* A box with a spherical cavity: inside, the distance is that to the cavity's wall, with the normal from there to the
+ * point, as outside the box. */
 static void test_cavity(void **state)
 {
     (void)state;
@@ -67,7 +68,8 @@ static void test_cavity(void **state)
 
 static const real rest[DIM_MAX] = {0, 0, 0};
 
-/* A brick: m/12 (b^2 + c^2), to round-off, as cells of a grid fill it; a disc: m R^2/2 to 1e-3 of a grid of points. */
+/* Inertia: a brick m/12 (b^2 + c^2), to round-off with the cells of a grid; a disc m R^2/2 within 1e-3 with a grid of
+ * points. */
 static void test_inertia(void **state)
 {
     (void)state;
@@ -86,7 +88,7 @@ static void test_inertia(void **state)
     assert_near(r.inertia[2][2], 9, 5e-3 * 9);
 }
 
-/* Free turning about the middle axis, which is unstable: energy and angular momentum stay. */
+/* Free rotation about the middle axis, which is unstable: energy and angular momentum are constant. */
 static void test_tumbling(void **state)
 {
     (void)state;
@@ -103,7 +105,7 @@ static void test_tumbling(void **state)
         least = real_min(least, r.turn[1][1]);
         assert_near(rigid_kinetic(&r), before, 1e-5 * before);
     }
-    assert_true(least < -0.9); /* it has tumbled over */
+    assert_true(least < -0.9); /* check: it has turned over */
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             real sum = 0;
@@ -112,7 +114,7 @@ static void test_tumbling(void **state)
         }
 }
 
-/* A constant force and moment: the closed forms of leap-frog, whose energy is their work. */
+/* Constant force and moment: the closed forms of leap-frog integration, whose energy is the work. */
 static void test_driven(void **state)
 {
     (void)state;
@@ -132,13 +134,13 @@ static void test_driven(void **state)
     assert_near(r.x[0], 1 + 0.5 * 2 * 4, 1e-9);
     assert_near(atan2(r.turn[1][0], r.turn[0][0]), 0.5 * 2 / r.inertia[2][2] * 4, 1e-9);
     assert_near(driven.x[0], 1 + 3 * 1.5, 1e-9);
-    /* integral of (5 + 3 t) v over 2 s, v = 3 t up to 1 s, then 3; by the trapezoidal rule */
+    /* Integral of (5 + 3 t) v over 2 s, v = 3 t up to 1 s, then 3; by the trapezoidal rule. */
     assert_near(rigid_work(&driven), 39, 1e-3);
     assert_near(rigid_distance(&driven, (const real[]){5.5 + 5, 2, 0}, normal), 2, 1e-9);
 }
 
-/* A brick that flies and turns in space: the velocity of its points is the rate of their positions; its kinetic energy
- * grows by the work of force, weight and moment. */
+/* A brick in free 3D motion: the velocity of its points is the rate of their positions; the kinetic energy increases by
+ * the work of force, weight and moment. */
 static void test_points_move(void **state)
 {
     (void)state;
@@ -158,7 +160,7 @@ static void test_points_move(void **state)
         rigid_move(&r, 0, dt, dt);
         rigid_place(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
-        for (int d = 0; d < 3 && k > 0; d++) /* kinetic is that of before the last step's motion */
+        for (int d = 0; d < 3 && k > 0; d++) /* the kinetic energy is that before the last step's motion */
             work += (force[d] * r.way[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
     }
     rigid_velocity(
@@ -170,8 +172,8 @@ static void test_points_move(void **state)
     assert_true(work > 0.5);
 }
 
-/* What a kick of half a step adds to the kinetic energy: half a step times the power of force, weight and moment. A
- * driven body takes none. */
+/* Kinetic energy added by a velocity update of half a step: half a step times the power of force, weight and moment. A
+ * driven body has none. */
 static void test_kick(void **state)
 {
     (void)state;
@@ -195,7 +197,7 @@ static void test_kick(void **state)
 
 /* ---- in the engine ----------------------------------------------------------------------------------------------- */
 
-/* Value of a column of history.csv. */
+/* Returns the value of a column of history.csv. */
 static real recorded(const struct column *column, const real *record, int n, const char *name)
 {
     for (int k = 0; k < n; k++)
@@ -204,7 +206,7 @@ static real recorded(const struct column *column, const real *record, int n, con
     return NAN;
 }
 
-/* Two bodies: each value stands under its name; in the plane the moment is about z. Energies are sums over both. */
+/* Two bodies: each value is in its column; in 2D the moment is about z. Energies are sums over both. */
 static void test_record(void **state)
 {
     (void)state;
@@ -254,7 +256,7 @@ static void test_record(void **state)
     memory_free(rigid.motion);
 }
 
-/* The way of a driven body by its speed and ramp is where its steps take it. */
+/* The displacement of a driven body from its speed and ramp agrees with the sum of its steps. */
 static void test_ramp(void **state)
 {
     (void)state;
@@ -270,7 +272,7 @@ static void test_ramp(void **state)
     }
 }
 
-/* What cannot be. */
+/* Invalid rigid bodies are refused. */
 static void test_refused(void **state)
 {
     (void)state;

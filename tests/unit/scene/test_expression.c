@@ -1,5 +1,5 @@
-/* Expressions of scenes: values beside the same formulas in C, derivatives, units, texts that read back, refusals, and
- * any bytes at all. */
+/* Expressions of scenes: values compared with the same formulas in C, derivatives, units, texts that are read back,
+ * refusals, and arbitrary bytes. */
 #include "tests/support/near.h"
 
 #include <stdio.h>
@@ -24,7 +24,7 @@ static status compile(struct expression *e, const char *text, enum unit unit)
 #define PI 3.14159265358979323846
 #define RAMP(a) ((a) < 0 ? 0 : (a) > 1 ? 1 : (a))
 
-/* A formula as the scene writes it and as C does, of x, y, z [m] and t [s]. */
+/* A formula in the notation of scenes and in C, of x, y, z [m] and t [s]. */
 #define FORMULAS(F)                                                                                                    \
     F(UNIT_NONE, "2 + 3*4^2/8 - 1", 2 + 3 * 16 / 8. - 1)                                                               \
     F(UNIT_NONE, "-2^2", -4.)                                                                                          \
@@ -87,7 +87,7 @@ static void values_are_those_of_c(void **state)
     }
 }
 
-/* Central differences of a formula are the formula of its derivative: to the square of the step, and rounding. */
+/* Central differences of a formula agree with its derivative: to the square of the step, and round-off. */
 static void derivatives_follow(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static void derivatives_follow(void **state)
     }
 }
 
-/* The text that is kept makes the same steps, and is kept as it is. */
+/* The stored text compiles to the same steps and is stored unchanged. */
 static void texts_read_back(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void faults_are_placed(void **state)
     }
 }
 
-/* Deep, long and wide texts are refused, not followed. */
+/* Deeply nested, long and wide texts are refused. */
 static void size_is_bounded(void **state)
 {
     (void)state;
@@ -234,7 +234,7 @@ static uint32_t random_next(uint64_t *seed)
     return (uint32_t)(*seed >> 33);
 }
 
-/* Changes, drops, doubles or swaps some pieces of a formula. */
+/* Changes, removes, doubles or exchanges some parts of a formula. */
 static void mutate(char *text, size_t room, uint64_t *seed)
 {
     static const char letters[] = "()+-*/^.,0123456789eExyztmsk gPaN%_ \t\xc2\xb5\xff";

@@ -1,4 +1,4 @@
-/* Tests of filling: lattices, irregularity, initial state, refusals. */
+/* Tests of filling bodies: lattices, irregularity, initial state, refusals. */
 #include "tests/support/same.h"
 
 #include <omp.h>
@@ -22,7 +22,7 @@ static void boxes_are_filled_in_every_space(void **state)
         setting_make(&s, space[k], edge);
         s.scene.section = 0.1, s.scene.thickness = 0.2;
         int dim = s.scene.dim;
-        if (dim == 1) s.scene.thickness = 77; /* each space reads its own */
+        if (dim == 1) s.scene.thickness = 77; /* each space has its own */
         if (dim == 2) s.scene.section = 77;
         if (dim == 3) s.scene.section = s.scene.thickness = 77;
         s.body[0].material = 1;
@@ -41,14 +41,14 @@ static void boxes_are_filled_in_every_space(void **state)
             assert_close(p.volume0[i], volume[dim], 1e-15);
             assert_exact(p.volume[i], p.volume0[i]);
             assert_close(p.mass[i], 2000 * volume[dim], 1e-15);
-            assert_int_equal(p.id[i], i); /* the lattice is made in the order in which it is sorted */
+            assert_int_equal(p.id[i], i); /* the lattice is created in sorted order */
             assert_int_equal(p.material[i], 1);
         }
         particles_free(&p);
     }
 }
 
-/* A plate with an inclusion, in which there is a seed of the plate's own material. */
+/* A plate with an inclusion that contains a region of the plate's own material. */
 static void parts_are_of_their_material(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static bool has_particle(const struct particles *p, real x, real y)
     return false;
 }
 
-/* A ring about the origin: every particle's mirror images are particles, to the last bit. */
+/* A ring about the origin: the mirror images of every particle are particles, bitwise. */
 static void symmetric_bodies_are_filled_symmetrically(void **state)
 {
     (void)state;
@@ -122,7 +122,7 @@ static void symmetric_bodies_are_filled_symmetrically(void **state)
     }
 }
 
-/* A driven layer added below the plate continues its lattice, and so does a second body without an own box. */
+/* A driven layer added below the plate continues its lattice, and so does a second body without a box of its own. */
 static void added_solids_continue_the_lattice(void **state)
 {
     (void)state;
@@ -148,11 +148,13 @@ static void added_solids_continue_the_lattice(void **state)
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
     for (int i = 0; i < 16; i++) assert_int_equal(p.body[i], i < 8);
-    for (int i = 0; i < 16; i++) assert_int_equal(p.id[i], (i + 8) % 16); /* the layer is made second, lies first */
+    for (int i = 0; i < 16; i++)
+        assert_int_equal(p.id[i], (i + 8) % 16); /* the layer is created second and is first
+                                                  * in order */
     particles_free(&p);
 }
 
-/* Particles exactly on a surface belong to the body, on every side, though 0.1 has no exact binary. */
+/* Particles exactly on a surface belong to the body on every side, although 0.1 has no exact binary representation. */
 static void particles_on_surfaces_are_kept(void **state)
 {
     (void)state;
@@ -164,7 +166,7 @@ static void particles_on_surfaces_are_kept(void **state)
     s.solid[0][2] = (struct solid){.kind = SOLID_BOX, .subtract = true, .from = {0.35, -1}, .to = {0.65, 1}};
     s.body[0].shape.n = 3;
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
-    assert_int_equal(p.n, 30); /* 12 columns but for 0.45 and 0.55 */
+    assert_int_equal(p.n, 30); /* 12 columns without 0.45 and 0.55 */
     for (int i = 0; i < 10; i++) assert_near(p.X[0][i], -0.05 + 0.1 * (i < 5 ? i : i + 2), 1e-15);
     particles_free(&p);
 }
@@ -238,7 +240,7 @@ static void later_initial_entries_overwrite(void **state)
     s.initial[1].velocity[1] = 2;
     memcpy(s.initial[1].velocity_gradient, (real[]){0.5, -3, 3, 0}, 4 * sizeof(real));
     s.initial[1].centre[0] = 1;
-    s.initial[2].body = 1; /* none   */
+    s.initial[2].body = 1; /* none */
     s.initial[2].velocity[0] = 99;
     s.body[0].velocity[1] = 5;
     assert_ok(fill_particles(&p, &s.scene, NULL, WITH_GRADIENT));
@@ -252,7 +254,7 @@ static void later_initial_entries_overwrite(void **state)
     particles_free(&p);
 }
 
-/* Velocity and its gradient of formulas of second order, whose central differences are exact, with a gradient. */
+/* Initial velocity from formulas of second order, whose central differences are exact, and its gradient. */
 static void velocities_by_formulas(void **state)
 {
     static const char text[] =
@@ -280,7 +282,7 @@ static void velocities_by_formulas(void **state)
     scene_free(&s);
 }
 
-/* Stress, place, volume and stretch of a uniform gradient, against Hooke's law written out. */
+/* Stress, position, volume and stretch under a uniform gradient, compared with Hooke's law. */
 static void initial_strain_is_hooke(void **state)
 {
     (void)state;
@@ -308,9 +310,9 @@ static void initial_strain_is_hooke(void **state)
                 for (int b = 0; b < dim; b++) moved += H[a][b] * (p.X[b][i] - (b == 0 ? 0.5 : 0));
                 assert_near(p.x[a][i], p.X[a][i] + moved, 1e-15);
                 assert_close(p.stretch[a][i], 1 + H[a][a], 1e-15);
-                /* c12 tr eps + 2 G eps; the line has c11 alone */
+                /* c12 tr eps + 2 G eps; in 1D c11 only. */
                 real want = dim == 1 ? m->young * H[0][0] : m->c12 * trace + (m->c11 - m->c12) * H[a][a];
-                assert_near(p.stress[a][i], want, 1e-6); /* of 1e6 Pa */
+                assert_near(p.stress[a][i], want, 1e-6); /* relative to 1e6 Pa */
             }
             for (int c = dim; c < symmetric_count(dim); c++) {
                 const int *ab = pair[c - dim];
@@ -333,7 +335,7 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: holds no particle");
     s.solid[0][0].to[1] = 1e300;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
-    s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 places */
+    s.solid[0][0].to[0] = s.solid[0][0].to[1] = 2e8; /* 1.6e17 positions */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
@@ -343,20 +345,20 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles.spacing, which is not given");
     s.scene.spacing = 0.5;
     s.scene.bodies = 2;
-    s.solid[1][0] = s.solid[0][0]; /* the same place twice */
+    s.solid[1][0] = s.solid[0][0]; /* the same position twice */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles in one place");
     s.scene.bodies = 1;
     s.scene.initials = 1;
     s.initial[0].sets_strain = true;
     s.initial[0].displacement_gradient[0] = -1.5;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
-    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* stretched across as much as that and more */
+    s.initial[0].displacement_gradient[s.scene.dim + 1] = 3; /* expanded across by as much and more */
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "inside out");
     s.scene.bodies = 0;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "no bodies");
 }
 
-/* A pulse along and across its direction: velocity by its form, displacement by its integral; the stress on planes
+/* Pulses along and across their direction: velocity from its form, displacement from its integral; the stress on planes
  * across the direction is -rho c v, c of longitudinal or shear waves; longitudinal ones change the volume by -v/c. */
 static void pulses_are_waves(void **state)
 {

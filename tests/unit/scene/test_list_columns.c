@@ -1,5 +1,5 @@
-/* Columns of lists as other programs write them: units, separators, names, what is missing or too much; and
- * bytes that are no list. */
+/* Columns of lists written by other programs: units, separators, names, missing and superfluous columns; and invalid
+ * bytes. */
 #include "tests/support/near.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ static void list_written(struct setting *s, char *name, const char *text)
     s->body[0].file = name;
 }
 
-/* Units, separators, columns of other programs, and what is taken in place of what is missing. */
+/* Units, separators, columns of other programs, and defaults of missing columns. */
 static void lists_of_others_are_read(void **state)
 {
     (void)state;
@@ -52,8 +52,8 @@ static void lists_of_others_are_read(void **state)
     }
 }
 
-/* Without a spacing in the scene it follows from the mean volume, in a plate by its thickness: particles nearer than a
- * thousandth of it are refused. */
+/* Without a spacing in the scene it follows from the mean volume, in a plate with its thickness; particles closer than
+ * a thousandth of it are refused. */
 static void spacing_of_volumes(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void spacing_of_volumes(void **state)
     }
 }
 
-/* Files of ParaView, R, pandas, Peridigm and PeriLab as they are. */
+/* Files of ParaView, R, pandas, Peridigm and PeriLab are read unchanged. */
 static void lists_of_programs_are_read(void **state)
 {
     (void)state;
@@ -85,11 +85,11 @@ static void lists_of_programs_are_read(void **state)
         "\"x [mm]\" \"y (m)\" \"volume\" \"a name\" \"material\"\n500 1 2e-3 \"of it\" \"1\"\n",
         "# of mesh 7\n# x y z block_id volume\n# 1 particle\n0.5 1 0 2 2e-3\n", "\t5e-1 1.0 0 2 2e-3 \r\n",
         "# nodes\nheader: x y block_id volume\n0.5 1 2 2e-3\n",
-        /* tabs separate like blanks, whatever the lines have; where names or fields need it, each tab ends a field */
+        /* Tabs separate like blanks, if the lines have both; if names or fields require it, each tab ends a field. */
         "header: \t x [mm] \t y \t block_id \t volume\n 500 1 2 2e-3\n",
         "x\ty [mm]  volume\tblock_id\n0.5\t1000 2e-3\t2\n", "x y\tblock_id volume\t\n\t0.5 1 2 2e-3\n",
         "#\tx \ty\tblock_id \tvolume\n0.5 1\t2 2e-3\n", "the node\tx\ty\tvolume\tblock_id\n\t0.5\t1\t2e-3\t2\n",
-        "x,\ty,volume,\tblock_id\n0.5,\t1,2e-3,2\n"}; /* a tab behind a comma is a blank */
+        "x,\ty,volume,\tblock_id\n0.5,\t1,2e-3,2\n"}; /* a tab after a comma counts as a blank */
     for (size_t k = 0; k < COUNT_OF(text); k++) {
         struct setting s;
         struct particles p;
@@ -111,7 +111,7 @@ static void lists_of_programs_are_read(void **state)
     }
 }
 
-/* Without volumes each particle has that of the lattice, and it is said. */
+/* Without volumes each particle has that of the lattice, and a message reports it. */
 static void volumes_have_a_default(void **state)
 {
     (void)state;

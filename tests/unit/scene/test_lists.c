@@ -1,4 +1,4 @@
-/* Tests of lists of particles: CSV and HDF5 files that fill bodies, and what is refused about them. */
+/* Tests of lists of particles: CSV and HDF5 files that fill bodies, and refusals. */
 #include "tests/support/near.h"
 
 #include <hdf5.h>
@@ -31,7 +31,7 @@ static void csv_lists_are_read(void **state)
             "\xEF\xBB\xBF# two particles\r\n\r\n body , volume,y,material, x\r\n"
             "0,2e-3,1,1,-1.5\r\n#\n0, 1e-3 ,\t0.5,0,2.5e-1");
     s.body[0].velocity[0] = 4;
-    s.scene.irregularity = 0.5; /* shifts lattices, not lists */
+    s.scene.irregularity = 0.5; /* applies to lattices, not to lists */
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 2);
     const real want[2][5] = {{0.25, 0.5, 1e-3, 1, 1}, {-1.5, 1, 2e-3, 4, 0}}; /* x, y, volume, mass, id; by row */
@@ -48,7 +48,8 @@ static void csv_lists_are_read(void **state)
     remove(name);
 }
 
-/* Two bodies from one file, each with its own rows; without a spacing, that of the mean particle sorts them. */
+/* Two bodies from one file, each with its own rows; without a spacing, that of the mean particle is used for
+ * sorting. */
 static void bodies_share_a_list(void **state)
 {
     (void)state;
@@ -183,7 +184,7 @@ static void hdf5_lists_are_read(void **state)
     remove(name);
 }
 
-/* An attribute `unit` of a dataset, of fixed length or of its own. */
+/* Writes an attribute `unit` of a dataset, of fixed or variable length. */
 static void unit_write(hid_t file, const char *name, const char *unit, bool variable)
 {
     hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
@@ -195,7 +196,7 @@ static void unit_write(hid_t file, const char *name, const char *unit, bool vari
     H5Tclose(type);
 }
 
-/* Places in space, velocities, masses, and units beside them. */
+/* Positions in 3D, velocities, masses, and their units. */
 static void hdf5_lists_have_units(void **state)
 {
     (void)state;
@@ -229,8 +230,8 @@ static void hdf5_lists_have_units(void **state)
     remove(name);
 }
 
-/* Positions that are not what they seem: a link out of the file or inside it, numbers in a file beside it or in
- * another dataset, and far more of them than the file has bytes. */
+/* Refused: positions that are a link out of the file or inside it, numbers in another file or dataset, or far more
+ * numbers than the file has bytes. */
 static void hdf5_lists_are_whole(void **state)
 {
     (void)state;
@@ -273,8 +274,8 @@ static void hdf5_lists_are_whole(void **state)
 
 /* ---- lists in another unit than the scene ------------------------------------------------------------------------ */
 
-/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` places `apart` from
- * each other; the first `single` places have one particle alone. Volumes fill the space up to the nearest neighbour
+/* Clusters of `together` particles `near` apart along x, on a square or cubic grid of `side` positions `apart` from
+ * each other; the first `single` positions have one particle only. Volumes fill the space up to the nearest neighbour
  * `times` over, 0: once. */
 struct grains {
     int side, together, single;
@@ -302,7 +303,7 @@ static void write_grains(const char *name, int dim, const struct grains *g)
 
 enum { PD = METHOD_PD, MPM = METHOD_MPM, BOTH = METHOD_ADAPTIVE };
 
-/* A list in a scene, and what is said of it; NULL: it is taken. */
+/* A list in a scene, and the expected message; NULL: accepted. */
 static const struct {
     enum space space;
     int method;
@@ -310,7 +311,7 @@ static const struct {
     struct grains g;
     const char *says;
 } told[] = {
-    /* metres meant, millimetres written, and the other way round */
+    /* Lists in millimetres read as metres, and the other way round. */
     {SPACE_PLANE_STRESS,
      PD,
      1e-3,
@@ -325,7 +326,7 @@ static const struct {
      {20, 1, 0, 0, 1, 0},
      "about 100 % of its particles have no neighbour within 3.015 spacings"},
     {SPACE_SOLID, PD, 0.025, {4, 1, 0, 0, 2.5, 0}, "(is it in mm, or in cm?)"},
-    /* 1 mm apart where the spacing is 5 mm, or 1 cm apart: volumes in m^3 decide */
+    /* 1 mm apart with a spacing of 5 mm, or 1 cm apart: volumes in m^3 decide. */
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-6}, "(is it in mm?)"},
     {SPACE_PLANE_STRESS, PD, 5e-3, {10, 1, 0, 0, 1, 1e-4}, "(is it in cm?)"},
     {SPACE_SOLID, PD, 2e-2, {4, 1, 0, 0, 1, 1e-9}, "(is it in mm?)"},
@@ -350,15 +351,15 @@ static const struct {
      {10, 1, 0, 0, 1, 1e-3},
      "volumes of its particles are 0.001 times the space up to their neighbours, "
      "which are 1 m apart, times the thickness; volumes in m^3 are expected"},
-    /* what a list may be */
+    /* Valid lists. */
     {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 1, 50}, NULL}, /* heavy knots of a net */
     {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 1, 0}, NULL},
-    {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL}, /* neighbours at the rim of the horizon */
+    {SPACE_PLANE_STRESS, PD, 1, {10, 1, 0, 0, 3, 0}, NULL}, /* neighbours near the horizon */
     {SPACE_PLANE_STRESS, MPM, 1, {10, 1, 0, 0, 3, 0}, "no neighbour within 2 spacings"},
-    {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},        /* a graded body's fine part */
-    {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL}, /* grains of two, far apart */
+    {SPACE_SOLID, PD, 1, {5, 1, 0, 0, 0.2, 0}, NULL},        /* fine part of a graded body */
+    {SPACE_PLANE_STRESS, PD, 1, {10, 2, 0, 1, 50, 0}, NULL}, /* pairs, far apart */
     {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 0, 1, 50, 0}, NULL},
-    {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL}, /* 60 chips beside 40 such grains: 43 % */
+    {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 60, 1, 50, 0}, NULL}, /* 60 single particles beside 40 such pairs: 43 % */
     {SPACE_PLANE_STRESS, MPM, 1, {10, 2, 72, 1, 50, 0}, "56 % of its particles"},
     {SPACE_LINE, PD, 1, {7, 1, 0, 0, 50, 0}, NULL}, /* seven mass points */
     {SPACE_LINE, PD, 1, {8, 1, 0, 0, 50, 0}, "100 % of its particles"},
@@ -390,7 +391,7 @@ static void units_of_lists_are_told(void **state)
     remove(name);
 }
 
-/* Points strewn through another body meet it on the grid; bonds do not leave their body. */
+/* Points inside another body interact with it on the grid; bonds stay within their body. */
 static void other_bodies_are_neighbours_of_points(void **state)
 {
     (void)state;
@@ -409,7 +410,7 @@ static void other_bodies_are_neighbours_of_points(void **state)
     remove(name);
 }
 
-/* 2e5 particles, each the neighbour of all others: 960 GB. */
+/* 2e5 particles, each the neighbour of all others, need 960 GB: refused. */
 static void bonds_beyond_memory_are_refused(void **state)
 {
     (void)state;
@@ -425,7 +426,7 @@ static void bonds_beyond_memory_are_refused(void **state)
     remove(name);
 }
 
-/* Files of the tests live in a folder of their own. */
+/* Creates and enters a folder for the files of the tests. */
 static int enter_folder(void **state)
 {
     static char folder[] = "/tmp/cleave_fill_XXXXXX";

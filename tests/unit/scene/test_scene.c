@@ -1,4 +1,4 @@
-/* Scenes: every key is read, units are exact, overrides lay over. */
+/* Scenes: every key is read, units are exact, overrides replace values. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -50,7 +50,7 @@ static void test_plate_materials_bodies(void **state)
     assert_true(m[0].critical_stretch == material_critical_stretch(&m[0], s.space, 4.015 * 1e-3, STRETCH_BOND));
     assert_true(m[0].wave_speed > 0);
     assert_true(m[1].density == 2440 && m[1].critical_stretch == 1e-3 && isnan(m[1].energy_release_rate));
-    assert_true(m[2].energy_release_rate == 60e6 * 60e6 / 200e9); /* plane stress: K^2 / E */
+    assert_true(m[2].energy_release_rate == 60e6 * 60e6 / 200e9); /* plane stress: K^2/E */
     assert_true(m[2].poisson == 1.0 / 3);
     assert_true(isinf(m[3].critical_stretch));
     assert_int_equal(s.bodies, 3);
@@ -183,7 +183,7 @@ static void test_block(void **state)
     scene_free(&s);
 }
 
-/* A turn at 21/s about an axis of length 7 is one at w = (9, -18, 6)/s: rows of w x. */
+/* A rotation at 21/s about an axis of length 7 has w = (9, -18, 6)/s: rows of w x. */
 static void test_turn(void **state)
 {
     (void)state;
@@ -201,7 +201,7 @@ static void test_turn(void **state)
 static void test_units(void **state)
 {
     (void)state;
-    /* Right to the last bit: a unit only moves the decimal exponent. */
+    /* Exact to the last bit: a unit only changes the decimal exponent. */
     static const struct {
         const char *key, *value;
         real expected;
@@ -296,7 +296,7 @@ static void test_overrides(void **state)
     assert_true(s.material[2].critical_stretch == 0.5 && isnan(s.material[2].energy_release_rate));
     scene_free(&s);
     static const struct scene_override named[] = {
-        /* the same by plain numbers and by names */
+        /* Elements of lists by index and by name are the same key. */
         {"materials.glass.young", "5 GPa"},
         {"bodies.bar.velocity", "[1, 0]"},
         {"bodies.2.material", "hard"},
@@ -319,12 +319,13 @@ static void test_overrides(void **state)
                 s.probe[0].at[1] == 4);
     scene_free(&s);
     static const struct scene_override sections[] = {{"pd.volume", "ramp"}, {"method", "pd"}, {"method", "mpm"}};
-    s = read_ok(bar, sections, 3); /* a section the file does not have; the later of two wins */
+    s = read_ok(bar, sections, 3); /* a section missing in the file; the later of two applies */
     assert_true(s.volume == VOLUME_RAMP && s.method == METHOD_MPM);
     scene_free(&s);
 }
 
-/* Keys by their earlier names, in the file, in the path of an override and in its value; the echo has the new names. */
+/* Keys under their earlier names, in the file, in the path of an override and in its value; the echo has the new
+ * names. */
 static void test_renamed(void **state)
 {
     (void)state;
@@ -347,8 +348,8 @@ static void test_renamed(void **state)
     scene_free(&s);
 }
 
-/* Bonds across an interface break as those of a material between both would, of the harmonic mean of their moduli: the
- * critical stretch goes with sqrt(G/E). */
+/* Bonds across an interface break as those of a material with the harmonic mean of both moduli: the critical stretch is
+ * proportional to sqrt(G/E). */
 static void interfaces_have_their_strength(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Scenes that must be refused: each is the good scene below with one piece replaced, and the message is exact, line
- * and column included. */
+/* Invalid scenes: each is the valid scene below with one piece replaced, and the message must be exact, including line
+ * and column. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +49,7 @@ static const char good[] = "name: plate\n"
                            "  - point: {name: a, at: [1 mm, 1 mm]}\n"
                            "  - reaction: {boundary: impact}\n";
 
-/* piece of the good scene, what stands in its place, message after the file's name */
+/* Piece of the valid scene, its replacement, message after the file's name. */
 static const struct {
     const char *piece, *instead, *message;
 } cases[] = {
@@ -285,7 +285,8 @@ static const struct {
      "1:10: not YAML: invalid leading UTF-8 octet; spaces (not tabs) indent, a key ends in `: `, brackets close"},
 };
 
-/* The good scene with the one occurrence of `piece` replaced; NUL bytes survive as in `instead_length`. */
+/* Returns the valid scene with the only occurrence of `piece` replaced; NUL bytes are kept according to
+ * `instead_length`. */
 static char *replaced(const char *piece, const char *instead, size_t instead_length, size_t *length)
 {
     const char *at = strstr(good, piece);
@@ -337,7 +338,7 @@ static void test_bytes(void **state)
     check_refused("", 0, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("# nothing\n", 10, "1:1: empty; a scene begins with keys such as space and duration");
     check_refused("- a\n", 4, "1:1: a list is not a mapping of keys to values, as a scene is");
-    char *many = test_malloc(4000000); /* five events come before the first item */
+    char *many = test_malloc(4000000); /* five events precede the first item */
     memcpy(many, "a: [", 4);
     for (int k = 0; k < 1000000; k++) memcpy(many + 4 + 2 * k, "1,", 2);
     check_refused(many, 2000004, "1:1999995: more than 1000000 YAML events; long data belong into a particle list");

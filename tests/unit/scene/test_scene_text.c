@@ -1,4 +1,4 @@
-/* Scenes written and read again bit by bit, any bytes at all, help and manual. */
+/* Scenes written and read back bitwise, arbitrary bytes, help and manual. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */
 
-/* Name and path aside, the second reading is the first: same text, same numbers. */
+/* Checks that a scene that is written out and read back has equal text and numbers, except for name and path. */
 static void check_round_trip(const struct scene *a)
 {
     struct scene b;
@@ -66,7 +66,7 @@ static unsigned draw(uint64_t *seed)
     return (unsigned)(*seed >> 33);
 }
 
-/* Some bytes changed, a piece doubled or cut out. Returns the length. */
+/* Changes some bytes, or doubles or removes a piece. Returns the length. */
 static size_t mutate(char *text, size_t length, uint64_t *seed)
 {
     static const char letters[] = "[]{}:,-&*!|>'\"#%@ \n\t\\0123456789.eE/inf_x\xc3\x00";
@@ -103,7 +103,7 @@ static void test_mutations(void **state)
         char *copy = test_malloc(length + 1000);
         memcpy(copy, text, length);
         length = mutate(copy, length, &seed);
-        char *exact = test_malloc(length); /* so that reading beyond the end shows */
+        char *exact = test_malloc(length); /* exact size, so that reads beyond the end are detected */
         memcpy(exact, copy, length);
         status result = scene_read_text(&s, exact, length, "m.yaml", NULL, 0);
         if (result == OK) {

@@ -1,5 +1,5 @@
-/* Solids in scenes: each kind is read, moved and repeated as written, the echo reads back to the same, names stand for
- * their solids, and what is wrong is refused in its place. */
+/* Solids in scenes: each kind is read, moved and repeated as specified, the echo reads back equal, names stand for
+ * their solids, and errors are reported at their position. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static void scene_text(char *text, size_t room, int dim, const char *regions, co
 
 /* ---- round trip -------------------------------------------------------------------------------------------------- */
 
-/* Shapes that use every key of solids between them; a place within, a place without. */
+/* Shapes that together use every key of solids; a position inside, a position outside. */
 static const struct shown_shape {
     int dim;
     const char *regions, *shape;
@@ -124,7 +124,7 @@ static void test_round_trip_of_solids(void **state)
         if (scene_read_text(&b, a.text, strlen(a.text), "again.yaml", NULL, 0) != OK)
             fail_msg("%s in\n%s", status_message(), a.text);
         assert_string_equal(a.text, b.text);
-        for (int i = 0; i < 500; i++) { /* the same bits */
+        for (int i = 0; i < 500; i++) { /* bitwise equal */
             const real X[] = {i % 8 * 1.7 - 6.3, i / 8 % 8 * 1.6 - 5.1, i / 64 - 3.3};
             assert_true(region_level(&a.body->shape, X, q->dim) == region_level(&b.body->shape, X, q->dim));
         }
@@ -148,7 +148,7 @@ static int64_t filled(const char *regions, const char *shape, int dim)
     return n;
 }
 
-/* What is turned by quarters holds the lattice of what is not, also where places lie on its surface. */
+/* A body rotated by quarter turns contains the same lattice positions as the unrotated one, also on its surface. */
 static void test_filled_alike(void **state)
 {
     (void)state;
@@ -167,7 +167,7 @@ static void test_filled_alike(void **state)
     for (size_t k = 0; k < COUNT_OF(same); k++) assert_int_equal(filled("", same[k][0], 2), filled("", same[k][1], 2));
 }
 
-/* A wheel with slots all round holds as many particles in each quarter. */
+/* A wheel with slots all around has equal numbers of particles in each quarter. */
 static void test_filled_symmetrically(void **state)
 {
     (void)state;
@@ -268,7 +268,7 @@ static void test_refusals(void **state)
     }
 }
 
-/* Names that call names a hundred million times are refused at once. */
+/* Names that expand to a hundred million solids are refused at once. */
 static void test_multiplied_names(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Spacings that suit the lengths of a scene: whole numbers of them in edges, gaps and cracks, and a few of them in each
- * length that a solution must resolve. */
+/* Spacings that fit the lengths of a scene: integer numbers of spacings in edges, gaps and cracks, and a few in each
+ * length that must be resolved. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,27 +16,28 @@
     "space: plane stress\nthickness: 1 mm\nduration: 1 us\nmaterial: {young: 2e11, poisson: 1/3, density: 8000}\n"     \
     "particles: {spacing: 10 mm}\n"
 
-/* Reads a scene in which nothing is wrong. */
+/* Reads a valid scene. */
 static void read_sound(struct scene *s, const char *text)
 {
     if (scene_read_text(s, text, strlen(text), "spacings.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
 }
 
-/* A crack's ends, gaps and edges are between particles; cells of two spacings end with the body. */
+/* Crack ends, gaps and edges are between particles; cells of two spacings end with the body. */
 static void spacings_divide_lengths(void **state)
 {
     (void)state;
     struct scene s;
     read_sound(&s, PLANE "body: {box: {from: [0, 0], to: [60, 40]}}\ncracks: [{from: [-1, 20], to: [30, 20]}]\n");
     assert_true(fabs(spacing_fit(&s, 1, false) - 1) < 1e-12);
-    /* 60, 40, 30 and 20: a whole part of 10 */
+    /* 60, 40, 30 and 20: a multiple of 10. */
     assert_true(fabs(spacing_fit(&s, 0.99, false) - 10.0 / 11) < 1e-12);
     assert_true(fabs(spacing_fit(&s, 3.4, true) - 10.0 / 3) < 1e-12); /* 60 and 40 over 20/3: 9 and 6 pairs */
     assert_true(fabs(spacing_fit(&s, 1e-3, true) - 1e-3) < 1e-12);
     scene_free(&s);
 }
 
-/* The first body is a disc, so no edge along x counts; the spacing stays where none divides the other's edges. */
+/* The first body is a disc, so that no edge along x counts; the spacing stays if none divides the other body's
+ * edges. */
 static void a_disc_has_no_edges(void **state)
 {
     (void)state;
@@ -47,7 +48,7 @@ static void a_disc_has_no_edges(void **state)
     scene_free(&s);
 }
 
-/* Lengths that have to be resolved have a few spacings each, which divide the body; none needs more than 50,000
+/* Lengths that must be resolved have a few spacings each, which divide the body; none needs more than 50,000
  * particles. */
 static void each_length_has_a_few_spacings(void **state)
 {
@@ -75,7 +76,7 @@ static void each_length_has_a_few_spacings(void **state)
     }
 }
 
-/* Particles from a list and a body without bounds have no length that says a spacing. */
+/* Particles from a list and a body without bounds have no length that determines a spacing. */
 static void there_may_be_no_length(void **state)
 {
     (void)state;

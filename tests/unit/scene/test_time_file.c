@@ -1,4 +1,4 @@
-/* Tests of functions of time from CSV files: what is read, refused, and looked up. */
+/* Tests of functions of time from CSV files: reading, refusals, evaluation. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ static void file_write(const char *name, const char *text, size_t length)
     fclose(file);
 }
 
-/* The scene with this function of time beside a file blast.csv of this text. */
+/* Reads the scene with this function of time and a file blast.csv of this text. */
 static status read_with(struct scene *s, const char *time, const char *csv, size_t length)
 {
     char text[1000];
@@ -102,7 +102,7 @@ static void bad_files_are_refused(void **state)
     assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: given beside file");
 }
 
-/* Nothing but a status may come of garbage. */
+/* Arbitrary bytes cause a status, never a crash. */
 static void garbage_is_refused(void **state)
 {
     (void)state;
@@ -120,7 +120,7 @@ static void garbage_is_refused(void **state)
     }
 }
 
-/* Bisection finds the bits that a search from the start does. */
+/* Bisection yields values bitwise equal to those of a search from the start. */
 static void long_tables_are_bisected(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Variables of scenes: in every kind of number, laid over, written out, and refused. */
+/* Variables of scenes: in every kind of number, overridden, written out, and refused. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -63,7 +63,7 @@ static void every_number_may_contain_them(void **state)
     scene_free(&s);
 }
 
-/* Numbers alone, which read back bit by bit. */
+/* The scene as run contains only numbers, which are read back bitwise. */
 static void the_scene_as_run_holds_numbers(void **state)
 {
     (void)state;
@@ -95,7 +95,7 @@ static void overrides_set_them(void **state)
     scene_free(&s);
 }
 
-/* Each line takes the place of `a: 3 mm`; the message stands behind the file's name. */
+/* Each line replaces `a: 3 mm`; the expected message follows the file's name. */
 static void wrong_ones_are_refused(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void wrong_ones_are_refused(void **state)
     }
 }
 
-/* A chain that is too long for the stack is refused, not followed. */
+/* A chain of definitions that is too long for the stack is refused. */
 static void chains_are_bounded(void **state)
 {
     (void)state;
@@ -181,7 +181,7 @@ static void chains_are_bounded(void **state)
     for (int k = 1; k < 900; k++) used += (size_t)sprintf(text + used, ", v%d: v%d + 1 mm", k, k - 1);
     strcpy(text + used, "}\nspace: line\n");
     assert_int_equal(scene_read_text(&s, text, strlen(text), "v.yaml", NULL, 0), REFUSED);
-    assert_non_null(strstr(status_message(), "duration: missing")); /* each is known when the next needs it */
+    assert_non_null(strstr(status_message(), "duration: missing")); /* each is defined before the next needs it */
     used = strlen(strcpy(text, "variables: {"));
     for (int k = 0; k < 900; k++) used += (size_t)sprintf(text + used, "v%d: v%d, ", k, k + 1);
     strcpy(text + used, "}\nspace: line\n");

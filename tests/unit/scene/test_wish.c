@@ -1,4 +1,4 @@
-/* What a scene with `method: auto` requires of its pilot runs, as read from a file. */
+/* Request of a scene with `method: auto` for its pilot runs, as read from a file. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
     "method: auto\nspace: plane stress\nthickness: 1 mm\nduration: 1 us\n"                                             \
     "material: {young: 2e11, poisson: 1/3, density: 8000}\nbody: {box: {from: [0, 0], to: [40 mm, 20 mm]}}\n"
 
-/* Reads a scene of this text from a file of its own. */
+/* Reads a scene of this text from a file. */
 static status wish_of(struct pilot_wish *w, const char *text)
 {
     char path[] = "/tmp/cleave-wish-XXXXXX";
@@ -41,7 +41,7 @@ static void a_share_alone(void **state)
     assert_true(fabs(w.within - 0.02) < 1e-15 && w.budget == 300);
     assert_string_equal(w.figure, "");
     assert_string_equal(w.model, "");
-    /* 3000 particles, at most */
+    /* At most 3000 particles. */
     assert_int_equal(w.provisional.method, METHOD_ADAPTIVE);
     assert_true(w.provisional.spacing > 0.4e-3 && w.provisional.spacing < 0.52e-3);
     scene_free(&w.provisional);
@@ -61,7 +61,7 @@ static void all_that_can_be_given(void **state)
     scene_free(&w.provisional);
 }
 
-/* Joined bodies are refused in adaptive runs, so the provisional method is pd. */
+/* Joined bodies are refused in adaptive runs, so that the provisional method is pd. */
 static void joined_bodies_are_for_bonds(void **state)
 {
     (void)state;
@@ -78,7 +78,7 @@ static void joined_bodies_are_for_bonds(void **state)
     scene_free(&w.provisional);
 }
 
-/* Other methods are read as by scene_read; what is wrong leaves no wish. */
+/* Scenes with other methods are read as by scene_read; invalid ones leave no request. */
 static void other_scenes_have_no_wish(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Equilibrium of trusses: springs in matrices against elimination, bars that turn, snap through and are driven far
- * against closed forms, and the account of work. */
+/* Equilibrium of trusses: matrices of springs compared with elimination; bars that rotate, snap through and have large
+ * prescribed displacements compared with closed forms; balance of work. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 enum { NODES = 12, BARS = 40 };
 
-/* Bars between nodes: force k (length - rest) along the bar. */
+/* Bars between nodes, with force k (length - rest) along the bar. */
 struct truss {
     int dim, nodes, bars;
     real X[NODES][DIM_MAX], load[NODES][DIM_MAX];
@@ -61,7 +61,7 @@ static real truss_energy(const struct truss *t)
     return sum;
 }
 
-/* The diagonal of all bars at once: no node is without stiffness to it. */
+/* Applies the sum of the diagonal entries of all bars as preconditioner: every node has stiffness in it. */
 static void truss_precondition(void *context, const struct field *r, struct field *z)
 {
     const struct truss *t = context;
@@ -111,7 +111,7 @@ static status truss_find(struct truss *t, bool moved)
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
 
-/* A K of a truss in small motions, solved by elimination: n unknowns, rows of n + 1. */
+/* Solves the equations of a truss with small displacements by elimination: n unknowns, rows of n + 1. */
 static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
 {
     for (int k = 0; k < n; k++)
@@ -126,8 +126,8 @@ static void eliminate(int n, real (*A)[2 * NODES + 1], real *x)
     }
 }
 
-/* A plane truss of ten free nodes on two held ones; displacements are a thousandth of its size, and so is what is not
- * linear.  Tolerances of 1e-5 and 1e-9 are met. */
+/* A plane truss of ten free nodes and two fixed ones; displacements are a thousandth of its size, and so are nonlinear
+ * effects. Tolerances of 1e-5 and 1e-9 are reached. */
 static void test_linear(void **state)
 {
     (void)state;
@@ -166,8 +166,8 @@ static void test_linear(void **state)
     }
 }
 
-/* A bar that hangs on a hinge, pulled across: it turns by a right angle, along the force, and is as long as that asks.
- */
+/* A bar on a hinge under a transverse force: it rotates by a right angle, into the direction of the force, and has the
+ * corresponding length. */
 static void test_turns(void **state)
 {
     (void)state;
@@ -181,8 +181,8 @@ static void test_turns(void **state)
     truss_free(&t);
 }
 
-/* Two bars make a flat roof of height 0.1 over half a span of 1. Its load to snap is 2 k max of (1/1 - 1/l) y, about
- * 2 k 0.1^3/(3 sqrt 3); below it the roof bends, above it hangs. Equilibria by bisection of the closed form. */
+/* Two bars form a flat roof of height 0.1 over half a span of 1. The snap-through load is 2 k max of (1/1 - 1/l) y,
+ * about 2 k 0.1^3/(3 sqrt 3); below it the roof bends, above it hangs. Equilibria from the closed form by bisection. */
 static real roof_load(real y) { return 2 * (sqrt(1.01) / hypot(1, y) - 1) * y; }
 static void test_snaps(void **state)
 {
@@ -198,7 +198,7 @@ static void test_snaps(void **state)
         truss_make(&t, 1e-9);
         t.q.held[0] = t.q.held[1] = 3;
         assert_int_equal(truss_find(&t, true), OK);
-        real low = roof[c].from, high = roof[c].to; /* the load falls from one to the other */
+        real low = roof[c].from, high = roof[c].to; /* the load decreases from one to the other */
         for (int k = 0; k < 60; k++) {
             const real y = 0.5 * (low + high);
             if (roof_load(y) > roof[c].load)
@@ -211,9 +211,9 @@ static void test_snaps(void **state)
     }
 }
 
-/* A roof whose middle is held to a support that goes through: forces of supports do work, no other is lost. A bar that
- * breaks then: what it held is gone, and what the others give is lost. Both to what Simpson's rule leaves of ways of a
- * twentieth of a bar and more; what supports do between equilibria is that of the mean of their forces, to 0.5 %. */
+/* A roof whose middle is moved through by a support: support forces do work, and no energy is lost. Then a bar breaks:
+ * its energy and that released by the others are dissipated. Tolerance: Simpson's rule for displacements of a twentieth
+ * of a bar and more; the work of supports between equilibria is that of their mean force, to 0.5 %. */
 static void test_work(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void test_work(void **state)
     truss_free(&t);
 }
 
-/* Nothing holds it against the load. */
+/* A structure without resistance to the load has no equilibrium. */
 static void test_none(void **state)
 {
     (void)state;

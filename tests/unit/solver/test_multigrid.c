@@ -1,5 +1,6 @@
-/* The multigrid preconditioner: solutions against dense elimination, symmetry, positive definiteness, iterations that
- * do not grow with bodies, cracks and pieces that nothing holds, the same bits on any number of threads, bad input. */
+/* Multigrid preconditioner: solutions compared with dense elimination, symmetry, positive definiteness, number of
+ * iterations independent of size, cracks and unconstrained fragments, bitwise equality on any number of threads,
+ * invalid input. */
 #include "tests/support/near.h"
 
 #include <omp.h>
@@ -20,17 +21,17 @@ enum {
 };
 
 /* A lattice of particles with springs of stiffness 1/|xi| within 3.015 spacings, or to the nearest 3^dim - 1 as in a
- * mesh of cells; those with x < 3 are held. */
+ * mesh of cells; particles with x < 3 are fixed. */
 struct body {
     int dim, kind;
     int size[DIM_MAX];
     struct block_matrix a;
     real *place[DIM_MAX];
     uint8_t *held;
-    int32_t *node; /* of each place of the lattice, -1: none */
+    int32_t *node; /* [positions of the lattice] node, -1: none */
 };
 
-/* Numbers in [-1/2, 1/2) that are the same everywhere. */
+/* Returns a pseudo-random number in [-1/2, 1/2), equal on all machines. */
 static real mixed(uint64_t k)
 {
     k = (k + 1) * 0x9e3779b97f4a7c15u;
@@ -45,7 +46,7 @@ static bool in_piece(const struct body *b, const int *at)
     return true;
 }
 
-/* Whether a bond joins two places, by what the body is. */
+/* Returns true if a bond connects two positions in this kind of body. */
 static bool joined(const struct body *b, const int *from, const int *to)
 {
     const real middle = b->size[1] / 2 - 0.5;
@@ -58,7 +59,8 @@ static bool joined(const struct body *b, const int *from, const int *to)
     return true;
 }
 
-/* Of two materials one is a thousand times as stiff; bonds between them have the harmonic mean. */
+/* Returns the factor on the stiffness: of two materials one is a thousand times as stiff; bonds between them have the
+ * harmonic mean. */
 static real bond_factor(const struct body *b, const int *from, const int *to)
 {
     const int stiff = (from[0] > b->size[0] / 2) + (to[0] > b->size[0] / 2);
@@ -77,7 +79,7 @@ static void place_of(const struct body *b, int64_t k, int *at)
     at[2] = (int)(k / b->size[0] / b->size[1]);
 }
 
-/* Row of the node at lattice place k, from entry `first` on; returns its end. */
+/* Creates the row of the node at lattice position k, from entry `first` on; returns its end. */
 static int64_t row_make(struct body *b, int64_t k, int64_t first)
 {
     const int dim = b->dim, reach = b->kind & MESH_CELLS ? 1 : 3, size = dim * dim;
@@ -192,7 +194,7 @@ static real product(const struct body *b, const struct vectors *x, const struct 
     return sum;
 }
 
-/* y = K x, as forces of bonds that differences of motions stretch. */
+/* Computes y = K x as forces of bonds stretched by differences of displacements. */
 static void stiffness(const struct body *b, const struct vectors *x, struct vectors *y)
 {
     const int dim = b->dim;
@@ -205,7 +207,7 @@ static void stiffness(const struct body *b, const struct vectors *x, struct vect
     }
 }
 
-/* Solves K u = load by conjugate gradients with the preconditioner m to 1e-8; returns the iterations. */
+/* Solves K u = load by conjugate gradients with the preconditioner m to 1e-8; returns the number of iterations. */
 static int solve_with(struct multigrid *m, const struct body *b, const struct vectors *load, struct vectors *u)
 {
     enum { MOST = 200 };
@@ -237,7 +239,7 @@ static int solve(const struct body *b, const struct vectors *load, struct vector
     return k;
 }
 
-/* A pull along the body and a smaller one across. */
+/* Returns a load along the body and a smaller one across. */
 static struct vectors load_make(const struct body *b)
 {
     struct vectors v = vectors_make(b);
@@ -262,7 +264,7 @@ static int iterations(int dim, int nx, int ny, int nz, int kind)
 
 /* ---- solutions --------------------------------------------------------------------------------------------------- */
 
-/* x = K^-1 load by elimination of the dense matrix of free components. */
+/* Computes x = K^-1 load by elimination of the dense matrix of free components. */
 static void dense_reference(const struct body *b, const struct vectors *load, real *x)
 {
     const int dim = b->dim;
@@ -293,7 +295,8 @@ static void dense_reference(const struct body *b, const struct vectors *load, re
     memory_free(k);
 }
 
-/* Stiffness in single precision: 6e-8 of the diagonal, over the least eigenvalue of these small bodies 1e-3. */
+/* Tolerance: stiffness in single precision, 6e-8 of the diagonal, over the least eigenvalue of these small bodies,
+ * 1e-3. */
 static void solutions_are_those_of_elimination(void **state)
 {
     (void)state;
@@ -315,8 +318,8 @@ static void solutions_are_those_of_elimination(void **state)
     }
 }
 
-/* The iterations found and three on top: they are the same on every machine but for round-off; coarse motions without
- * rotations, or aggregates across cracks, take twice as many. */
+/* Limits are the observed numbers of iterations plus three: they are equal on all machines up to round-off; coarse
+ * spaces without rotations, or aggregates across cracks, need twice as many. */
 static void iterations_do_not_grow(void **state)
 {
     (void)state;
@@ -356,7 +359,7 @@ static void operator_is_symmetric_and_positive(void **state)
             multigrid_apply(m, y.of, my.of);
             const real xx = product(&b, &x, &mx), yy = product(&b, &y, &my);
             assert_true(xx > 0 && yy > 0);
-            /* The prolongator and its transpose are the same numbers: round-off of double alone. */
+            /* The prolongator and its transpose have the same entries: only double-precision round-off. */
             assert_near(product(&b, &x, &my), product(&b, &y, &mx), 1e-5 * sqrt(xx * yy));
             for (int d = 0; d < b.dim; d++)
                 for (int64_t i = 0; i < b.a.n; i++)
@@ -369,8 +372,8 @@ static void operator_is_symmetric_and_positive(void **state)
     }
 }
 
-/* A body that nothing holds: its rigid motions have no stiffness, or a little from rounding, and are not to be taken
- * for soft ones. Balanced loads are answered as fast as if it were held. */
+/* A free body: its rigid motions have zero stiffness, or a little from round-off, and must not be treated as soft
+ * modes. Balanced loads are solved as fast as for a fixed body. */
 static void free_body_stays_bounded(void **state)
 {
     (void)state;
@@ -401,8 +404,8 @@ static void bonds_break(struct body *b, real x0, real x1)
         }
 }
 
-/* The preconditioner of a body serves on while a crack runs through it, and one made anew takes broken bonds for none.
- */
+/* The preconditioner of a body remains effective while a crack runs through it, and one rebuilt ignores broken
+ * bonds. */
 static void broken_bonds_cost_few_iterations(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The active set: exact zeros at rest, the same bits with and without it, that blocks become inactive, and what
- * activates them. */
+/* Active set: forces at rest are exactly zero, results are bitwise equal with and without it, row blocks become
+ * inactive, and events activate them. */
 #include <math.h>
 #include <omp.h>
 #include <string.h>
@@ -14,10 +14,10 @@
 #include "grid/active_points.h"
 #include "scene/scene_read.h"
 
-/* ---- nothing at rest is 0 ---------------------------------------------------------------------------------------- */
+/* ---- zero forces at rest ----------------------------------------------------------------------------------------- */
 
-/* Forces of all models on undeformed bodies, regular and shaken, in all places: none. Places far from
- * the origin have round-off in every bond's components. */
+/* Checks that forces of all models on undeformed bodies, regular and irregular, at any position, are zero. At positions
+ * far from the origin every component of a bond has round-off. */
 static void check_at_rest(int dim, enum pd_model model, uint64_t seed)
 {
     static const enum space space[DIM_MAX + 1] = {0, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
@@ -60,9 +60,9 @@ static void test_at_rest(void **state)
             for (uint64_t seed = 1; seed <= 6 && (dim > 1 || model < PD_OSPD); seed++) check_at_rest(dim, model, seed);
 }
 
-/* ---- the same bits ----------------------------------------------------------------------------------------------- */
+/* ---- bitwise equality -------------------------------------------------------------------------------------------- */
 
-/* A plate and a block, struck or pulled at one end: a pulse that crosses them; `%s` is what a case adds. */
+/* A plate and a block, hit or pulled at one end: a pulse crosses them; `%s` is replaced by the keys of a case. */
 static const char plate[] =
     "name: plate\nspace: plane stress\nthickness: 1 mm\nduration: 24 us\n"
     "material: {young: 72 GPa, poisson: 1/3, density: 2440 kg/m^3, energy_release_rate: 135 J/m^2}\n"
@@ -123,7 +123,7 @@ static void same_bits(const struct run *a, const struct run *b)
     assert_memory_equal(&energy, &(real){b->kernels.bond_energy(&b->bonds, q)}, sizeof energy);
 }
 
-/* Of the body, or of the points on the grid. */
+/* Returns the inactive share of the body, or of the points on the grid. */
 static real sleeping(const struct run *e)
 {
     const struct transfer_order *active = e->grid->transfer.order;
@@ -132,9 +132,9 @@ static real sleeping(const struct run *e)
     return real_max(report_inactive_share(&e->bonds, &e->frame->mesh, &e->part), points);
 }
 
-/* Runs it with and without; they agree after every tenth step. At least `early` of the body is inactive after a
- * tenth of the steps, of points on the grid after the first look, since round-off goes some cells a step there;
- * nothing at the end. Returns how many have become peridynamic. */
+/* Runs with and without the active set; results agree after every tenth step. At least `early` of the body is inactive
+ * after a tenth of the steps (of points on the grid after the first check, since round-off travels some cells per step
+ * there), and nothing at the end. Returns the number of converted particles. */
 static int64_t check_same(const char *body, const char *boundary, const char *more, const char *keys, real early)
 {
     struct scene s[2];
@@ -183,7 +183,7 @@ static void test_mesh(void **state)
     check_same(plate, pulled, mirror, "method: mpm\nmpm: {frame: reference, strain: small}", 0.1);
 }
 
-/* On the grid, where news goes from cell to cell: FLIP and wide shapes carry it farthest. */
+/* On the grid, where disturbances travel from cell to cell: FLIP and wide shapes carry them farthest. */
 static void test_points(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void test_points(void **state)
     check_same(plate, struck, late, "method: mpm\nmpm: {shape: linear}", 0.05);
 }
 
-/* The crack's tips are peridynamic from the start; the pulse breaks bonds there and more particles convert. */
+/* The crack tips are peridynamic from the start; the pulse breaks bonds there and more particles convert. */
 static void test_adaptive(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void test_adaptive(void **state)
 
 /* ---- activation -------------------------------------------------------------------------------------------------- */
 
-/* A force that comes late, far from the wave: it moves what it acts upon, as without rest. */
+/* A load that starts late, far from the wave, moves the particles on which it acts as without an active set. */
 static void test_late(void **state)
 {
     (void)state;

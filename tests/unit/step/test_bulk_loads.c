@@ -1,5 +1,5 @@
-/* Loads on all of a body: gravity, damping, pressure on free faces that follows them or not, rotation, expressions;
- * against closed forms, with the balances of energy and momentum. */
+/* Loads on whole bodies: gravity, damping, pressure on free faces with and without following them, rotation,
+ * expressions; compared with closed forms and with the balances of energy and momentum. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -32,7 +32,7 @@ struct finished_run {
     struct run e;
 };
 
-/* Runs a scene with the overrides `key=value`, up to NULL. */
+/* Runs a scene with the overrides `key=value`, terminated by NULL. */
 static status run_status(struct finished_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -57,7 +57,7 @@ static void run_end(struct finished_run *a)
     scene_free(&a->s);
 }
 
-/* Worst of a balance that the run has kept, to this tolerance. */
+/* Asserts that the largest errors of both balances are within this tolerance. */
 static void balanced(const struct finished_run *a, real tolerance)
 {
     const struct energy_balance *now = &a->e.diagnostics->now;
@@ -76,7 +76,7 @@ static const char *const frames[][2] = {{"method=pd", "mpm.frame=auto"},
                                         {"method=adaptive", "mpm.frame=auto"}};
 #define FRAMES (sizeof frames / sizeof *frames)
 
-/* Free fall: 1/2 m (g t)^2 and no strain; the work of gravity is all there is. */
+/* Free fall: 1/2 m (g t)^2 and no strain; gravity does all the work. */
 static void gravity_makes_bodies_fall(void **state)
 {
     (void)state;
@@ -113,16 +113,16 @@ static void gravity_makes_rigid_bodies_fall(void **state)
     const real work = 0.5 * (1.7 * (square(a[0]) + square(a[1])) + block * (square(1.3) + square(9.81))) * square(T);
     for (int d = 0; d < 2; d++) {
         assert_true(fabs((ball->x[d] - ball->centre[d]) / (0.5 * a[d] * square(T)) - 1) < 1e-9);
-        /* the velocity is that of half a step before the end */
+        /* The velocity is that of half a step before the end. */
         assert_true(fabs((ball->v[d] + 0.5 * a[d] * r.e.clock.dt) / (a[d] * T) - 1) < 1e-9);
     }
     assert_true(fabs(now->external_work / work - 1) < 1e-9);
-    balanced(&r, 0.26 / square((real)r.e.clock.steps)); /* that of the start is 1/2 m v- . v+, v+- = +- a dt/2 */
+    balanced(&r, 0.26 / square((real)r.e.clock.steps)); /* the initial value is 1/2 m v- . v+, v+- = +- a dt/2 */
     run_end(&r);
 }
 
-/* A block that hits a rigid plate under bulk damping: the force of the plate counts as impulse over the kick of a step,
- * which damping shortens; the balance of momentum closes to round-off. */
+/* A block hits a rigid plate under bulk damping: the impulse of the plate's force is over the velocity update of a
+ * step, which damping shortens; the balance of momentum closes to round-off. */
 static void rigid_bodies_take_momentum(void **state)
 {
     (void)state;
@@ -139,7 +139,7 @@ static void rigid_bodies_take_momentum(void **state)
     run_end(&r);
 }
 
-/* A bar that stands: its weight is borne by the support, u(L) = -rho g L^2/(2 E). */
+/* A standing bar: the support carries its weight, u(L) = -rho g L^2/(2 E). */
 static void gravity_rests_on_a_support(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void gravity_rests_on_a_support(void **state)
     run_end(&a);
 }
 
-/* Energy of free vibrations falls as exp(-c t), of all modes alike; what is lost is booked. */
+/* The energy of free vibrations decays as exp(-c t) for all modes; the loss is recorded. */
 static void damping_is_that_of_an_oscillator(void **state)
 {
     (void)state;
@@ -161,7 +161,7 @@ static void damping_is_that_of_an_oscillator(void **state)
         struct finished_run a;
         run(&a, BAR, frames[k][0], frames[k][1], "damping=1000 1/s", halves, NULL);
         const real start = a.e.diagnostics->energy_start;
-        /* modes near the shortest wave see c dt/4 of it, here 0.5 %, the current frame loses 0.3 % by itself */
+        /* Modes near the shortest wavelength deviate by c dt/4, here 0.5 %; the current frame itself loses 0.3 %. */
         assert_true(fabs(-log(energy_of(&a) / start) / 3 - 1) < 0.02);
         assert_true(fabs(a.e.diagnostics->now.energy.damped - start + energy_of(&a)) < 1e-3 * start);
         balanced(&a, k == 2 ? 1e-3 : 1e-10);
@@ -170,7 +170,7 @@ static void damping_is_that_of_an_oscillator(void **state)
 }
 
 /* A free body thrown under gravity: u = g/c (T - (1 - exp(-c T))/c) + v (1 - exp(-c T))/c, of second order in the step:
- * (c dt)^2/24 of the steady part, as much again of what dies out. */
+ * (c dt)^2/24 of the steady part, and the same of the decaying part. */
 static void damping_bears_a_steady_force(void **state)
 {
     (void)state;
@@ -190,8 +190,8 @@ static void damping_bears_a_steady_force(void **state)
         }
 }
 
-/* Angular momentum over moment of inertia of a block that begins to turn at 11 1/s, after 1 ms and half a step, as
- * velocities are [1/s]. */
+/* Returns angular momentum over moment of inertia of a block with the initial angular velocity 11 1/s, after 1 ms and
+ * half a step, as velocities are [1/s]. */
 static real spin_after(const char *method, const char *transfer, const char *damping)
 {
     struct finished_run a;
@@ -208,8 +208,8 @@ static real spin_after(const char *method, const char *transfer, const char *dam
     return spin / inertia;
 }
 
-/* The angular momentum of a turning body falls as exp(-c t), with the part that APIC keeps in velocity gradients: a
- * tenth in a body of 25 points. */
+/* The angular momentum of a rotating body decays as exp(-c t), including the part that APIC stores in velocity
+ * gradients: a tenth in a body of 25 points. */
 static void damping_slows_turning_bodies(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static void damping_slows_turning_bodies(void **state)
     }
 }
 
-/* Far beyond critical damping bodies creep without gaining energy, also at steps longer than 1/c. */
+/* Far beyond critical damping bodies creep without gaining energy, also for steps longer than 1/c. */
 static void any_damping_only_takes(void **state)
 {
     (void)state;
@@ -250,7 +250,8 @@ static void any_damping_only_takes(void **state)
     "body: [{ball: {centre: [0, 0, 0], radius: 22 mm}}, {subtract: {box: {from: [0, 0, 0], to: [1, 1, 1]}}}]\n"        \
     "particles: {spacing: 5 mm}\n"
 
-/* Resultant and moment of the forces that the loads put on the particles as they are, over sum |f| and sum |f| |x|. */
+/* Returns the resultant and moment of the loads on the particles in their current positions, over sum |f| and sum |f|
+ * |x|. */
 static real loads_left(struct finished_run *a)
 {
     struct particles *p = &a->e.part;
@@ -269,7 +270,7 @@ static real loads_left(struct finished_run *a)
     return left;
 }
 
-/* All round a body a pressure has neither resultant nor moment, whatever its form. */
+/* Pressure on the whole surface of a body of any form has neither resultant nor moment. */
 static void pressure_all_round_is_balanced(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void pressure_all_round_is_balanced(void **state)
         }
 }
 
-/* A square in plane strain under p all round shrinks by p (1 + nu)(1 - 2 nu)/E. */
+/* A square in plane strain under pressure p on all sides contracts by p (1 + nu)(1 - 2 nu)/E. */
 static void pressure_shrinks_a_body(void **state)
 {
     (void)state;
@@ -298,13 +299,13 @@ static void pressure_shrinks_a_body(void **state)
         if (fabs(X - 1e-3) < 1e-6 && fabs(p->X[1][i] - 19e-3) < 1e-6) high = u;
         if (fabs(X + 1e-3) < 1e-6 && fabs(p->X[1][i] - 19e-3) < 1e-6) low = u;
     }
-    /* in the middle of 20 spacings; families near faces are not those of the inside */
+    /* In the middle of 20 spacings; families near faces are incomplete. */
     if (!(fabs((low - high) / 2e-3 / (1.25 * 0.5 * 1e-6) - 1) < 0.04)) fail_msg("%g", (low - high) / 1.25e-9);
     run_end(&a);
 }
 
-/* Pressure acts on the outer faces alone, not on those in planes of symmetry, whether it follows or not: the resultant
- * on a quarter of a plate and on an eighth of a brick is p times the outer areas. */
+/* Pressure acts only on outer faces, not on planes of symmetry, whether it follows the faces or not: the resultant on a
+ * quarter of a plate and on an eighth of a brick is p times the outer areas. */
 static void pressure_spares_mirrored_faces(void **state)
 {
     (void)state;
@@ -329,8 +330,8 @@ static void pressure_spares_mirrored_faces(void **state)
     }
 }
 
-/* A block that turns by four radians under pressure that follows: the load stays normal to its faces, x . f sums to
- * -2 V, and the balance holds. */
+/* A block that rotates by four radians under following pressure: the load stays normal to its faces, sum x . f = -2 V,
+ * and the balance closes. */
 static void pressure_follows_a_turning_body(void **state)
 {
     (void)state;
@@ -349,12 +350,12 @@ static void pressure_follows_a_turning_body(void **state)
             along += a.e.loads.load[0].share[d][k] * (d == 0 ? -(p->x[1][i] - 20e-3) : p->x[0][i] - 20e-3);
         }
     }
-    assert_true(out < 0 && fabs(along) < 1e-9 * fabs(out)); /* sum x . f = -2 V, of factor 1 */
+    assert_true(out < 0 && fabs(along) < 1e-9 * fabs(out)); /* sum x . f = -2 V, with factor 1 */
     assert_true(fabs(out / (-2 * 40e-3 * 40e-3 * 0.37) - 1) < 0.1);
     run_end(&a);
 }
 
-/* A quarter of a tube between two mirrors does what it does as part of the whole tube. */
+/* A quarter of a tube between two mirrors behaves as part of the whole tube. */
 static void pressure_follows_beside_mirrors(void **state)
 {
     (void)state;
@@ -390,7 +391,7 @@ static void pressure_follows_beside_mirrors(void **state)
 
 /* ---- rotation and formulas --------------------------------------------------------------------------------------- */
 
-/* What is driven stays on its circle, in every frame; the work goes into the spin. */
+/* Driven particles stay on their circle in every frame; the work becomes energy of rotation. */
 static void rotation_drives_on_circles(void **state)
 {
     (void)state;
@@ -409,7 +410,8 @@ static void rotation_drives_on_circles(void **state)
     }
 }
 
-/* The same load as a function of time and as a formula, and a velocity by place against its gradient. */
+/* Equal loads as a function of time and as a formula, and a velocity as a formula of position and as a gradient,
+ * give equal results. */
 static void formulas_are_what_they_say(void **state)
 {
     (void)state;
@@ -430,7 +432,7 @@ static void formulas_are_what_they_say(void **state)
     }
     for (size_t k = 0; k < FRAMES; k++) {
         struct finished_run a;
-        if (k == 2) continue; /* frame current refuses it */
+        if (k == 2) continue; /* refused with frame current */
         run(&a, SQUARE, frames[k][0], frames[k][1], "boundary=[{velocity: [x/(1 s), -2*y/(1 s)]}]", NULL);
         run_sync(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++)
@@ -440,8 +442,8 @@ static void formulas_are_what_they_say(void **state)
     }
 }
 
-/* A free bar whose particles begin with V cos(pi x/L): after a quarter of the period 2 L/c it is at rest and displaced
- * by V L/(pi c) cos(pi x/L). The scene as run says the formula. */
+/* A free bar with initial velocity V cos(pi x/L): after a quarter of the period 2 L/c it is at rest with displacement V
+ * L/(pi c) cos(pi x/L). The scene as run contains the formula. */
 static void initial_velocities_are_formulas(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Prescribed displacements: places to round-off in every method, reactions and stresses against Hooke's law, layers
- * behind faces, what is refused. */
+/* Prescribed displacements: positions accurate to round-off in every method, reactions and stresses compared with
+ * Hooke's law, layers behind faces, refusals. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -36,7 +36,7 @@ struct scene_run {
     struct run e;
 };
 
-/* Makes the engine of a scene with the overrides `key=value`, up to NULL. */
+/* Creates a run of a scene with the overrides `key=value`, terminated by NULL. */
 static status run_make(struct scene_run *a, const char *text, va_list list)
 {
     memset(a, 0, sizeof *a);
@@ -66,9 +66,9 @@ static void run_end(struct scene_run *a)
     scene_free(&a->s);
 }
 
-/* ---- places ------------------------------------------------------------------------------------------------------ */
+/* ---- positions --------------------------------------------------------------------------------------------------- */
 
-/* Everything that moves particles: bonds, the mesh, the grid with both transfers, both beside each other. */
+/* All methods that move particles: bonds, the mesh, the grid with both transfers, and coupled. */
 static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.transfer=flip"},
                                       {"method=mpm", "mpm.frame=reference", "mpm.levels=0"},
                                       {"method=mpm", "mpm.frame=current", "mpm.transfer=flip"},
@@ -77,8 +77,8 @@ static const char *const ways[][3] = {{"method=pd", "mpm.frame=auto", "mpm.trans
                                       {"method=adaptive", "mpm.frame=current", "mpm.transfer=flip"}};
 enum { WAYS = sizeof ways / sizeof *ways };
 
-/* Worst distance of the particles beyond `from` along x from reference place plus u along x, over the last bit of the
- * farthest place [1]. */
+/* Returns the largest distance of the particles beyond `from` along x from reference position plus u along x, over the
+ * last bit of the farthest position [1]. */
 static real off_place(const struct scene_run *a, real from, real u)
 {
     const struct particles *p = &a->e.part;
@@ -90,8 +90,9 @@ static real off_place(const struct scene_run *a, real from, real u)
     return most / (far * DBL_EPSILON);
 }
 
-/* At every step driven particles are where they have to be, to the last bit or two: the time in the middle of a step
- * plus half of it is rounded. Nodes of the mesh are, and points between them are sums of four to eight terms. */
+/* Checks at every step that driven particles are at their positions to the last bit or two: the time in the middle of a
+ * step plus half of it is rounded. In the mesh nodes are exact, and points between them are sums of four to eight
+ * terms. */
 static void check_places(const char *scene, real from, real size, real duration)
 {
     char boundary[300];
@@ -139,7 +140,7 @@ static void displaced_is_in_place(void **state)
     check_places(BLOCK, 6e-3, 2e-6, 5e-6);
 }
 
-/* A formula of place and time, of all components: what bonds and the mesh move is there at the end. */
+/* A formula of position and time, for all components: particles and nodes are at its values at the end. */
 static void formulas_are_in_place(void **state)
 {
     (void)state;
@@ -160,9 +161,9 @@ static void formulas_are_in_place(void **state)
     }
 }
 
-/* A bar pulled by u (1 - cos omega t)/2: at its end it bears E A u/L (1 + k L cot(k L))/2, k = omega/c, and the work
- * is in the body. Nodes are held to the ends of the regions, between which L = 0.76 m; bonds are as stiff as in
- * equilibrium. Free waves of the start are 2 % of it. */
+/* A bar displaced by u (1 - cos omega t)/2: the final reaction is E A u/L (1 + k L cot(k L))/2, k = omega/c, and the
+ * work is stored in the body. Nodes are fixed to the ends of the regions, between which L = 0.76 m; bonds are as stiff
+ * as in equilibrium. Initial free waves are 2 % of it. */
 static void reaction_is_hookes(void **state)
 {
     (void)state;
@@ -193,9 +194,9 @@ static void reaction_is_hookes(void **state)
 
 /* ---- statics ----------------------------------------------------------------------------------------------------- */
 
-/* Uniform strain: the ends, or a frame, driven by formulas, as deep as bonds reach; what is free follows, the stress is
- * Hooke's, and half the forces of the supports times displacements is the strain energy. Strains of 1e-6 are linear to
- * 1e-5. Relaxation moves supports in steps, each with its round-off. */
+/* Uniform strain: the ends, or a frame, are driven by formulas over the depth of a horizon; the free part follows, the
+ * stress is that of Hooke's law, and half the support forces times displacements is the strain energy. Strains of 1e-6
+ * are linear to 1e-5. Relaxation moves supports in steps with round-off. */
 static void check_patch(const char *scene, const char *solver, const char *model, const char *drive, const real *strain,
                         const real *stress)
 {
@@ -251,7 +252,7 @@ static void uniform_strain_is_uniform_stress(void **state)
 
 /* ---- layers behind faces ----------------------------------------------------------------------------------------- */
 
-/* Number of driven particles. */
+/* Returns the number of driven particles. */
 static int64_t layer_of(const char *scene, const char *method, const char *body, const char *boundary)
 {
     struct scene_run a;
@@ -261,7 +262,8 @@ static int64_t layer_of(const char *scene, const char *method, const char *body,
     return n;
 }
 
-/* As deep as it says, from the outside to the first gap, in the region only; whole columns of a curved face. */
+/* A layer has its specified depth from the outside to the first gap, inside the region only; on a curved face whole
+ * columns. */
 static void faces_have_layers(void **state)
 {
     (void)state;
@@ -288,7 +290,7 @@ static void faces_have_layers(void **state)
                      2 * 80);
 }
 
-/* Ends held by their faces: nodes stand there, and all of the bar is free. */
+/* Ends fixed by their faces: nodes are at the faces, and the whole bar is free. */
 static void faces_hold_nodes(void **state)
 {
     (void)state;
@@ -302,7 +304,7 @@ static void faces_hold_nodes(void **state)
     }
 }
 
-/* ---- what is refused --------------------------------------------------------------------------------------------- */
+/* ---- refusals ---------------------------------------------------------------------------------------------------- */
 
 static status refusal(const char *scene, ...)
 {
@@ -317,7 +319,8 @@ static status refusal(const char *scene, ...)
 
 #define GRIP(text) "boundary=[{name: grip, " text "}]"
 
-/* Jumps and speeds beyond waves, which the run would not follow; places that are none; keys without meaning. */
+/* Refused: jumps and speeds above wave speeds, which a run could not follow; positions that are not numbers; keys
+ * without effect. */
 static void jumps_are_refused(void **state)
 {
     (void)state;

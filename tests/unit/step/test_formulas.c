@@ -1,4 +1,4 @@
-/* Formulas of loads that have no value at some time: a run stops with one line that names the load. */
+/* Formulas of loads without a value at some time: the run stops with one line that names the load. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ struct scene_run {
     struct run e;
 };
 
-/* Runs a scene with the overrides `key=value`, up to NULL. */
+/* Runs a scene with the overrides `key=value`, terminated by NULL. */
 static status run_of(struct scene_run *a, const char *text, ...)
 {
     va_list list;
@@ -42,9 +42,8 @@ static void run_end(struct scene_run *a)
     scene_free(&a->s);
 }
 
-/* A formula that has no value any more, early or in the last step alone, of every kind of load and in every solver
- * with steps: one line, with the load's name and a time at which the formula has none. With a value up to the end it
- * runs. */
+/* A formula that has no value from some time on, early or only in the last step, of every kind of load and with every
+ * solver with steps: one line, with the load's name and the time. With values up to the end the run completes. */
 static void formulas_without_value_stop_the_run(void **state)
 {
     (void)state;
@@ -65,7 +64,7 @@ static void formulas_without_value_stop_the_run(void **state)
             for (size_t k = 0; k < 3; k++) {
                 char text[512];
                 struct scene_run a;
-                if (m > 2 && l > 3) continue; /* load steps refuse these */
+                if (m > 2 && l > 3) continue; /* refused in load steps */
                 snprintf(text, sizeof text,
                          "boundary=[{name: pull, %ssqrt(1-t/%s)'%s, %s}, {fixed: [x, y], face: y-, depth: 1 mm}]",
                          load[l][0], ends[k], strchr(load[l][0], '[') ? "]" : "", load[l][1]);

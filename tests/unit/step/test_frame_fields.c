@@ -1,5 +1,5 @@
-/* Tests of every field of frames against closed forms, through frames that a run of a scene has written: uniform
- * strain, a rigid turn, yielding; all methods and spaces. */
+/* Every field of frames compared with closed forms, through frames written by a run: uniform strain, rigid rotation,
+ * yielding; all methods and spaces. */
 #include "tests/support/near.h"
 
 #include <ftw.h>
@@ -20,7 +20,7 @@ static int remove_one(const char *path, const struct stat *s, int type, struct F
     return remove(path);
 }
 
-/* Runs a scene; `begins`: only up to the frame at t = 0. */
+/* Runs a scene; begins: only up to the frame at t = 0. */
 static void run_text(const char *text, bool begins)
 {
     struct scene s;
@@ -72,7 +72,7 @@ static void shown_close(struct shown *a)
     free(a->X);
 }
 
-/* Farther than `reach` from all faces of the block of edge 1 round the origin? */
+/* Returns true if a particle is farther than `reach` from all faces of the block of edge 1 around the origin. */
 static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach)
 {
     for (int d = 0; d < dim; d++)
@@ -80,7 +80,7 @@ static bool shown_inside(const struct shown *a, int64_t i, int dim, double reach
     return true;
 }
 
-/* The field is `wanted` [columns] within `tolerance` in every particle away from faces. */
+/* Asserts that the field is `wanted` [columns] within `tolerance` for every particle away from faces. */
 static void field_is(struct shown *a, int dim, double reach, const char *name, int columns, const double *wanted,
                      double tolerance)
 {
@@ -127,7 +127,7 @@ static const struct block block[] = {
     {"solid", 3, 0.3, 0.1, "method: mpm\nmpm: {frame: reference}"},
 };
 
-/* A block of edge 1 round the origin whose displacement has the gradient H, with all fields; `more`: further keys. */
+/* Runs a block of edge 1 around the origin with the displacement gradient H and all fields; more: further keys. */
 static void run_block(const struct block *b, const double H[3][3], const char *more)
 {
     char text[2000], gradient[400] = "";
@@ -144,14 +144,14 @@ static void run_block(const struct block *b, const double H[3][3], const char *m
              "initial: [{displacement_gradient: [%s]}]\noutput: {fields: all, frames: 1}\n",
              b->space, b->dim == 2 ? "thickness: 0.37\n" : "", b->method, more, YOUNG, b->poisson, DENSITY, low[b->dim],
              high[b->dim], b->spacing, gradient);
-    if (b->dim == 1) { /* a line has no Poisson's ratio */
+    if (b->dim == 1) { /* 1D has no Poisson's ratio */
         char *from = strstr(text, " poisson"), *to = strstr(from, " density");
         memmove(from, to, strlen(to) + 1);
     }
     run_text(text, true);
 }
 
-/* Green and Lagrange's strain of H in VTK's order, with that across the plane. */
+/* Computes the Green-Lagrange strain of H in VTK's order, including the out-of-plane strain. */
 static void strain_of(const struct block *b, const double H[3][3], double *E)
 {
     static const int row[6] = {0, 1, 2, 0, 1, 0}, column[6] = {0, 1, 2, 1, 2, 2};
@@ -162,7 +162,7 @@ static void strain_of(const struct block *b, const double H[3][3], double *E)
     if (strcmp(b->space, "plane stress") == 0) E[2] = -b->poisson / (1 - b->poisson) * (E[0] + E[1]);
 }
 
-/* Hooke's law in space, where the strain across the plane is known. */
+/* Computes the stress by Hooke's law in 3D from the strain including the out-of-plane component. */
 static void stress_of(const struct block *b, const double *E, double *S)
 {
     const double nu = b->poisson, lambda = YOUNG * nu / ((1 + nu) * (1 - 2 * nu)), G = YOUNG / (2 * (1 + nu));
@@ -171,7 +171,7 @@ static void stress_of(const struct block *b, const double *E, double *S)
 }
 
 /* All fields of a block under uniform strain. The stress of material points is exact to the size of strains; that of
- * bonds on this lattice is 1.1 % off in C11 in the plane and 5 % in space with a volume that is not cut. */
+ * bonds on this lattice deviates by 1.1 % in C11 in 2D and 5 % in 3D with uncut volumes. */
 static void uniform_strain(void **state)
 {
     (void)state;
@@ -201,7 +201,8 @@ static void uniform_strain(void **state)
     }
 }
 
-/* Two materials under uniform strain: each contracts across by its own Poisson's ratio, or bears the stress of it. */
+/* Two materials under uniform strain: each contracts across by its own Poisson's ratio, or has the corresponding
+ * stress. */
 static void strain_of_parts(void **state)
 {
     static const char *const space[] = {"plane stress", "plane strain"};
@@ -240,7 +241,7 @@ static void strain_of_parts(void **state)
     }
 }
 
-/* A turn by 0.3 rad is no strain, bears no stress and changes no density. */
+/* A rotation by 0.3 rad causes no strain, no stress and no change of density. */
 static void rigid_turn(void **state)
 {
     (void)state;
@@ -252,14 +253,14 @@ static void rigid_turn(void **state)
         run_block(&block[k], H, "");
         shown_open(&a, 0, block[k].dim);
         field_is(&a, block[k].dim, 0, "strain", 6, zero, 1e-12);
-        if (!strstr(block[k].method, "current")) /* whose initial stress is that of small strains */
+        if (!strstr(block[k].method, "current")) /* its initial stress is that of small strains */
             field_is(&a, block[k].dim, 0, "stress", 6, zero, 1e-9 * YOUNG);
         field_is(&a, block[k].dim, 0, "density", 1, &(double){DENSITY}, 1e-4);
         shown_close(&a);
     }
 }
 
-/* Fields that follow from stress and velocity are functions of what the same frame holds. */
+/* Fields derived from stress and velocity agree with those in the same frame. */
 static void fields_follow(void **state)
 {
     (void)state;
@@ -291,8 +292,8 @@ static void fields_follow(void **state)
 
 /* ---- yielding ---------------------------------------------------------------------------------------------------- */
 
-/* A bar that is drawn out uniformly: W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p, by its stress and by its
- * strain. */
+/* A bar under uniform extension: plastic work W = (sigma^2 - sigma_y^2)/(2 H) = int sigma d eps_p, from its stress and
+ * from its strain. */
 static void yielding_bar(void **state)
 {
     (void)state;
@@ -327,7 +328,7 @@ static void yielding_bar(void **state)
     }
 }
 
-/* A sheet that is drawn out equally along both axes: plastic strain a/2 each, -a across; eps_zz = -2 nu sigma/E - a. */
+/* A sheet under equibiaxial extension: plastic strain a/2 along each axis, -a across; eps_zz = -2 nu sigma/E - a. */
 static void yielding_sheet(void **state)
 {
     (void)state;
@@ -356,7 +357,7 @@ static void yielding_sheet(void **state)
     shown_close(&a);
 }
 
-/* ---- what is not asked for --------------------------------------------------------------------------------------- */
+/* ---- fields that are not requested ------------------------------------------------------------------------------- */
 
 static void only_what_is_asked_for(void **state)
 {

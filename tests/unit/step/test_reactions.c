@@ -1,6 +1,6 @@
-/* Supports. Load steps: reactions against those of the static solver, beside planes of symmetry on which particles lie,
- * and against the loads; the work of loads. In time: nodes on and beyond planes, velocities that grow, regions that
- * other bodies come into. */
+/* Supports. Load steps: reactions compared with the static solver, beside planes of symmetry through particles, and
+ * with the loads; work of loads. In time: nodes on and beyond planes, increasing velocities, regions that other bodies
+ * enter. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 #include "grid/grid_part.h"
 #include "step/step.h"
 
-/* A quarter of a plate; the first row and column of particles lie in the planes of symmetry. */
+/* A quarter of a plate; the first row and column of particles are in the planes of symmetry. */
 #define QUARTER                                                                                                        \
     "space: plane stress\nthickness: 0.37 mm\nduration: 1 s\nmethod: pd\n"                                             \
     "material: {young: 20000 GPa, density: 1000}\nparticles: {spacing: 0.5 mm, horizon: 3.015}\n"                      \
@@ -39,7 +39,7 @@ static void test_reactions(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* Particles in a clamped plane stay where they are; the others go where the static solver has them. */
+/* Particles in a clamped plane do not move; the others agree with the static solver. */
 static void test_clamped_plane(void **state)
 {
     (void)state;
@@ -56,8 +56,8 @@ static void test_clamped_plane(void **state)
     solution_free(&a), solution_free(&b);
 }
 
-/* A plate on a foot: the reaction is the traction times its face; the work of loads that grow evenly is half of their
- * last values times the displacement of the face. */
+/* A plate on a foot: the reaction is the traction times its face; the work of linearly increasing loads is half of
+ * their last values times the displacement of the face. */
 static void test_foot(void **state)
 {
     (void)state;
@@ -81,13 +81,13 @@ static void test_foot(void **state)
     solution_free(&a);
 }
 
-/* Nodes beyond a plane of symmetry: what the plane and a pull give a half is its momentum. */
+/* Nodes beyond a plane of symmetry: the impulse of the plane and of a load on a half is its momentum. */
 static void test_mirrored_nodes(void **state)
 {
     (void)state;
     static const char half[] =
         "space: plane stress\nthickness: 0.37 mm\nduration: 7 us\nmethod: mpm\n"
-        "mpm: {frame: reference, origin: [0.5 mm, 0]}\n" /* the plane is half-way between two nodes */
+        "mpm: {frame: reference, origin: [0.5 mm, 0]}\n" /* the plane is midway between two nodes */
         "material: {young: 3 GPa, density: 1180}\nparticles: {spacing: 0.5 mm}\n"
         "body: {box: {from: [0, 0], to: [4 mm, 3 mm]}}\nboundary:\n  - {mirror: {axis: x, at: 0}}\n"
         "  - {traction: [1.7 MPa, 0.4 MPa], face: x+}\n";
@@ -109,8 +109,7 @@ static void test_mirrored_nodes(void **state)
     "material: {young: 1 MPa, poisson: 1/4, density: 1180}\nbody: {box: {from: [0, 0], to: [30 mm, 50 mm]}}\n"         \
     "particles: {spacing: 5 mm}\n"
 
-/* A block whose velocity grows evenly, V t/T in all of it, has gone V T/2 at T, in every frame; its
- * support has given it m V. */
+/* A block driven with velocity V t/T has moved by V T/2 at T, in every frame; the impulse of its support is m V. */
 static void test_ramp(void **state)
 {
     (void)state;
@@ -134,7 +133,7 @@ static void test_ramp(void **state)
     }
 }
 
-/* A block whose lower part is driven by a ramp does what one does that is driven by the formula of it. */
+/* A block whose lower part is driven by a ramp agrees with one driven by the equivalent formula. */
 static void test_ramp_below(void **state)
 {
     (void)state;
@@ -156,10 +155,10 @@ static void test_ramp_below(void **state)
     }
 }
 
-/* A plate sheared on its right side, held in its middle, does in its right half what one does whose left side is
- * sheared the other way: y displacements are odd in x, others there are none yet, away from the upper and lower edges.
- * The middle lies on nodes, or half-way between two. Groups of points that turn together (flip, data/turning.h) have x
- * velocities about their centres, of which the two differ: 1e-3. */
+/* A plate sheared on its right side and fixed in its middle agrees in its right half with one whose left side is
+ * sheared in the opposite direction: y displacements are odd in x; no others occur, away from the upper and lower
+ * edges. The middle is on nodes, or midway between two. With groups of rotating points (flip, data/turning.h) x
+ * velocities about their centres differ: 1e-3. */
 static void test_shear_beside_clamps(void **state)
 {
     (void)state;
@@ -198,7 +197,7 @@ static void test_shear_beside_clamps(void **state)
     }
 }
 
-/* A region that holds a body holds no other that comes into it: that flies on. */
+/* A region that fixes a body does not fix another body that enters it. */
 static void test_others_pass(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Causes of instability are told apart: a time step too long, loads that no body bears, and what gains energy at any
- * step. */
+/* Causes of instability are distinguished: a time step above the limit, loads that the body cannot carry, and energy
+ * gains at any step. */
 #include <stdarg.h>
 #include <setjmp.h>
 #include <math.h>
@@ -13,9 +13,9 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* ---- how long a rise took ---------------------------------------------------------------------------------------- */
+/* ---- growth rate ------------------------------------------------------------------------------------------------- */
 
-/* Exponential growth, tenfold in so many steps, noted every `stride` of them up to 20000. */
+/* Returns exponential growth, tenfold in `tenfold` steps, recorded every `stride` steps up to step 20000. */
 static struct rise rising(real tenfold, int64_t stride)
 {
     struct rise r = {0};
@@ -39,7 +39,7 @@ static void pace_of_exponentials(void **state)
         const struct rise r = rising(at[k].tenfold, at[k].stride);
         real steps;
         assert_int_equal(rise_rate(&r, 20000, 1, &steps), at[k].target_speed);
-        /* values 16 steps apart, 64 of them: just so */
+        /* 64 values 16 steps apart: exact. */
         if (at[k].stride == 1)
             assert_true(steps > 990 && steps < 1010);
         else
@@ -58,19 +58,20 @@ static void pace_of_few_values(void **state)
     struct rise r = {0};
     assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_UNSURE);
     rise_note(&r, 0, 0);
-    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_FAST);      /* out of nothing */
-    assert_int_equal(rise_rate(&r, 20000, 1, &steps), RISE_UNSURE); /* some time in 20000 steps */
+    assert_int_equal(rise_rate(&r, 10, 1, &steps), RISE_FAST);      /* growth from zero */
+    assert_int_equal(rise_rate(&r, 20000, 1, &steps), RISE_UNSURE); /* at some time within 20000 steps */
     rise_note(&r, 640, -1e-3);
     assert_int_equal(rise_rate(&r, 1280, 1, &steps), RISE_FAST);
     rise_note(&r, 650, 0.5); /* too close to the last: left out */
     assert_int_equal(r.n, 2);
-    rise_note(&r, 1280, 1e-3); /* a background, or slow growth: one cannot tell */
+    rise_note(&r, 1280, 1e-3); /* a background value, or slow growth: undecidable */
     assert_int_equal(rise_rate(&r, 1920, 1, &steps), RISE_UNSURE);
     rise_note(&r, 1920, 0.06);
     assert_int_equal(rise_rate(&r, 2560, 1, &steps), RISE_SLOW);
 }
 
-/* Squares of the velocity of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, from 1e-8 to 1. */
+/* Returns the classified growth rate of x'' = -4 x + damping x' under leap-frog steps dt, whose limit is 1, while the
+ * squared velocity grows from 1e-8 to 1. */
 static enum rise_rate pace_of_oscillator(real dt, real damping)
 {
     struct rise r = {0};
@@ -87,8 +88,8 @@ static enum rise_rate pace_of_oscillator(real dt, real damping)
     return RISE_UNSURE;
 }
 
-/* A step beyond the limit by 2e-5 of it is seen as one, and what gains 1e-3 of its amplitude a step within the limit
- * is not. */
+/* A step beyond the limit by a relative 2e-5 is detected as such; a gain of 1e-3 of the amplitude per step within the
+ * limit is not. */
 static void steps_beyond_the_limit_are_fast(void **state)
 {
     (void)state;
@@ -99,7 +100,7 @@ static void steps_beyond_the_limit_are_fast(void **state)
         assert_int_equal(pace_of_oscillator(within[k], 2e-3 / within[k]), RISE_SLOW);
 }
 
-/* ---- what is said ------------------------------------------------------------------------------------------------ */
+/* ---- messages ---------------------------------------------------------------------------------------------------- */
 
 static const char plate[] =
     "space: plane stress\nthickness: 1 mm\nduration: 1 ms\nmethod: adaptive\nmpm: {frame: current}\n"
@@ -107,7 +108,8 @@ static const char plate[] =
     "body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}\nparticles: {spacing: 1 mm}\n"
     "pd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\noutput: {frames: 0, samples: 100}\n";
 
-/* The remedy for a value that has grown tenfold in so many steps until step 20000, where nothing loads the plate. */
+/* Returns the remedy for a value that has grown tenfold in `tenfold` steps until step 20000, in a plate without
+ * loads. */
 static void remedy_of(const char *key, const char *value, real tenfold, char *remedy)
 {
     struct run e;
@@ -117,7 +119,7 @@ static void remedy_of(const char *key, const char *value, real tenfold, char *re
     assert_ok(bench_engine_make(&e, &s, "plate", plate, bench_overrides_ready(&o), o.n));
     const struct rise r = rising(tenfold, 200);
     e.clock.step = 20000, e.clock.t = 20000 * e.clock.dt;
-    e.part.v[0][0] = 1; /* which no load has paid for */
+    e.part.v[0][0] = 1; /* not caused by work of loads */
     stability_remedy(&e, &r, 1, remedy, REMEDY_LENGTH);
     bench_engine_free(&e, &s);
 }
@@ -148,7 +150,7 @@ static void slow_growth_is_no_matter_of_the_step(void **state)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Runs the plate with overrides up to NULL, which must be stopped; the message. */
+/* Runs the plate with overrides up to NULL; the run must stop. Returns the message. */
 static const char *stopped(const char *const *method, const char *const *set)
 {
     struct run e;
@@ -197,7 +199,7 @@ static void loads_beyond_reason_are_named(void **state)
         "the scene starts with 1e+05 m/s", "choose a smaller");
 }
 
-/* Loads that a body bears are not to blame for a step that is too long. */
+/* Loads that a body can carry are not reported as the cause if the step is too long. */
 static void steps_too_long_are_named(void **state)
 {
     (void)state;
@@ -206,7 +208,7 @@ static void steps_too_long_are_named(void **state)
                "; choose a smaller time.safety (now dt = ", "no time step");
 }
 
-/* A body that shakes itself to dust, sampled at its end only: it was called done. */
+/* A body that becomes unstable, sampled only at its end, is reported as unstable. */
 static void the_last_sample_is_looked_at(void **state)
 {
     (void)state;

@@ -1,5 +1,4 @@
-/* The time step: whole numbers of the steps of coarse cells, light particles of lists, bulk damping, a safety of the
- * scene. */
+/* Time step: integer multiples for coarse cells, light particles of lists, bulk damping, safety factor of the scene. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +19,7 @@ static void put(const char *path, const char *text)
     assert_int_equal(fclose(to), 0);
 }
 
-/* The clock of a scene before its first step, and of one with files. */
+/* Returns the clock of a scene before its first step. */
 static struct run_clock clock_made(struct scene *s)
 {
     static struct run e;
@@ -50,7 +49,7 @@ static struct run_clock clock_of_file(const char *path)
     "space: plane stress\nthickness: 0.37 mm\nmaterial: {young: 3 GPa, poisson: 1/3, density: 1180}\n"                 \
     "body: {box: {from: [0, 0], to: [64 mm, 64 mm]}}\nparticles: {spacing: 1 mm}\n"
 
-/* Cells of level 3 step every eighth time: runs have a multiple of eight steps, and end at their duration. */
+/* Cells of level 3 move every eighth step: runs have a multiple of eight steps, and end at their duration. */
 static void levels_divide_the_steps(void **state)
 {
     (void)state;
@@ -65,7 +64,7 @@ static void levels_divide_the_steps(void **state)
     }
 }
 
-/* A quarter of the mass at the same stiffness swings twice as fast. */
+/* A quarter of the mass at equal stiffness doubles the frequency. */
 static void light_particles_take_short_steps(void **state)
 {
     (void)state;
@@ -87,7 +86,7 @@ static void light_particles_take_short_steps(void **state)
     assert_close(critical[1], 0.5 * critical[0], 1e-9);
 }
 
-/* Masses of a list are light beside those of their own material: here none is. */
+/* Masses of a list are compared with those of their own material: none is light here. */
 static void masses_are_of_their_material(void **state)
 {
     (void)state;
@@ -113,8 +112,8 @@ static void masses_are_of_their_material(void **state)
     assert_close(critical[1], critical[0], 1e-12);
 }
 
-/* The order of materials is of no matter to bonds that are not yet there: stiff and heavy, soft and light, of which
- * neither the stiffness nor the density decides alone. */
+/* The order of materials does not matter for bonds that do not exist yet: stiff and heavy, soft and light, where
+ * neither stiffness nor density alone decides. */
 static void lattices_of_all_materials(void **state)
 {
     (void)state;
@@ -137,7 +136,7 @@ static void lattices_of_all_materials(void **state)
     }
 }
 
-/* The step is a share of the critical one, and half the time of damping at the most. */
+/* The step is a fraction of the critical one, and at most half the time constant of damping. */
 static void safety_and_damping(void **state)
 {
     (void)state;
@@ -148,7 +147,7 @@ static void safety_and_damping(void **state)
 }
 
 /* The least compressible of all materials shortens the step by the root of 1 + c12/c11 over 5/3, c12/c11 = nu/(1 - nu)
- * in plane strain; the first is the fastest. */
+ * in plane strain; the first material has the fastest waves. */
 static void incompressible_parts_take_short_steps(void **state)
 {
     (void)state;
@@ -167,7 +166,7 @@ static void incompressible_parts_take_short_steps(void **state)
     assert_close(critical[1], critical[0] * sqrt(5. / 3 / (1 + 0.47 / 0.53)), 1e-12);
 }
 
-/* Frames are of the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
+/* Frames are at the steps nearest to their times: 0.7, 2.3 and 8.6 steps of 20 ns. */
 static void frames_are_nearest(void **state)
 {
     (void)state;

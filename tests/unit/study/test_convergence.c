@@ -1,4 +1,4 @@
-/* Studies of convergence: orders, intervals, spacings. */
+/* Convergence studies: orders, intervals, spacings. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 
 enum { LEVELS = 3, RUNS = 5 };
 
-/* f0 + a h^p at spacings 1, sqrt 2, 2, each run shifted by a part of `noise`. */
+/* Evaluates f0 + a h^p at spacings 1, sqrt 2, 2, with a deviation of each run by a part of `noise`. */
 static bool converge_at(struct convergence *c, double f0, double a, double p, double noise, int runs)
 {
     static const double part[RUNS] = {0, -1, 1, -0.5, 0.5};
@@ -31,7 +31,7 @@ static bool converge_at(struct convergence *c, double f0, double a, double p, do
     return convergence_find(c, spacing, value, level, n, LEVELS, NULL);
 }
 
-/* The order and limit of a power law are found to rounding; the interval of the finest value holds the limit. */
+/* Order and limit of a power law are found to round-off; the interval of the finest value contains the limit. */
 static void power_laws_are_found(void **state)
 {
     (void)state;
@@ -55,7 +55,7 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_true(converge_at(&c, 3, 1, 0.2, 0, 1));
     assert_int_equal(c.verdict, VERDICT_SLOW);
     assert_near(c.order, 0.2, 1e-9);
-    assert_true(converge_at(&c, 3, 1, -1, 0, 1)); /* grows as the spacing shrinks */
+    assert_true(converge_at(&c, 3, 1, -1, 0, 1)); /* grows as the spacing decreases */
     assert_int_equal(c.verdict, VERDICT_DIVERGES);
     assert_true(isnan(c.index));
     assert_true(c.uncertainty[0] >= 0.5); /* the range of the means */
@@ -68,7 +68,7 @@ static void bounds_where_no_order_is_seen(void **state)
     assert_false(convergence_find(&c, spacing, lost, level, 3, 3, NULL));
 }
 
-/* Means that chance has moved: the order observed on them, 2.9 and -1.0, is not taken for true. */
+/* Means with random errors: their observed orders, 2.9 and -1.0, are not accepted as true. */
 static void chance_moves_the_order(void **state)
 {
     (void)state;
@@ -86,12 +86,12 @@ static void chance_moves_the_order(void **state)
         assert_int_equal(c.verdict, which == 0 ? VERDICT_CONVERGES : VERDICT_SCATTERS);
         assert_true(which == 0 ? c.order > 2.2 : c.order < 0);
         assert_true(c.order_likely > 0.5 && c.order_likely < 2);
-        const double rest = mean[which][0] - mean[which][2]; /* what order 1 leaves */
+        const double rest = mean[which][0] - mean[which][2]; /* remaining error at order 1 */
         assert_true(c.uncertainty[0] > rest);
     }
 }
 
-/* The same interval by the rule of rectangles over value, slope, order and misfit: the definition, at its length. */
+/* Returns the interval by rectangular quadrature over value, slope, order and misfit, directly from the definition. */
 static double half_width_plainly(const double *spacing, const double *mean, const double *error, double scale)
 {
     static const double order[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2}, weight[] = {0.5, 1, 1, 1, 1, 1, 0.5};
@@ -134,11 +134,12 @@ static void intervals_as_defined(void **state)
         const double range = fmax(m[0], fmax(m[1], m[2])) - fmin(m[0], fmin(m[1], m[2]));
         const double plainly = half_width_plainly(spacing, m, error, hypot(range, 0.15));
         const double width = convergence_half_width(&c, c.level[0].mean, 0.95);
-        assert_near(width, plainly, 0.03 * plainly); /* the steps of the rectangles */
+        assert_near(width, plainly, 0.03 * plainly); /* step size of the quadrature */
     }
 }
 
-/* Values made as the law of the intervals says, by Park & Miller's generator: 95 of 100 intervals hold. */
+/* Random values that follow the model of the intervals (Park & Miller's generator): 95 of 100 intervals contain the
+ * true value. */
 static void intervals_hold_what_they_name(void **state)
 {
     (void)state;
@@ -148,7 +149,7 @@ static void intervals_hold_what_they_name(void **state)
     for (int n = 0; n < CASES; n++) {
         struct convergence c = {.levels = LEVELS};
         double draw[8];
-        for (int k = 0; k < 8; k++) { /* nearly normal: twelve uniform numbers */
+        for (int k = 0; k < 8; k++) { /* nearly normal: sum of twelve uniform numbers */
             draw[k] = -6;
             for (int j = 0; j < 12; j++) draw[k] += (double)(seed = seed * 48271 % 2147483647) / 2147483647.0;
         }
@@ -160,10 +161,11 @@ static void intervals_hold_what_they_name(void **state)
         }
         held += fabs(c.level[0].mean - 7) <= convergence_half_width(&c, c.level[0].mean, 0.95);
     }
-    assert_true(held >= 0.9 * CASES && held <= 0.98 * CASES); /* their scale is from the means, which costs 3 of 100 */
+    assert_true(held >= 0.9 * CASES && held <= 0.98 * CASES); /* the scale is estimated from the means, which costs 3
+                                                               * of 100 */
 }
 
-/* Scatter alone: the error of a mean is Student's; a trend below it is no order. */
+/* Scatter only: the error of a mean is Student's; a trend below it does not determine an order. */
 static void scatter_hides_small_trends(void **state)
 {
     (void)state;
@@ -174,12 +176,12 @@ static void scatter_hides_small_trends(void **state)
     assert_near(c.level[0].deviation, deviation, 1e-12);
     assert_near(c.level[0].error, 2.776 * deviation / sqrt(RUNS), 1e-12); /* 4 degrees of freedom, published tables */
     assert_true(c.uncertainty[0] >= c.level[0].error && c.uncertainty[0] >= c.discretisation[0]);
-    assert_true(converge_at(&c, 3, 10, 1, 1, RUNS)); /* a large one is seen */
+    assert_true(converge_at(&c, 3, 10, 1, 1, RUNS)); /* a large trend is detected */
     assert_int_equal(c.verdict, VERDICT_CONVERGES);
     assert_near(c.order, 1, 1e-9);
 }
 
-/* A length in steps of a spacing is not known better than to half of one, however alike the runs are. */
+/* A length quantised in spacings has an error of at least half a spacing, even if runs agree. */
 static void steps_of_a_figure_are_errors(void **state)
 {
     (void)state;
@@ -194,7 +196,7 @@ static void steps_of_a_figure_are_errors(void **state)
     assert_true(c.uncertainty[0] > 1 && c.uncertainty[2] > 1);
 }
 
-/* What no spacing takes away is added as a normal error of its own: 1.96 to 0.6745 standard deviations. */
+/* A bias is included as an independent normal error: 1.96 to 0.6745 standard deviations. */
 static void bias_widens_intervals(void **state)
 {
     (void)state;
@@ -218,8 +220,8 @@ static void student_as_published(void **state)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* A plate of 100 x 40 with a crack at mid-height, at 0.5: others must divide both sides, and lie to both sides of the
- * crack. */
+/* A plate of 100 x 40 with a crack at mid-height, spacing 0.5: other spacings must divide both sides, with particles on
+ * both sides of the crack. */
 static void spacings_fit_faces_and_cracks(void **state)
 {
     (void)state;
@@ -243,13 +245,13 @@ static void spacings_fit_faces_and_cracks(void **state)
     corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
     spacings_plan(&to, &s, 3, s.spacing);
     for (int k = 0; k < 3; k++) {
-        if (to.misfit[k] > 0.02) continue; /* then it says so */
+        if (to.misfit[k] > 0.02) continue; /* reported in this case */
         const double rows = 20.25 / to.at[k][0] - 0.5;
         assert_near(rows, round(rows), 0.02);
     }
 }
 
-/* Without places that a lattice meets, levels are a factor sqrt(2) apart. */
+/* Without positions that a lattice must fit, levels have the ratio sqrt(2). */
 static void levels_are_apart(void **state)
 {
     (void)state;
@@ -261,10 +263,10 @@ static void levels_are_apart(void **state)
     for (int k = 0; k < 4; k++) assert_true(fabs(to.at[k][0] / (0.29 * pow(sqrt(2), k)) - 1) < 1e-12);
 }
 
-/* ---- a study at hand -------------------------------------------------------------------------------------------- */
+/* ---- existing study ---------------------------------------------------------------------------------------------- */
 
-/* The interval of a figure is that of the level whose spacing is the scene's, to 5 %; none of others, nor of a study of
- * another scene. */
+/* The interval of a figure is that of the level whose spacing is the scene's within 5 %; there is none for other
+ * spacings, or from a study of another scene. */
 static void intervals_at_hand(void **state)
 {
     (void)state;

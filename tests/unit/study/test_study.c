@@ -1,4 +1,4 @@
-/* Tests of studies: values of keys, names of runs, what tables take. */
+/* Tests of studies: values of keys, names of runs, contents of tables. */
 #include "tests/support/near.h"
 
 #include <math.h>
@@ -36,9 +36,9 @@ static void lists_and_rows_are_read(void **state)
     check_values("a=1mm:0.5mm:-0.25mm", 3, (const char *[]){"1 mm", "0.75 mm", "0.5 mm"});
     check_values("a=0:1:0.1", 11,
                  (const char *[]){"0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9",
-                                  "1"}); /* `to` is met in spite of rounding */
+                                  "1"}); /* `to` is reached in spite of rounding */
     check_values("a=0:1:0.3,7", 5, (const char *[]){"0", "0.3", "0.6", "0.9", "7"});
-    check_values("a=x:y:z", 1, (const char *[]){"x:y:z"}); /* no numbers: one value */
+    check_values("a=x:y:z", 1, (const char *[]){"x:y:z"}); /* not numbers: one value */
 }
 
 static void wrong_values_are_refused(void **state)
@@ -69,7 +69,7 @@ static void runs_have_names_of_their_own(void **state)
     struct study s;
     struct varied_key k[3];
     assert_int_equal(study_make(&s, "inputs/plate_crack.yaml", NULL, "sweep"), OK);
-    assert_string_equal(s.folder, "results/plate_crack_sweep"); /* as its name has it */
+    assert_string_equal(s.folder, "results/plate_crack_sweep"); /* from the name of the scene */
     assert_int_equal(varied_key_read(&k[0], "particles.spacing=1 mm,0.5 mm"), OK);
     assert_int_equal(varied_key_read(&k[1], "method=pd"), OK);
     assert_int_equal(varied_key_read(&k[2], "boundary.0.velocity=[10 m/s, free],[20 m/s, free],a/b"), OK);
@@ -141,7 +141,7 @@ static void values_are_short_in_pictures(void **state)
     assert_near(study_tics_apart(8, 4), 2, 1e-12);
 }
 
-/* Units come from the header of a history, where it has the figure. */
+/* Units are taken from the header of a history, if it has the figure. */
 static void figures_have_units(void **state)
 {
     (void)state;
@@ -176,8 +176,8 @@ static void figures_have_units(void **state)
     }
 }
 
-/* Figures that no run of a scene can have are refused with what the scene lacks. `lacks`: NULL, it can have the figure;
- * else a part of the message. A body without cracks, whose bonds have no limit; one that breaks in load steps. */
+/* Figures that no run of a scene can have are refused with what the scene lacks. lacks: part of the message; NULL: the
+ * scene can have the figure. A body without cracks, whose bonds have no limit; one that breaks in load steps. */
 static void figures_fit_their_scene(void **state)
 {
     (void)state;
@@ -241,7 +241,7 @@ static void figures_fit_their_scene(void **state)
         }
 }
 
-/* 100000 names take 0.1 s; comparing each with all others 24 s. */
+/* 100000 names take 0.1 s; comparing each with all others would take 24 s. */
 static void many_names_are_found_in_time(void **state)
 {
     (void)state;
@@ -262,7 +262,7 @@ static void many_names_are_found_in_time(void **state)
 /* ---- tables ---------------------------------------------------------------------------------------------------------
  */
 
-/* A run that was stopped has a summary of what it did until then: not a figure of the scene. */
+/* A stopped run has a summary of its part: these are not figures of the scene. */
 static void stopped_runs_have_no_figures(void **state)
 {
     (void)state;
