@@ -1,16 +1,16 @@
 #!/bin/sh
-# The rules of the house (src/README.md) that a machine can check: rooms include and call only what lies below them, lines, functions
-# and files keep their limits, names of functions are unique, and comments name files that exist.
+# Checks the rules of src/README.md that a machine can check: rooms include and call only what lies below them; lines, functions and files
+# keep their limits; names of functions are unique; comments name existing files.
 test_name=house
 . tests/support/summary.sh
 
 sources=$(find src include kernels bench tests -name '*.[ch]' | sort)
 program=$(find src include kernels bench -name '*.[ch]' | sort)
 
-# Rooms from the ground up; rooms on one line stand side by side and may use each other in that order.
+# Rooms from the lowest to the highest; rooms on one line may use each other in this order.
 rooms="base data bonds kernels simd loads output geometry scene run grid mesh rigid contact coupling fracture solver probes step quasistatic engine export plot study bench app"
 
-# nothing WHAT: the file `found` is empty; else it is the failure.
+# nothing WHAT: passes if the file `found` is empty, else fails with its contents.
 found=$work/found
 nothing()
 {
@@ -24,7 +24,7 @@ $(head -n 20 "$found")"; else pass; fi
 room_of='function room_of(path, part, n) { n = split(path, part, "/"); return part[1] == "src" || part[1] == "include" ? part[2] : part[1] }
          function floors(list, k, n, name) { n = split(list, name, " "); for (k = 1; k <= n; k++) floor[name[k]] = k }'
 
-# An include of a header in another room, as the path from the top; headers of the own room are named without a path.
+# Includes of headers in higher rooms, as the path from the top; headers of the own room are included without a path.
 grep -H '^#include "' $program | awk -v rooms="$rooms" "$room_of"'
     BEGIN { floors(rooms) }
     { split($0, half, ":#include \""); path = half[2]; sub(/".*/, "", path)
@@ -35,7 +35,7 @@ grep -H '^#include "' $program | awk -v rooms="$rooms" "$room_of"'
       else if (floor[to] > floor[from]) print half[1] " includes " path }' >"$found"
 nothing "includes that lead up"
 
-# A call of a function in a higher room, by the symbols of the objects.
+# Calls of functions in higher rooms, by the symbols of the objects.
 build=${BUILD:-build}
 objects=$(find src bench -name '*.c' | sed "s|^|$build/|; s|c$|o|"; find kernels -name '*.c' | sed "s|^|$build/|; s|c$|portable.o|")
 nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
@@ -48,7 +48,7 @@ nm -A -P $objects | awk -v rooms="$rooms" -v build="$build/" "$room_of"'
                   print user[k] " calls " name " of " place[name] } }' | sort >"$found"
 nothing "calls that lead up"
 
-# A header in src/ROOM is for the files of that room alone, and one named without a path lies beside the file that names it.
+# A header in src/ROOM is included only by files of that room, and one included without a path is beside the including file.
 grep -H '^#include "' $program | awk '
     { split($0, half, ":#include \""); file = half[1]; path = half[2]; sub(/".*/, "", path)
       folder = file; sub(/\/[^\/]*$/, "", folder)
@@ -57,8 +57,8 @@ grep -H '^#include "' $program | awk '
       else if (path ~ /^src\// && index(path, folder "/") != 1) print file " includes " path }' >"$found"
 nothing "private headers of other rooms"
 
-# What a run is, and the part of a run that a room is, is known where its name says so; kernels and what stands below the scene
-# know no run (struct run of include/run/run.h).
+# The struct of a run, and the part of a run in a room, are used only in files whose names say so; kernels and rooms below the scene do not
+# use struct run (include/run/run.h).
 grep -l '\bstruct run\b' $program | awk "$room_of"'
     BEGIN { n = split("base data bonds kernels simd loads output geometry scene", low, " "); for (k = 1; k <= n; k++) below[low[k]] = 1
             n = split("grid mesh rigid contact coupling fracture solver probes", mid, " "); for (k = 1; k <= n; k++) part[mid[k]] = 1 }
@@ -67,38 +67,38 @@ grep -l '\bstruct run\b' $program | awk "$room_of"'
     room in part && $1 !~ /_(part|make|step|choice|check|motion|warn|points)\.[ch]$/ { print $1 " knows struct run: a name that ends in _part, _make, _step, _choice, _check, _motion, _warn or _points is expected" }' >"$found"
 nothing "files that know a run and do not say so"
 
-# Rows of the table of parts belong to their rooms, and nobody but the table uses them.
+# Rows of the table of parts are defined in their rooms and used only by the table.
 grep -nE '\bpart_[a-z]+\b' $program | grep -E 'extern|const struct part part_|&part_' | grep -v '^src/engine/parts.c' |
     grep -vE '^src/[a-z]+/[a-z_]+_part\.c:[0-9]+:const struct part part_' >"$found"
 nothing "rows of the table of parts outside rooms and table"
 
-# Members of stored bonds (include/bonds/bond_storage.h): for src/bonds and kernels/pd alone.
+# Members of stored bonds (include/bonds/bond_storage.h) are used only in src/bonds and kernels/pd.
 grep -nE "\\b(b|bonds|old)(->|\.)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)\\b" \
     $(find src -name '*.[ch]' ! -path 'src/bonds/*') | grep -E "(b->|bonds(->|\.)|old->)(nbr|inverse_length|common|stencil|column|column_count|first|implicit|changed|shell_length|made|aligned)(\[|\)|;|,| )" >"$found"
 nothing "storage of bonds used outside its room"
 
-# Energies are named in their table alone (include/run/ledger.h), those whose names mean nothing else.
+# Energies whose names have no other meaning are named only in their table (include/run/ledger.h).
 grep -nE '"(damped|absorbed|external_work)"' $(echo "$program" | grep -v 'run/ledger') >"$found"
 nothing "energies named outside the ledger"
 
-# A broken invariant is one line for a user: INVARIANT of include/base/base.h, not assert of C.
+# A violated invariant prints one line for a user: INVARIANT of include/base/base.h, not assert of C.
 grep -nE '\bassert(\(|\.h)' $program >"$found"
 nothing "assert in place of INVARIANT"
 
-# Each room says in a public header what it is for.
+# Each room has a public header that states its purpose.
 for room in $rooms; do
     [ -d "include/$room" ] || continue
     grep -q "^/\* Room \`$room\`" include/$room/*.h || echo "include/$room: no header begins with: Room \`$room\`"
 done >"$found"
 nothing "rooms that do not say what they are for"
 
-# Counted arrays may have no elements and no storage, which the C library's functions do not allow (include/base/arrays.h).
+# Counted arrays may be empty and have no memory, which functions of the C library do not allow (include/base/arrays.h).
 grep -nE "\\bqsort\(|\\bmem(cpy|move|set|cmp)\(.*(, |\* )\(size_t\)[^,]*\)" $(echo "$program" | grep -v '/base/') >"$found"
 nothing "arrays that are copied, filled, compared or sorted without array_copy, array_fill_bytes, arrays_equal or array_sort"
 
 # ---- circles, and what is seen ---------------------------------------------------------------------------------------
 
-# Files that call each other in a circle, by the symbols of the objects: these, and no larger ones.
+# Circles of files that call each other, by the symbols of the objects: only these, and none larger.
 circles="scene/scene_yaml 11, contact/contact 7, data/solid 4, scene/scene_echo 4, app/help 4, mesh/mesh 3,
     geometry/image 3, probes/probes 3, app/check_advice 3, plot/plot_curves 3"
 nm -A -P $(echo "$objects" | grep -v "/bench/") | awk -v build="$build/" -v known="$circles" '
@@ -120,8 +120,8 @@ nm -A -P $(echo "$objects" | grep -v "/bench/") | awk -v build="$build/" -v know
               if (size > most) print size " files in a circle: " members } }' >"$found"
 nothing "circles of files that are new or have grown"
 
-# Functions that take the whole run, in the rooms from `run` to `engine`, and pairs of a file there and a part whose inside it sees
-# (by the headers that the compiler has read): both may only fall.
+# Number of functions with the whole run as argument in the rooms from `run` to `engine`, and of pairs of a file there and a part whose
+# members it can see (by included headers): both may only decrease.
 most_whole=297 most_seen=178
 parts="grid/grid_part mesh/mesh_part rigid/rigid_part contact/contact coupling/coupling_part fracture/fracture_part probes/probes_part
     probes/diagnostics step/report step/stability step/damping quasistatic/statics solver/solver"
@@ -144,7 +144,7 @@ nothing "lines over $width characters"
 wc -l $sources | awk '$2 != "total" && $1 > 525 { print $2 ": " $1 " lines" }' >"$found"
 nothing "files over 525 lines"
 
-# Other versions of clang-format lay out some lines in another way.
+# Other versions of clang-format lay out some lines differently.
 if command -v clang-format-14 >/dev/null 2>&1; then
     echo "$sources" | xargs clang-format-14 --dry-run 2>&1 | grep 'warning:' | cut -d: -f1 | sort | uniq -c >"$found"
     nothing "files that clang-format 14 lays out in another way"
@@ -152,7 +152,7 @@ else
     echo "house: no clang-format-14, the layout of files is not checked"
 fi
 
-# Functions begin in the first column and end with a brace there.
+# Functions begin in the first column, and their closing brace is there too.
 awk 'FNR == 1 { start = 0 }
     /^[a-zA-Z].*\)[^;]*$/ && !/^(typedef|struct|enum|union)[^(]*[{;]/ { candidate = FNR }
     /^\{/ { start = candidate ? candidate : FNR }
@@ -161,7 +161,7 @@ nothing "functions over 60 lines"
 
 # ---- names -----------------------------------------------------------------------------------------------------------
 
-# Functions of the program that are defined in more than one file.
+# Functions of the program defined in more than one file.
 awk 'FNR == 1 { name = "" }
     /^[a-zA-Z_].*\(/ && !/^(typedef|return|else|if|for|while|switch)/ && !/;[ \t]*(\/\*.*)?$/ && !/^[A-Z_0-9]+\(/ {
         head = $0; sub(/\(.*/, "", head); n = split(head, word, /[ *]+/); name = word[n]
@@ -170,7 +170,7 @@ awk 'FNR == 1 { name = "" }
     END { for (name in count) if (count[name] > 1) print name ":" files[name] }' $(echo "$program" | grep -v '^include/') | sort >"$found"
 nothing "names of functions in several files"
 
-# Files that comments name.
+# Files named in comments.
 find . -path ./.git -prune -o -path './build*' -prune -o -type f -print | sed 's/.*\///' | sort -u >"$work/files"
 awk 'function look(text) { while (match(text, /[A-Za-z0-9_]+\.(c|h|sh)([^A-Za-z0-9_]|$)/)) {
         name = substr(text, RSTART, RLENGTH); sub(/[^A-Za-z0-9_]$/, "", name); print name, FILENAME; text = substr(text, RSTART + RLENGTH) } }

@@ -1,13 +1,12 @@
 #!/bin/sh
-# Bars beside d'Alembert's solution (inputs/bar_step.yaml): errors, fronts and plateaus of every method; frames
-# at given times. L1 by bond flux at most 1.1 times the reference, measured with an independent code; Zeng et al. 2021
-# show the same curves.
+# Bars compared with d'Alembert's solution (inputs/bar_step.yaml): errors, fronts and plateaus of every method; frames at given times. L1
+# errors are at most 1.1 times reference values from an independent code; Zeng et al. 2021 show the same curves.
 test_name=test_bar
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# bar FOLDER ARGUMENT...: a run in the background, two at a time.
+# bar FOLDER ARGUMENT...: starts a run in the background, at most two at a time.
 going=0
 bar()
 {
@@ -29,15 +28,15 @@ for shape in linear gimp; do
 done
 bar late_vmpd3 $late
 bar late_pd3 $late $plain
-# peridynamics by volume modification below x = 0.5 m, material points above
+# Volume-modified peridynamics below x = 0.5 m, material points above.
 for coupling in 'partial stress' handshake; do
     bar "late_${coupling% *}" $late -s method=adaptive -s 'pd.region={box: {from: -inf, to: 0.5}}' \
         -s conversion.criteria=none -s "coupling=$coupling" -s mpm.shape=gimp
 done
-# the same bar the other way round, and free at its far end, where the front comes back and takes the stress away
+# The reversed bar, and a bar with a free far end, where the reflected front unloads the bar.
 bar turned $half -s 'boundary=[{mirror: {axis: x, at: 1 m}}, {traction: -1, face: x-}]'
 bar free  -s boundary[0]=
-# a pulse that has come back from a fixed and from a free end, at two spacings, a tenth of a spacing a step
+# A pulse reflected at a fixed and at a free end, at two spacings, with steps of a tenth of a spacing.
 for d in 1 2; do
     for end in fixed free; do
         walls='[]'
@@ -51,7 +50,7 @@ wait
 
 # ---- errors --------------------------------------------------------------------------------------------------------
 
-# error FOLDER QUANTITY REFERENCE
+# error FOLDER QUANTITY REFERENCE: checks an error against 1.1 times the reference.
 error() { between "$1 $2" "$(f "$1" "probes.exact.$2")" 0 "$(compute "1.1 * $3")"; }
 
 while read -r run l1; do error "$run" L1 "$l1"; done <<'END'
@@ -83,42 +82,42 @@ error late_vmpd3 L1_strain 0.097
 
 # ---- plateaus and fronts -------------------------------------------------------------------------------------------
 
-for run in linear gimp vmpd3 pd3; do            # forces balance whatever the stiffness
+for run in linear gimp vmpd3 pd3; do            # equilibrium at any stiffness
     between "$run plateau" "$(f $run probes.exact.plateau)" 0.99 1.01
     is "$run status" "$(f $run status)" done
 done
 for run in linear gimp; do
     between "$run plateau by strain" "$(f $run probes.exact.plateau_strain)" 0.99 1.01
 done
-# 0.9796 and 4/3 of the stiffness
+# Relative stiffness 0.9796 (vmpd) and 4/3 (pd).
 between "vmpd plateau by strain" "$(f vmpd3 probes.exact.plateau_strain)" 1.011 1.031
 between "pd plateau by strain" "$(f pd3 probes.exact.plateau_strain)" 0.74 0.76
 for run in linear gimp vmpd3; do between "$run front" "$(f $run probes.exact.front)" 0.485 0.515; done
-between "pd front" "$(f pd3 probes.exact.front)" 0.415 0.445        # 1 - sqrt(4/3)/2 = 0.423, dispersed
+between "pd front" "$(f pd3 probes.exact.front)" 0.415 0.445        # 1 - sqrt(4/3)/2 = 0.423, with dispersion
 for n in 2 3 4 5; do
     for m in 2 3 4 5; do
         apart "vmpd fronts of horizons $n and $m" "$(f vmpd$n probes.exact.front)" "$(f vmpd$m probes.exact.front)" 0.003
     done
 done
 for run in late_linear late_gimp; do between "$run plateau" "$(f $run probes.exact.plateau)" 1.98 2.02; done
-# exact at the end's particle: (ct - D/2) F/E = 1.2475e-4
+# Exact at the end's particle: (ct - D/2) F/E = 1.2475e-4.
 between "late partial: end" "$(f late_partial probes.exact.end_displacement)" 1.2466e-4 1.2516e-4
 between "late handshake: end" "$(f late_handshake probes.exact.end_displacement)" 1.2442e-4 1.2492e-4
 
-# mirrored in every figure
+# Mirrored results.
 between "turned front" "$(f turned probes.exact.front)" 0.485 0.515
 apart "turned L1" "$(f turned probes.exact.L1)" "$(f vmpd3 probes.exact.L1)" 1e-9
 apart "turned front mirrored" "$(f turned probes.exact.front)" "$(compute "1 - $(f vmpd3 probes.exact.front)")" 1e-9
 between "free: stress taken away" "$(f free probes.exact.plateau)" -0.02 0.02
 between "free: front on its way back" "$(f free probes.exact.front)" 0.46 0.54
 
-# second order in the spacing: dispersion of the lattice
+# Second order in the spacing: dispersion of the lattice.
 for end in fixed free; do
     for figure in L1 L2_velocity L2_displacement; do
         ratio=$(compute "$(f ${end}2 probes.exact.$figure) / $(f ${end}1 probes.exact.$figure)")
         between "pulse, $end end: $figure over a halved spacing" "$ratio" 3.4 4.4
     done
-    between "pulse, $end end: L1" "$(f ${end}1 probes.exact.L1)" 0 5e-4      # of 0.1 Pa; 3.5e-4 measured
+    between "pulse, $end end: L1" "$(f ${end}1 probes.exact.L1)" 0 5e-4      # relative to 0.1 Pa; 3.5e-4 measured
 done
 
 # ---- frames at given times -----------------------------------------------------------------------------------------
@@ -127,7 +126,7 @@ slow="-s time.step=1us -s output.times=[1ms,5ms,5.0004ms,15ms]"
 calm "$work/times" inputs/bar_step.yaml -t 1 $slow
 times=$(awk -F'"time":' 'NF > 1 { sub(/}.*/, "", $2); printf "%s%.9g", n++ ? " " : "", $2 }' \
     "$work/times/frames.hdf.series")
-# the third is one step late: the step nearest to it has a frame
+# The third time is in a later step: the frame is at the step nearest to it.
 is "times of frames" "$times" "0 0.001 0.005 0.005001 0.015"
 is "profiles" "$(ls "$work/times" | grep -c '^exact_00000[0-4].csv$')" 5
 interrupted "$work/again" 100 inputs/bar_step.yaml $slow
@@ -137,14 +136,15 @@ for k in 0 1 2 3 4; do
     holds "profile $k after an interruption" cmp -s "$work/times/exact_00000$k.csv" "$work/again/exact_00000$k.csv"
 done
 
-# ---- bars of both kinds --------------------------------------------------------------------------------------------
+# ---- adaptive bars -------------------------------------------------------------------------------------------------
 
-# The doubled stress behind the front that comes back converts what it passes; the probe follows.
+# The doubled stress behind the reflected front converts the particles that it passes.
 growing="-s method=adaptive -s mpm.cell=2 -s mpm.shape=gimp -s conversion.stress=1.6 -s conversion.alpha=1"
 for coupling in partial handshake; do
     words="$coupling"; if [ $coupling = partial ]; then words="partial stress"; fi
     calm "$work/$coupling" inputs/bar_step.yaml -t 1 $growing -s "coupling=$words"
-    # up to the front, half-way, and a block of three of 200 more: what hand-shake adds at each conversion runs with the front
+    # Up to the front, half of the bar, and one block of three of 200 particles more: the energy of handshake conversions moves with the
+    # front.
     between "$coupling: converted" "$(f $coupling conversion.pd_share_end)" 0.4 0.515
     for figure in L1 L2 front plateau end_displacement L1_strain L2_strain front_strain plateau_strain L1_velocity \
         L2_velocity L2_displacement; do
@@ -152,7 +152,7 @@ for coupling in partial handshake; do
     done
     between "$coupling: plateau" "$(f $coupling probes.exact.plateau)" 1.96 2.04
     between "$coupling: front" "$(f $coupling probes.exact.front)" 0.46 0.54
-    between "$coupling: end" "$(f $coupling probes.exact.end_displacement)" 1.4925e-4 1.5025e-4         # exact 1.4975e-4
+    between "$coupling: end" "$(f $coupling probes.exact.end_displacement)" 1.4925e-4 1.5025e-4         # exact: 1.4975e-4
 done
 slow="$growing -s time.step=2us"
 calm "$work/growing" inputs/bar_step.yaml -t 1 $slow

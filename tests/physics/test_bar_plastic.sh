@@ -1,17 +1,17 @@
 #!/bin/sh
-# A bar pushed beyond its yield stress (inputs/bar_plastic.yaml) beside the bilinear wave, at 0.75 transits; the
-# same material for every method (Zeng et al. 2021, section 5.1).
+# A bar loaded beyond its yield stress (inputs/bar_plastic.yaml), compared with the bilinear wave at 0.75 transit times, with the same
+# material in every method (Zeng et al. 2021, section 5.1).
 test_name=test_bar_plastic
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# What runs; setting() has arguments for each word.
+# Names of the runs; setting() has the arguments of each.
 rows="mpm mpm_apic mpm_linear pd pd_lattice adaptive adaptive_lattice adaptive_handshake"
 
-# The stiffness that bonds keep where the precursor and where the full push stand (0.9796 by volume modification with
-# three neighbours), the most plastic work over the exact one, and arguments. The step overshoots, a peridynamic one by a third,
-# and hardens what it passes: more work, never less.
+# Relative stiffness of bonds at the precursor and at the full load (0.9796 for volume modification with three neighbours), the largest
+# plastic work over the exact one, and arguments. The step overshoots, by a third in peridynamics, and hardens the material behind: more
+# plastic work, never less.
 setting()
 {
     case $1 in
@@ -37,7 +37,7 @@ start fine bar_plastic -s particles.spacing=1.25mm -s time.step=1.25us; pace
 start below bar_plastic -s boundary[1].traction=[-0.3]; pace
 wait
 
-# within ROW FIGURE WANTED SHARE
+# within ROW FIGURE WANTED SHARE: checks a figure with a relative tolerance.
 within()
 {
     found=$(f $1 probes.exact.$2)
@@ -52,18 +52,18 @@ for row in $rows; do
     within $row strain_elastic "-5e-5 / $1" 0.06
     within $row strain_plastic "-1.5e-4 / $2" 0.06
     within $row plateau -1 0.01
-    # 3.75e-5 J/m behind the plastic front
+    # 3.75e-5 J/m behind the plastic front.
     work_exact=$(compute "3.75e-5 * 0.75 / sqrt(2)")
     between "$row: plastic work" "$(f $row energy.plastic)" "$work_exact" "$(compute "$3 * $work_exact")"
 done
-# the overshoot gets narrower with the spacing
+# The overshoot becomes narrower with the spacing.
 sound fine 0.005
 within fine strain_elastic -5e-5 0.03
 within fine strain_plastic -1.5e-4 0.02
 between "fine: plastic front" "$(f fine probes.exact.front_plastic)" 0.46 0.48
 ratio=$(compute "$(f fine probes.exact.L1) / $(f mpm probes.exact.L1)")
 between "fine: error over that of four times the spacing" "$ratio" 0.3 0.5
-# a push that even its overshoot leaves below yield: an elastic bar
+# A load whose overshoot stays below yield: an elastic bar.
 absent "below: plastic front" "$(f below probes.exact.front_plastic)"
 is "below: plastic work" "$(f below energy.plastic)" 0
 

@@ -1,28 +1,28 @@
 #!/bin/sh
-# Observed orders of convergence on four grids, spacing and step halved together, within 0.15 of theory: on the
-# known motion of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
+# Observed orders of convergence on four grids, with spacing and step halved together, within 0.15 of theory, for the manufactured solution
+# of inputs/bar_converge.yaml and the smooth pulse of inputs/bar_smooth.yaml.
 test_name=test_orders
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-grids="100 200 400 800"                  # particles a metre
+grids="100 200 400 800"                  # particles per metre
 
-# at N: the settings of a grid; waves cross a quarter of a spacing in a step.
+# at N: prints the settings of a grid; waves cross a quarter of a spacing per step.
 at() { echo "-s particles.spacing=1/$1 -s time.step=1/$((400 * $1))"; }
 
-# pace: two runs at a time.
+# pace: limits the number of runs to two at a time.
 going=0
 pace() { going=$((going + 1)); if [ $going -eq 2 ]; then wait; going=0; fi; }
 
-# refine NAME SCENE [ARGUMENT...]: the runs NAME.1 .. NAME.4.
+# refine NAME SCENE [ARGUMENT...]: starts the runs NAME.1 .. NAME.4.
 refine()
 {
     name=$1 scene=$2 k=0; shift 2
     for n in $grids; do k=$((k + 1)); start $name.$k $scene $(at $n) "$@"; pace; done
 }
 
-# orders NAME U V STRESS STRAIN: those wanted of the root mean squares of the errors in displacement, velocity, stress and
-# E x strain (of the displacements), between each grid and the next; -: none is expected.
+# orders NAME U V STRESS STRAIN: checks the orders of the root-mean-square errors of displacement, velocity, stress and E x strain (from
+# displacements) between successive grids; -: no order is expected.
 orders()
 {
     name=$1; shift
@@ -37,7 +37,7 @@ orders()
     done
 }
 
-# observed NAME QUANTITY: its three orders.
+# observed NAME QUANTITY: prints its three orders.
 observed()
 {
     awk -v wanted="\"$2\":" '
@@ -46,37 +46,37 @@ observed()
         "$work/$1.1/summary.json" "$work/$1.2/summary.json" "$work/$1.3/summary.json" "$work/$1.4/summary.json"
 }
 
-# relative NAME QUANTITY EXACT: an error over the root mean square of the exact field.
+# relative NAME QUANTITY EXACT: prints an error over the root mean square of the exact field.
 relative() { compute "$(f "$1" probes.exact.$2) / ($3)"; }
 
-# Every shape with each transfer that knows it, by one of the two problems at least.
+# Every shape with each of its transfers is in at least one of the two problems.
 
-# ---- a known motion --------------------------------------------------------------------------------------------------
+# ---- manufactured solution -------------------------------------------------------------------------------------------
 
 for shape in linear gimp cpgimp quadratic cubic; do refine made_$shape bar_converge -s mpm.shape=$shape; done
 for shape in gimp quadratic; do refine made_apic_$shape bar_converge -s mpm.shape=$shape -s mpm.transfer=apic; done
 refine made_pd bar_converge -s method=pd
 wait
-# Shapes of first degree have one strain in a cell, exact to second order in its middle: the stress of the points beside
-# it sees first order, but their displacements are of second order, and so is their difference.
+# First-degree shapes have one strain per cell, which is second-order accurate in its middle: the stress of the points beside it is first
+# order, but their displacements are second order, and so is the difference of displacements.
 for shape in linear gimp cpgimp; do orders made_$shape 2 2 1 2; done
 for shape in quadratic cubic; do orders made_$shape 2 2 2 2; done
-# The damping of APIC and the dispersion of B-splines have opposite signs in the velocity, which passes through zero here.
+# The damping of APIC and the dispersion of B-splines have opposite signs in the velocity error, which passes through zero here.
 orders made_apic_gimp 2 2 1 2
 orders made_apic_quadratic 2 - 2 2
-# Three neighbours on a side at every spacing: towards the local bar. In E x strain two errors of second order cancel but
-# at the ends.
+# Three neighbours on each side at every spacing: convergence to the local bar. In E x strain two second-order errors cancel except at the
+# ends.
 orders made_pd 2 2 2 -
-# Noise: FLIP leaves none to be seen down to the finest of these, 7e-5 of the displacement; the positions' own round-off
-# ends E x strain at 1e-5, with 3200 particles.
+# FLIP noise is not visible down to the finest of these grids, 7e-5 of the displacement; the round-off of positions limits E x strain at
+# 1e-5, with 3200 particles.
 root_mean_square="0.9045e-7 / sqrt(2)"
 between "made_linear.4: error" "$(relative made_linear.4 L2_displacement "$root_mean_square")" 6e-5 8e-5
 
 # ---- more neighbours in one horizon of 0.1 m -----------------------------------------------------------------------
 
-# The law of the bonds then stays, and the body force is that of its operator, (4 E/delta^2) int_0^delta (1 - cos k r)/r
-# dr in place of E k^2. Whole neighbours overlap the horizon's ends by half a spacing: first order. A ramp weighs them by
-# halves, VMPD puts the ends between two: second order.
+# With a fixed horizon the law of bonds does not change, and the body force is that of its operator, (4 E/delta^2) int_0^delta (1 - cos k
+# r)/r dr instead of E k^2. Whole neighbours exceed the horizon's ends by half a spacing: first order. A ramp weights them by one half, and
+# VMPD places the ends between two neighbours: second order.
 nonlocal="-s method=pd -s boundary[3].body_force=[-0.0417335084233727]" continuum="-s pd.calibration=continuum"
 k=0
 for m in 3 5 7 9; do
@@ -88,11 +88,10 @@ for m in 3 5 7 9; do
 done
 wait
 orders whole 1 1 - 1
-orders lattice 1 1 - -                       # the same operator, but its long waves right: errors 60 times smaller
+orders lattice 1 1 - -                       # the same operator, with exact long waves: errors 60 times smaller
 orders ramp 2 2 - -
 orders vmpd 2 2 - -
-# The stress that balances this force is softer than E x strain by the operators' ratio, 1.64 %, at any number of
-# neighbours.
+# The stress that balances this force is softer than E x strain by the ratio of the operators, 1.64 %, for any number of neighbours.
 between "ramp: stress of the nonlocal bar" "$(relative ramp.4 L2 "6.2832e4 * $root_mean_square")" 0.0164 0.0170
 
 # ---- a smooth pulse --------------------------------------------------------------------------------------------------
@@ -101,7 +100,7 @@ for shape in linear gimp quadratic; do refine pulse_$shape bar_smooth -s mpm.sha
 for shape in cpgimp cubic; do refine pulse_apic_$shape bar_smooth -s mpm.shape=$shape -s mpm.transfer=apic; done
 refine pulse_pd bar_smooth -s method=pd
 wait
-# On coarse grids the error of second order, dispersion, covers that of first order in the stress.
+# On coarse grids the second-order error (dispersion) exceeds the first-order error of the stress.
 for shape in linear gimp; do
     orders pulse_$shape 2 2 - 2
     between "pulse_$shape: order of the stress, finest grids" "$(observed pulse_$shape L2 | tail -n 1)" 0.85 1.15
@@ -109,8 +108,8 @@ done
 orders pulse_apic_cpgimp 2 2 1 2
 for shape in quadratic apic_cubic pd; do orders pulse_$shape 2 2 2 2; done
 
-# Cell crossing: at strains of 5e-3 the finest points pass half a cell, and linear shapes lose the wave. The others end at
-# about the strain itself, where linear elasticity does.
+# Cell crossing: at strains of 5e-3 the finest points cross half a cell, and linear shapes lose the wave. The others end at an error of
+# about the strain, the limit of linear elasticity.
 strong="-s initial[0].pulse.velocity=0.5"
 start crossing_linear bar_smooth $(at 800) $strong -s mpm.shape=linear; pace
 start crossing_gimp bar_smooth $(at 800) $strong; pace
@@ -118,9 +117,9 @@ peak="0.5 * sqrt(0.1 * sqrt(2 * atan2(0, -1)) / 2 / 1.6)"
 between "crossing, linear: error of the velocity" "$(relative crossing_linear L2_velocity "$peak")" 0.1 1
 between "crossing, gimp: error of the velocity" "$(relative crossing_gimp L2_velocity "$peak")" 0 0.01
 
-# ---- where the nodes are ---------------------------------------------------------------------------------------------
+# ---- position of the nodes -------------------------------------------------------------------------------------------
 
-# A mirror half-way between two nodes serves as well as on one; elsewhere the program says so.
+# A mirror midway between two nodes is equivalent to one on a node; at other positions the program refuses it.
 start half bar_converge $(at 100) -s mpm.shape=quadratic -s mpm.origin=[1/100]; pace
 start node bar_converge $(at 100) -s mpm.shape=quadratic; pace
 apart "mirrors between nodes" "$(f half probes.exact.L2_displacement)" "$(f node probes.exact.L2_displacement)" 1e-14
@@ -134,12 +133,12 @@ mpm.origin=[0.012]  2
 mpm.cell=1.7        1
 mpm.cell=2          0
 END
-# Nodes begin at a mirror, not at the bar's other end: a front that has come back from it.
+# Nodes start at a mirror, not at the bar's other end: a reflected front.
 turned="boundary=[{mirror: {axis: x, at: 1 m}}, {traction: -1, face: x-}]"
 set -- bar_step $(at 400) -s method=mpm -s mpm.shape=gimp -s mpm.cell=3 -s "$turned"
 start on_mirror "$@"; pace
 start on_corner "$@" -s mpm.origin=[0]; pace
-between "node on the mirror" "$(f on_mirror probes.exact.L2_displacement)" 0 3e-7       # of 1e-4; 1.9e-7 measured
+between "node on the mirror" "$(f on_mirror probes.exact.L2_displacement)" 0 3e-7       # relative to 1e-4; 1.9e-7 measured
 between "node elsewhere" "$(f on_corner probes.exact.L2_displacement)" 2e-6 4e-6
 
 finish

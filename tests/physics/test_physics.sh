@@ -1,15 +1,14 @@
 #!/bin/sh
-# Closed forms of elasticity and mechanics, each through the program: scene in, figures out.
+# Closed forms of elasticity and mechanics, each tested with the program: from the scene to figures.
 test_name=test_physics
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/physics.sh
 
-# ---- a bar pulled at its end ---------------------------------------------------------------------------------------
+# ---- a bar loaded at its end ---------------------------------------------------------------------------------------
 
-# d'Alembert: a step of traction F at x = L sends the stress F inwards at c = sqrt(E/rho) = 100 m/s, the end moves by
-# c t F/E; the clamped end sends back twice the stress. Bar of Zeng et al. (CPM 2021), section 5.1; figures of our
-# Closed form: d'Alembert.
+# d'Alembert: a step of traction F at x = L sends the stress F inwards at c = sqrt(E/rho) = 100 m/s; the end moves by c t F/E; the clamped
+# end reflects twice the stress. Bar of Zeng et al. (CPM 2021), section 5.1.
 scene pulled <<'END'
 space: line
 section: 1 m^2
@@ -32,9 +31,8 @@ go pulled_plain pulled -s method=pd -s pd.calibration=continuum
 go late_gimp pulled -s method=mpm -s mpm.frame=current -s duration=12.5ms
 go late_pd pulled -s method=pd -s duration=12.5ms
 landed
-# Stiffness of the lattice over E, N = 3 neighbours a side: 1 where it is calibrated; N (N + 1)/(N + 1/2)^2 = 48/49
-# with the volume rule; (N + 1)/N = 4/3 with the constant of the continuum. Strain is
-# F/stiffness, speed its root.
+# Stiffness of the lattice over E, N = 3 neighbours on each side: 1 if calibrated; N (N + 1)/(N + 1/2)^2 = 48/49 with the volume rule; (N +
+# 1)/N = 4/3 with the continuum constant. The strain is F/stiffness, the speed proportional to the root.
 while read -r run stiffness place; do
     run=pulled_$run
     sound $run 0.01
@@ -43,11 +41,11 @@ while read -r run stiffness place; do
     between "$run: stress behind the front" "$(along $run stress_xx 0.6 0.95)" 0.99 1.01
     between "$run: front" "$(front $run "$(compute "0.5e-4 / ($stiffness)")")" "$(compute "$place - 0.015")" \
         "$(compute "$place + 0.015")"
-    # the last particle, half a spacing inside the end
+    # The last particle is half a spacing inside the end.
     near "$run: way of the end" "$(along $run displacement_x 0.995 1)" \
         "$(compute "(sqrt($stiffness) * 0.5 - 0.0025) * 1e-4 / ($stiffness)")" 0.01
-    # At t = 0 the force jumps and the velocity stands half a step behind: a share of the first steps' work that is
-    # soon small. APIC takes short waves away: the front's, most of all at first.
+    # At t = 0 the force jumps and the velocity lags by half a step: an error relative to the work of the first steps that soon becomes
+    # small. APIC damps short waves, mostly at first those of the front.
     if [ $run = pulled_apic ]; then most=0.02; else most=0.01; fi
     between "$run: energy after 2 ms" "$(most $run balance_error 2e-3)" 0 $most
 done <<'END'
@@ -58,8 +56,7 @@ pd 1 0.5
 vmpd 48/49 0.5
 plain 4/3 0.43
 END
-# Half-height of plain peridynamics: 1 - sqrt(4/3)/2 = 0.423 for long waves, 0.432 with its dispersion
-# (measured).
+# Half-height of plain peridynamics: 1 - sqrt(4/3)/2 = 0.423 for long waves, 0.432 with dispersion (measured).
 for run in late_gimp late_pd; do
     sound $run 0.01
     between "$run: stress sent back by the clamp" "$(along $run stress_xx 0 0.2)" 1.96 2.04
@@ -67,11 +64,10 @@ for run in late_gimp late_pd; do
     near "$run: way of the end" "$(along $run displacement_x 0.995 1)" 1.2475e-4 0.005
 done
 
-# ---- a disc falls --------------------------------------------------------------------------------------------------
+# ---- a falling disc ------------------------------------------------------------------------------------------------
 
-# Newton: displacement g t^2/2, exact in the leap-frog scheme at every step; velocity g t, at the time of the line;
-# no stress. What is left is round-off of some hundred sums: 1e-12 of the speed in the mean over particles (rms,
-# measured), so a particle may have some times that.
+# Newton: displacement g t^2/2, exact in the leap-frog scheme at every step; velocity g t; no stress. Tolerance: round-off of some hundred
+# sums, 1e-12 of the speed as root mean square over particles (measured), with a factor for single particles.
 scene fall <<'END'
 space: plane stress
 thickness: 1 mm
@@ -103,18 +99,18 @@ for run in fall_pd fall_flip fall_apic; do
             "$(awk -v b=$force -v t="$time" 'BEGIN { printf "%.17g", b / 7800 * t }')" 5e-12
         near "$run: impulse along $axis" "$(f $run probes.momentum.$axis)" \
             "$(awk -v b=$force -v m="$mass" -v t="$time" 'BEGIN { printf "%.17g", b / 7800 * m * t }')" 2e-12
-        # 5e9 N/m^3 over 10 mm would be 50 MPa
+        # 5e9 N/m^3 over 10 mm would be 50 MPa.
         between "$run: no stress" "$(extreme $run stress_$axis$axis)" 0 1
     done
-    # The ledger starts with what leap-frog keeps; with APIC with 1/2 m v^2, a quarter of a step squared more.
+    # The initial energy is that conserved by leap-frog; with APIC it is 1/2 m v^2, larger by a quarter of a squared velocity increment.
     case $run in fall_apic) short=0.25 ;; *) short=0 ;; esac
     apart "$run: energy" "$(f $run energy.balance_error)" "$(compute "-$short / $(f $run steps)^2")" 1e-9
 done
 
-# ---- loads shorter than a step, and bodies that are driven --------------------------------------------------------
+# ---- short loads, and driven bodies -------------------------------------------------------------------------------
 
-# Work is that of the kicks that a load gives: rigid motion balances however short it is (25 and 1.6 % before). The last row takes the
-# work of what drives as all before it do (0.2 to 2 % before).
+# The work of a load is that of its velocity increments: the balance of rigid motion closes for any duration (otherwise errors of 25 and 1.6
+# %). The last row includes the work of driven particles as all rows before (otherwise 0.2 to 2 %).
 scene push <<'END'
 space: plane stress
 thickness: 1 mm
@@ -136,15 +132,15 @@ landed
 for run in pd reference current; do
     between "push_$run: energy" "$(f push_$run energy.balance_error)" -1e-9 1e-9
     between "push_longer_$run: energy" "$(f push_longer_$run energy.balance_error)" -1e-9 1e-9
-    case $run in current) off=5e-3 ;; *) off=1e-4 ;; esac       # of points on the grid the first step is a jump
+    case $run in current) off=5e-3 ;; *) off=1e-4 ;; esac       # for points on the grid the first step is a jump
     between "drive_$run: energy" "$(f drive_$run energy.balance_error)" -$off $off
 done
 
 # ---- a column under sudden gravity ---------------------------------------------------------------------------------
 
-# Bar clamped at x = 0, body force b from t = 0: the base feels b c t until the free end answers, 2 b L at t = 2L/c,
-# nothing at 4L/c, b L in the mean. After half a period everything stands at twice its static place: u = b/E (2 L x -
-# x^2), sigma = 2 b (L - x).
+# Bar clamped at x = 0, body force b from t = 0: the reaction is b c t until the reflection from the free end arrives, 2 b L at t = 2L/c, 0
+# at 4L/c, b L in the mean. After half a period displacement and stress are twice the static ones: u = b/E (2 L x - x^2), sigma = 2 b (L -
+# x).
 scene column <<'END'
 space: line
 duration: 10 ms
@@ -174,11 +170,10 @@ near "column: largest stress of a period" "$(most column_whole base.stress_xx)" 
 near "column: its mean" "$(mean column_whole base.stress_xx 0 20e-3)" 0.9975 0.02
 between "column: when it is largest" "$(rises column_whole base.stress_xx 1.9)" 9.4e-3 10e-3
 
-# ---- a spinning square ---------------------------------------------------------------------------------------------
+# ---- a rotating square ---------------------------------------------------------------------------------------------
 
-# 20 mm x 20 mm, corners at 10 m/s, a tenth of a turn: nothing may happen but the turn, beside centrifugal stress of
-# rho v^2 = 0.8 MPa. FLIP with linear shapes sees a false gradient at free edges: it must show what the
-# others are spared.
+# 20 mm x 20 mm, corners at 10 m/s, a tenth of a revolution: the exact motion is the rotation with centrifugal stress rho v^2 = 0.8 MPa.
+# FLIP with linear shapes has a spurious gradient at free edges, which must be visible here and absent in the other methods.
 {
     cat <<'END'
 space: plane stress
@@ -200,7 +195,7 @@ go spin_linear spin -s method=mpm -s mpm.shape=linear
 go spin_apic spin -s method=mpm -s mpm.transfer=apic
 go spin_pd spin -s method=pd
 landed
-# m w^2 r^2/2 with 3.2e-3 kg, w^2 = 5e5 s^-2 and r^2 = (20^2 - 0.5^2)/6 mm^2, the mean over the lattice
+# m w^2 r^2/2 with 3.2e-3 kg, w^2 = 5e5 s^-2 and r^2 = (20^2 - 0.5^2)/6 mm^2, the mean over the lattice.
 spin_start=0.0533
 for run in spin_pd spin_apic spin_linear; do
     sound $run 5e-4
@@ -208,16 +203,16 @@ for run in spin_pd spin_apic spin_linear; do
     near "$run: kinetic energy" "$(f $run probes.energy.kinetic)" $spin_start 5e-4
     between "$run: shear" "$(extreme $run stress_xy)" 1e4 1e6
     between "$run: axial stress" "$(extreme $run stress_xx)" 1e5 1.6e6
-    # 36 degrees: 9.75 mm (cos - 1 - sin), 9.75 mm (cos - 1 + sin); 1e-4 of the radius
+    # 36 degrees: 9.75 mm (cos - 1 - sin), 9.75 mm (cos - 1 + sin); tolerance 1e-4 of the radius.
     apart "$run: corner, x" "$(f $run probes.corner.displacement_x)" -7.59299e-3 1.4e-6
     apart "$run: corner, y" "$(f $run probes.corner.displacement_y)" 3.86882e-3 1.4e-6
 done
 
 # ---- plane waves ---------------------------------------------------------------------------------------------------
 
-# Between rollers a push p runs at c = sqrt(C11/rho), C11 = E/(1 - nu^2) in plane stress, else E (1 - nu)/((1 + nu)
-# (1 - 2 nu)); behind it v = p/(rho c), and the stress across is nu p in plane stress, else p nu/(1 - nu).
-# plane NAME SPACE: the scene of a strip with rollers on its sides.
+# Between rollers a pressure p travels at c = sqrt(C11/rho), C11 = E/(1 - nu^2) in plane stress, else E (1 - nu)/((1 + nu) (1 - 2 nu));
+# behind it v = p/(rho c), and the transverse stress is nu p in plane stress, else p nu/(1 - nu).
+# plane NAME SPACE: writes the scene of a strip with rollers on its sides.
 plane()
 {
     to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
@@ -252,7 +247,7 @@ for space in stress strain solid; do
 done
 go wave_solid_uniform solid -s method=pd -s pd.weights=uniform
 landed
-# pace FOLDER SPEED: that of half the push between two points, over the speed given.
+# pace FOLDER SPEED: prints the speed of half the pressure between two points, over the given speed.
 pace()
 {
     half=$(compute "0.5e8 / (7800 * $2)")
@@ -274,15 +269,14 @@ stress 9/8 1/3
 strain 6/5 1/3
 solid 6/5 1/3
 END
-# With one weight for all bonds C11 of the cubic lattice is 5.7 % short: sqrt(0.943) = 0.971, and the test
-# sees it.
+# With one weight for all bonds C11 of the cubic lattice is 5.7 % too small: sqrt(0.943) = 0.971, which the test detects.
 between "wave_solid_uniform: speed over sqrt(C11/rho)" \
     "$(pace wave_solid_uniform "$(compute "sqrt(1.2 * 190e9 / 7800)")")" 0.965 0.979
 
-# ---- two bars meet -------------------------------------------------------------------------------------------------
+# ---- collision of two bars -----------------------------------------------------------------------------------------
 
-# Equal bars at +v and -v: both stop where the waves have been, under a pressure of rho c v = 1 Pa; for 2L/c = 10 ms
-# that force takes momentum over at rho c v A = 1 N, until it is exchanged.
+# Equal bars at +v and -v: both stop behind the waves, under a pressure of rho c v = 1 Pa; for 2L/c = 10 ms this force rho c v A = 1 N
+# transfers momentum, until it is exchanged.
 scene meeting <<'END'
 space: line
 duration: 5 ms
@@ -319,8 +313,8 @@ done
 
 # ---- a driven end --------------------------------------------------------------------------------------------------
 
-# An end driven at v from t = 0 feels rho c v A = 20 uN until the wave is back at 2L/c = 20 ms; its work is that times
-# v t, half of it kinetic, half strain. The force jumps: means over 1 to 9 ms.
+# An end driven at v from t = 0 has the reaction rho c v A = 20 uN until the reflected wave arrives at 2L/c = 20 ms; the work is that times
+# v t, half of it kinetic, half strain energy. The force oscillates: means over 1 to 9 ms.
 scene driven <<'END'
 space: line
 section: 2 cm^2
@@ -347,11 +341,10 @@ for method in pd flip apic linear; do
     near "$run: strain energy" "$(f $run energy.strain)" 1e-10 0.03
 done
 
-# ---- the patch test of the coupling --------------------------------------------------------------------------------
+# ---- patch test of the couplings -----------------------------------------------------------------------------------
 
-# Uniform strain, peridynamic on the left: the largest nodal force over stress times cell face. Of the hand-shake
-# exactly 13/24 at h = 2D and 3/4 at h = D in a bar with N = 3 (printed 0.54, 0.75 by the prototype); of partial stress
-# nothing in the limit of small strain: what is left is of first order in it.
+# Uniform strain, peridynamic on the left: largest nodal force over stress times cell face. Handshake: exactly 13/24 at h = 2D and 3/4 at h
+# = D in a bar with N = 3; partial stress: zero in the limit of small strain, with an error of first order in it.
 scene patch_line <<'END'
 space: line
 duration: 1 us
@@ -383,8 +376,8 @@ for shape in linear gimp; do
     done
 done
 
-# In the plane bonds with isotropic weights leave nothing; with one weight C11 is 1.1 % and C66 3.4 % off,
-# which shows. Of the hand-shake 0.50 for axial load with the interface on a node.
+# In 2D, bonds with isotropic weights have no residual; with one weight C11 deviates by 1.1 % and C66 by 3.4 %, which is detected.
+# Handshake: 0.50 for axial load with the interface on a node.
 scene patch_axial <<'END'
 space: plane stress
 thickness: 1 mm
@@ -415,9 +408,9 @@ between "partial stress, uniform, biaxial" "$(f uniform_biaxial probes.patch.res
 between "partial stress, uniform, shear" "$(f uniform_shear probes.patch.residual_max)" 0.033 0.035
 between "hand-shake, plane, axial" "$(f hand_axial probes.patch.residual_max)" 0.49 0.51
 
-# ---- scenes without sense ------------------------------------------------------------------------------------------
+# ---- invalid scenes ------------------------------------------------------------------------------------------------
 
-# A mirror that cuts a body is refused; a pre-crack beside it is warned of, one inside is not.
+# A mirror that cuts a body is refused; a pre-crack beyond it causes a warning, one inside does not.
 sed 's/axis: x, at: 0,/axis: x, at: 0.3,/' "$work/column.yaml" >"$work/cut.yaml"
 "$cleave" check "$work/cut.yaml" >"$work/out" 2>"$work/err"
 is "mirror inside a body: exit status" $? 2

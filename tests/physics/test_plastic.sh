@@ -1,16 +1,16 @@
 #!/bin/sh
-# Bodies of material points that yield: waves against closed forms, the ledger, threads and restart.
+# Yielding bodies of material points: waves compared with closed forms, energy balance, threads and restart.
 test_name=test_plastic
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/physics.sh
 . tests/support/trust.sh
 
-# ---- a bar struck beyond its yield stress --------------------------------------------------------------------------
+# ---- a bar loaded beyond its yield stress --------------------------------------------------------------------------
 
-# A push of 1 Pa from t = 0: the elastic precursor carries sigma_y = 0.5 Pa at c = sqrt(E/rho) = 100 m/s, the rest comes
-# at sqrt(E_t/rho) = 70.7 m/s. After 0.75 L/c they are at x = 0.25 and 1 - 0.75/sqrt(2) = 0.470; strains 0.5/E and 0.5/E +
-# 0.5/E_t (Zeng et al., CPM 2021, section 5.1).
+# A pressure of 1 Pa from t = 0: the elastic precursor has sigma_y = 0.5 Pa and travels at c = sqrt(E/rho) = 100 m/s, the plastic front at
+# sqrt(E_t/rho) = 70.7 m/s. After 0.75 L/c they are at x = 0.25 and 1 - 0.75/sqrt(2) = 0.470; strains 0.5/E and 0.5/E + 0.5/E_t (Zeng et
+# al., CPM 2021, section 5.1).
 scene bar <<'END_OF_SCENE'
 space: line
 section: 1 m^2
@@ -37,30 +37,30 @@ for run in bar_flip bar_apic bar_linear; do
     sound $run 0.005
     near "$run: strain of the precursor" "$(strain $run 0.32 0.42)" -5e-5 0.06
     near "$run: strain behind the plastic front" "$(strain $run 0.55 0.9)" -1.5e-4 0.06
-    # the step overshoots its front, and hardens what it passes: 3 % of the yield stress
+    # The step overshoots at its front and hardens the material: 3 % of the yield stress.
     near "$run: stress of the precursor" "$(along $run stress_xx 0.32 0.42)" -0.5 0.04
     near "$run: stress behind the plastic front" "$(along $run stress_xx 0.55 0.9)" -1 0.01
-    # on the way up x strains fall: fronts of -u
+    # With increasing x strains decrease: fronts of -u.
     awk -F, -v OFS=, 'NR > 1 { for (k = 1; k <= NF; k++) if (k == at) $k = -$k }
         NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^displacement_x/) at = k } { print }' \
         "$work/$run/bar_000001.csv" >"$work/$run/bar" && mv "$work/$run/bar" "$work/$run/bar_000001.csv"
     between "$run: elastic front" "$(front $run 2.5e-5)" 0.23 0.27
     between "$run: plastic front" "$(front $run 1e-4)" 0.45 0.49
 done
-# Without overshoot, for a push that grows over 1 ms: with H = E E_t/(E - E_t) = 1e4 a stress s leaves (s^2 - 0.25)/(2 H)
-# of plastic work: 3.75e-5 over the way of the whole push, in the mean (7/12 - 1/4)/(2 H) over that of its growth.
+# No overshoot for a pressure that increases over 1 ms: with H = E E_t/(E - E_t) = 1e4 a stress s leaves plastic work (s^2 - 0.25)/(2 H):
+# 3.75e-5 at the full pressure, (7/12 - 1/4)/(2 H) in the mean over its increase.
 sound bar_ramp 0.005
 near "bar_ramp: plastic work" "$(f bar_ramp energy.plastic)" \
     "$(compute "sqrt(5000) * (6.5e-3 * 3.75e-5 + 0.5e-3 * (7 / 12 - 1 / 4) / 2e4)")" 0.01
-# unloading, reverse flow and reflections: the ledger still holds, and plastic work never comes back
+# Unloading, reverse flow and reflections: the energy balance closes, and plastic work never decreases.
 sound bar_whole 0.005
 awk -F, 'NR > 1 { if ($5 < before) exit 1; before = $5 }' "$work/bar_whole/history.csv"
 is "bar_whole: plastic work never falls" $? 0
 
-# ---- what flow keeps below the conversion stress -------------------------------------------------------------------
+# ---- yielding below the conversion stress --------------------------------------------------------------------------
 
-# An end driven at 0.02 m/s sends 2 Pa through an elastic bar; one that yields at 0.5 Pa never holds 0.505, though the
-# elastic trial of many a step does: nothing may convert.
+# An end driven at 0.02 m/s sends 2 Pa through an elastic bar; a bar that yields at 0.5 Pa never exceeds 0.505, although the elastic trial
+# stress of many steps does: nothing may convert.
 scene driven <<'END_OF_SCENE'
 space: line
 section: 1 m^2
@@ -84,9 +84,9 @@ holds "driven_elastic: converts" test -n "$(f driven_elastic conversion.first_ti
 
 # ---- plane waves ---------------------------------------------------------------------------------------------------
 
-# Between rollers, no hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in spaces without strain across.
-# The precursor carries sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa at sqrt(C11/rho), the rest of the push comes at sqrt(K/rho).
-# plane NAME SPACE YIELDING: the scene of such a strip.
+# Between rollers, without hardening: q = |sigma_xx - sigma_yy| = sigma_y behind both fronts, in spaces without transverse strain. The
+# precursor has sigma_y (1 - nu)/(1 - 2 nu) = 60 MPa and travels at sqrt(C11/rho), the plastic front at sqrt(K/rho).
+# plane NAME SPACE YIELDING: writes the scene of such a strip.
 plane()
 {
     to="4 mm" middle="1.5 mm" from=0 depth="thickness: 1 mm" rollers=""
@@ -132,7 +132,7 @@ for space in strain solid; do
         between "$run: plastic work" "$(f $run energy.plastic)" 1e-9 1e3
     done
 done
-# The stress across, nu p before it yields, comes nearer to p/2, where the flow across stops.
+# The transverse stress, nu p before yielding, approaches p/2, where the transverse flow stops.
 for run in wave_stress wave_stress_apic; do
     sound $run 0.01
     near "$run: stress along" "$(f $run probes.near.stress_xx)" -1e8 0.02
@@ -140,7 +140,7 @@ for run in wave_stress wave_stress_apic; do
     between "$run: plastic work" "$(f $run energy.plastic)" 1e-9 1e3
 done
 
-# a material that never comes to yield is elastic to the last digit
+# A material that never yields is elastic to the last digit.
 holds "never: yields nowhere" cmp "$work/elastic/history.csv" "$work/never/history.csv"
 is "never: plastic work" "$(f never energy.plastic)" 0
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# A plate that turns by 0.1257 rad, by all models, by material points and by both: the angle, and what should stay 0;
-# the probe's memory through kills.
+# A plate that rotates by 0.1257 rad, with all models, with material points and coupled: the angle, and quantities that must remain 0; the
+# state of the probe after kills.
 test_name=test_rigid
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -19,7 +19,7 @@ start both rigid_rotation $turning -s model=bond $half -s method=adaptive -s mpm
     -s 'pd.region={box: {from: [-0.2, -0.2], to: [0.2, 0.2]}}'
 wait
 
-# off FOLDER: the largest |angle/(omega t) - 1| over the samples.
+# off FOLDER: prints the largest |angle/(omega t) - 1| over the samples.
 off()
 {
     awk -F, '
@@ -28,16 +28,16 @@ off()
         END { print n < 15 ? "too few samples" : most + 0 }' "$work/$1/history.csv"
 }
 
-# The stress that holds the turning plate together, in motion from the start: 2 rho (omega r)^2/2 = 1.5 to 3 kPa: 1.5e-8 E.
-# mospd with rotations of one step before showed 3e5 Pa, taken as small they would show 1e9 Pa.
+# The centrifugal stress of the rotating plate: 2 rho (omega r)^2/2 = 1.5 to 3 kPa = 1.5e-8 E. mospd with rotations that lag by one step
+# would have 3e5 Pa, with linearised rotations 1e9 Pa.
 for run in mospd ospd bond apic; do
     between "$run: angle" "$(f $run probes.rigid.angle)" 0.12566 0.12567
     between "$run: stress" "$(f $run probes.rigid.stress_max)" 500 3090
     between "$run: shear" "$(f $run probes.rigid.shear_max)" 100 3090
     between "$run: angle on the way" "$(off $run)" 0 1e-6
 done
-# 2e-12 of mospd: 9000 steps of round-off, and (omega dt)^2/2 = 1e-10 of the last line, whose velocities are continued; the grid of
-# material points is worth 1e-7
+# 2e-12 for mospd: round-off of 9000 steps, and (omega dt)^2/2 = 1e-10 in the last line, whose velocities are extrapolated; the grid of
+# material points has 1e-7.
 for run in mospd ospd bond; do
     between "$run: angular momentum" "$(f $run probes.rigid.angular_momentum_error)" 0 2e-10
     between "$run: kinetic energy" "$(f $run probes.rigid.kinetic_energy_error)" 0 1e-7

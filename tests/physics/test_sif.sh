@@ -1,12 +1,12 @@
 #!/bin/sh
-# Stress-intensity factors of runs beside closed forms: a plate whose crack is met by plane waves from both
-# sides (a semi-infinite crack, suddenly loaded, until the first reflection is back), by bonds and, the crack being a
-# gap, by material points; and a plate with an edge crack, pulled slowly.
+# Stress-intensity factors compared with closed forms: a plate whose crack is hit by plane waves from both sides (a semi-infinite crack,
+# suddenly loaded, until the first reflection arrives), with bonds and, with a gap as crack, with material points; and a slowly loaded plate
+# with an edge crack.
 test_name=test_sif
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# wave FILE METHOD BODY: what the two have in common; the rest on standard input.
+# wave FILE METHOD BODY: writes the common part of both scenes; the rest is on standard input.
 wave()
 {
     cat - >"$work/rest" && cat >"$work/$1.yaml" <<END
@@ -63,8 +63,8 @@ start edge "$work/edge.yaml"
 start again "$work/bonds.yaml" -t 2
 wait
 
-# farthest FOLDER PROBE: the largest |K_I/K - 1| over the samples from 5 to 9 us, K = 2 s sqrt(c t (1 - 2 nu)/pi)/(1 - nu)
-# with s = 2 MPa and t since the waves came 20 mm (Freund 1990); and how many samples there were.
+# farthest FOLDER PROBE: prints the largest |K_I/K - 1| over the samples from 5 to 9 us, K = 2 s sqrt(c t (1 - 2 nu)/pi)/(1 - nu) with s = 2
+# MPa and t since the waves have travelled 20 mm (Freund 1990); and the number of samples.
 farthest()
 {
     awk -F, -v name="$2.K_I" '
@@ -79,12 +79,12 @@ farthest()
         END { print n < 15 ? "too few samples" : most + 0 }' "$work/$1/history.csv"
 }
 
-# 2.5 % at 0.5 mm and 1.2 % at 0.25 mm were measured, by material points 2 %; 3 % is what such a lattice is good for
+# Measured: 2.5 % at 0.5 mm and 1.2 % at 0.25 mm, with material points 2 %; the tolerance is 3 %.
 for probe in sif stress pddo; do
     between "bonds: K_I by $probe" "$(farthest bonds $probe)" 0 0.03
 done
 between "points: K_I" "$(farthest points sif)" 0 0.03
-# with inertia wrong, rings differ by 20 %
+# With an error in the inertia term rings would differ by 20 %.
 for folder in bonds points; do
     between "$folder: contours" "$(column "$work/$folder" sif.contour_spread 8.5e-6)" 0 0.005
 done
@@ -92,16 +92,16 @@ between "bonds: K_II" "$(f bonds probes.sif.K_II)" -1 1
 between "bonds: J" "$(compute "$(f bonds probes.sif.J) * 75.629e9/(1 - 0.0625)/$(f bonds probes.sif.K_I)^2")" 0.97 1.03
 cmp -s "$work/bonds/history.csv" "$work/again/history.csv" && pass || fail "threads change stress-intensity factors"
 
-# An edge crack half through a square: 3.009 sigma sqrt(pi a) by boundary collocation; means over the vibrations after the
-# load is on. 50 particles across: 3.5 % more (100: 1.6 %), as bonds are soft at surfaces and at the faces of the crack.
+# An edge crack half through a square: 3.009 sigma sqrt(pi a) by boundary collocation; means over the vibrations under full load. 50
+# particles across: 3.5 % too large (100: 1.6 %), because bonds are soft at surfaces and crack faces.
 mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^sif.K_I /) at = k; next }
     $1 > 150e-6 { sum += $at; n++ } END { print sum / n }' "$work/edge/history.csv")
 between "edge crack: K_I" "$(compute "$mean/(3.009 * 1e6 * sqrt(3.14159265 * 5e-3))")" 1.02 1.05
 between "edge crack: contours" "$(column "$work/edge" sif.contour_spread 2e-4)" 0 0.004
 
-# A crack in the middle of a square that bears a body force along the crack by sigma_xx alone, which leaves K_I as it is: 1.1232
-# sigma sqrt(pi a) by boundary collocation, whatever the ring; 30 particles across the crack are good for 2 %. Without the term of the
-# body force 1.17 with the wide ring. Half of the force as gravity, half of that through a function of time.
+# A crack in the middle of a square with a body force along the crack balanced by sigma_xx only, which does not change K_I: 1.1232 sigma
+# sqrt(pi a) by boundary collocation, for every ring; tolerance 2 % with 30 particles across the crack. Without the term of the body force:
+# 1.17 with the wide ring. Half of the force is gravity, half of that varies in time.
 cat >"$work/body.yaml" <<'END'
 space: plane stress
 thickness: 0.7 mm

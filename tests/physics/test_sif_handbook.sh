@@ -1,12 +1,12 @@
 #!/bin/sh
-# Stress-intensity factors of cracks that no scene of inputs/ has, against handbooks and boundary collocation: 100
-# particles across, mospd with families of eight and constants of their own, as in inclined_crack.yaml.
+# Stress-intensity factors of cracks that are not in inputs/, compared with handbooks and boundary collocation: 100 particles across, mospd
+# with families of eight and their own constants, as in inclined_crack.yaml.
 test_name=test_sif_handbook
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# plate FILE WIDTH HEIGHT STRESS POISSON SPACE: STRESS xx yy xy [MPa] on the four edges [mm]; cracks and probes follow on
-# standard input.
+# plate FILE WIDTH HEIGHT STRESS POISSON SPACE: writes a plate with STRESS xx yy xy [MPa] on its four edges [mm]; cracks and probes follow
+# on standard input.
 plate()
 {
     set -- "$1" "$2" "$3" "$4" "$5" "$6" $4
@@ -34,7 +34,7 @@ plate centre 10 20 "0 1 0" 0.45 "plane strain" <<'END'
 cracks: [{from: [3 mm, 10 mm], to: [7 mm, 10 mm]}]
 probes: [sif: {at: [3 mm, 10 mm], outer: 1.5 mm}]
 END
-# its left half, and a mirror
+# Its left half, and a mirror.
 sed -i 's/to: \[10 mm, 20 mm\]/to: [5 mm, 20 mm]/; s/^  - {.*face: x+}/  - {mirror: {axis: x, at: 5 mm, tangential: free}}/; s/^  - {.*face: x-}//' "$work/centre.yaml"
 plate square 10 10 "1 0 0" 0.1 "plane stress" <<'END'
 cracks: [{from: [5 mm, 2.5 mm], to: [5 mm, 7.5 mm]}]
@@ -56,21 +56,21 @@ start edge "$work/edge.yaml"; start square "$work/square.yaml"; wait
 start centre "$work/centre.yaml"; start shear "$work/shear.yaml"; wait
 start whole "$work/whole.yaml" -s particles.spacing=0.2mm; start shaken "$work/shaken.yaml"; wait
 
-# off RUN PROBE MODE F A: relative error of a factor; F sigma sqrt(pi A), A in mm.
+# off RUN PROBE MODE F A: prints the relative error of a factor; exact: F sigma sqrt(pi A), A in mm.
 off() { compute "$(f "$1" "probes.$2.K_$3") / (($4) * 1e6 * sqrt(3.14159265358979e-3 * ($5))) - 1"; }
 
-# Tada's correction of the secant: (1 - 0.025 w^2 + 0.06 w^4) sqrt(sec(pi w/2)), w = 2a/W = 0.4 (0.1 %); by
-# collocation, H = 2 W: 1.110
+# Tada's correction of the secant formula: (1 - 0.025 w^2 + 0.06 w^4) sqrt(sec(pi w/2)), w = 2a/W = 0.4 (0.1 %); by collocation, H = 2 W:
+# 1.110.
 between "centre: K_I" "$(off centre sif I 1.110 2)" -0.01 0.01
-# a square plate, its height matters: 1.334 (Isida 1971), by collocation 1.3337; the secant alone has 1.186
+# A square plate, whose height matters: 1.334 (Isida 1971), by collocation 1.3337; the secant formula has 1.186.
 between "square: K_I" "$(off square sif I 1.334 2.5)" -0.01 0.01
-# Tada's tan formula, w = 0.3, 1.655 (0.5 %), and collocation, H = 2 W: 1.659
+# Tada's tangent formula, w = 0.3: 1.655 (0.5 %); collocation, H = 2 W: 1.659.
 between "edge: K_I" "$(off edge sif I 1.659 3)" -0.01 0.01
-# by collocation; an infinite plate has 1
+# By collocation; an infinite plate has 1.
 for probe in sif other; do between "shear: $probe" "$(off shear $probe II 1.130 2)" -0.01 0.01; done
-# A plate without crack bears the stress that its edges are given: exactly where tractions act on the edges, 2.6 % more where
-# on the outermost of 50 particles.
+# A plate without crack has the stress of its edges: exactly if tractions act on the edges, 2.6 % more if they act on the outermost of 50
+# particles.
 between "uniform shear" "$(compute "$(f whole probes.point.stress_xy) / 1e6")" 0.999 1.001
-# random families: 1.4 % was measured
+# Irregular families: 1.4 % measured.
 between "shaken: K_I" "$(off shaken sif I 1.334 2.5)" -0.03 0.03
 finish

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Contact and rigid bodies in load steps: a beam on rollers against ASTM E399, a disc between jaws, a crack that is pressed shut
-# against one that is not, bodies on bodies; the same bits on any number of threads and after stops.
+# Contact and rigid bodies in load steps: a beam on rollers compared with ASTM E399, a disc between jaws, a crack under compression compared
+# with one without contact, bodies on bodies; bitwise equality on any number of threads and after stops.
 test_name=test_steps_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -15,7 +15,7 @@ duration: 1 s
 method: pd
 solver: static'
 
-# A beam of span 160 mm and height 40 mm on two rigid blocks, pressed by a third; a/W = 0.4.
+# A beam of span 160 mm and height 40 mm on two rigid blocks, loaded by a third; a/W = 0.4.
 cat >"$work/bend.yaml" <<END
 $head
 variables: {h: 2 mm}
@@ -33,7 +33,7 @@ END
 sed 's/^variables: .*/variables: {h: 1 mm}/; s/box: {from: \[\([0-9-]*\) mm - h, -5 mm\], to: [^}]*/disc: {centre: [\1 mm, -5 mm], radius: 5 mm/' "$work/bend.yaml" |
     sed 's/box: {from: \[-h, 40 mm\], to: \[h, 45 mm\]}/disc: {centre: [0, 45 mm], radius: 5 mm}/' >"$work/rollers.yaml"
 
-# A disc between jaws of 1.5 times its radius, which holds: 2 P/(pi D t) across its middle.
+# An unbreakable disc between jaws of 1.5 times its radius: 2 P/(pi D t) across its middle.
 cat >"$work/disc.yaml" <<END
 $head
 steps: {number: 4}
@@ -48,7 +48,7 @@ particles: {spacing: 1 mm}
 probes: [{point: {name: centre, at: [0, 0]}}]
 END
 
-# A crack of 2 a = 40 mm at 45 degrees in a plate of 160 mm that is pressed.
+# A crack of 2 a = 40 mm at 45 degrees in a plate of 160 mm under compression.
 cat >"$work/shut.yaml" <<END
 $head
 steps: {number: 1}
@@ -61,7 +61,7 @@ boundary:
   - {name: bottom, traction: [0, 1 MPa], face: y-, time: {ramp: {until: 1 s}}}
 END
 
-# A block on a block, pressed by a traction: nothing else holds it.
+# A block on a block under a traction, without other supports.
 cat >"$work/stack.yaml" <<END
 $head
 steps: {number: 3}
@@ -85,15 +85,15 @@ start open "$work/shut.yaml" -s contact.between=none
 start rollers "$work/rollers.yaml" -s steps.number=8
 wait
 
-# most FOLDER COLUMN: its largest size.
+# most FOLDER COLUMN: prints its largest magnitude.
 most()
 {
     awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } next }
         { v = $at < 0 ? -$at : $at; if (v > most) most = v } END { print most }' "$work/$1/history.csv"
 }
 
-# E399: P = K_c B W^1.5/(S f(0.4)) with f(0.4) = 1.9776 (9.8884/5 of the formula with 3 S/W): 239.35 N. At 20 spacings across the
-# supported beam is 2.7 % low, at 40 1.0 %; round rollers sink in by clearances and are 2.5 % high at 40.
+# E399: P = K_c B W^1.5/(S f(0.4)) with f(0.4) = 1.9776 (9.8884/5 of the formula with 3 S/W): 239.35 N. The supported beam is 2.7 % lower
+# with 20 spacings across, 1.0 % with 40; round rollers penetrate by clearances and are 2.5 % higher with 40.
 between "bend: largest load" "$(most bend roller_force_y)" 231 236
 between "rollers: largest load" "$(most rollers roller_force_y)" 237 247
 for run in bend rollers; do
@@ -101,25 +101,26 @@ for run in bend rollers; do
     near "$run: what presses is what carries" "$(last $run roller_force_y)" "$(compute "-($(last $run left_force_y)) - ($(last $run right_force_y))")" 1e-4
 done
 
-# 0.2 % at 50 spacings across; both jaws bear the same. The mean of both ends of a step is 0.4 % more than the work of such a force.
+# 0.2 % with 50 spacings across; both jaws have equal forces. The mean of both ends of a step is 0.4 % more than the work of such a force.
 force=$(last disc upper_force_y)
 near "disc: stress across the middle" "$(last disc centre.stress_xx)" "$(compute "2 * $force/(3.14159265 * 0.05 * 0.01)")" 1e-2
 near "disc: jaws" "$(last disc lower_force_y)" "-$force" 1e-4
 between "disc: nothing is lost but that" "$(compute "$(last disc damped)/$(last disc external_work)")" -1e-3 5e-2
 
-# K_II = tau sqrt(pi a) = 0.1253 MPa m^(1/2) in a plate without end; here it is 10 % more: sides at 4 lengths add 3 %, tips of cut
-# bonds act 0.4 spacings longer, 2 %, and the fit is 4 % high, as of the open crack (1.49). Closing takes the half of the energy of the crack that belongs to mode I: sigma^2 pi a^2 t/(4 E) = 1.05 mJ.
+# K_II = tau sqrt(pi a) = 0.1253 MPa m^(1/2) in an infinite plate; here it is 10 % larger: sides at 4 lengths add 3 %, the ends of cut bonds
+# 0.4 spacings of length, 2 %, and the fit is 4 % too large, as for the open crack (1.49). Contact prevents the mode I half of the crack's
+# energy: sigma^2 pi a^2 t/(4 E) = 1.05 mJ.
 between "shut: K_II" "$(compute "-($(last shut K_II))")" 1.25e5 1.42e5
 is "shut: K_I" "$(last shut K_I)" 0
 between "open: K_I" "$(last open K_I)" -1.5e5 -1.2e5
 stored() { compute "$(last "$1" strain) + $(last "$1" contact)"; }
 between "shut: its energy" "$(compute "$(stored open) - $(stored shut)")" 0.99e-3 1.2e-3
 
-# 16 MPa mm times 10 mm
+# 16 MPa mm times 10 mm.
 near "stack: what carries it" "$(last stack reaction.force_y)" 160 1e-4
 between "stack: nothing is lost" "$(compute "$(last stack damped)/$(last stack external_work)")" -1e-5 1e-5
 
-# Supports that have stood still at first: what presses is what carries from the first step in which they move.
+# Supports that first stay in place: the contact force equals the support force from the first step in which they move.
 calm "$work/late" "$work/stack.yaml" -s boundary.1='{name: top, body: high, traction: [0, -1 MPa], face: y+, time: {table: [[0 s, 0], [0.5 s, 0], [1 s, 1]]}}'
 near "late: what carries" "$(column "$work/late" reaction.force_y 0.67)" "$(compute 160/3)" 1e-4
 
@@ -132,11 +133,11 @@ calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2
 between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 1e-3
 refused "a body that flies" "$work/no" 'flies' "$work/bend.yaml" -s bodies.3.mass=1kg
-# ---- faces of a slender body that press ----------------------------------------------------------------------------------
+# ---- contact of the faces of a slender body ------------------------------------------------------------------------------
 
-# A beam of 8 layers, slit to its middle along half of its length, on two supports, pressed in the middle: its faces press and slide
-# (mode II). What it stores is half of force times way but for rotations, 1e-3, in one load step or many; and beside the whole beam
-# it bears 2 L^3/(2 L^3 + 3 a^3) = 0.56 of the load, with beams of 4 layers that are each 10 % too stiff.
+# A beam of 8 layers with a slit in its middle plane along half of its length, on two supports, loaded in the middle: its faces press and
+# slide (mode II). The stored energy is half of force times displacement up to rotations, 1e-3, for one or many load steps; relative to the
+# intact beam the load is 2 L^3/(2 L^3 + 3 a^3) = 0.56, with beams of 4 layers that are 10 % too stiff.
 cat >"$work/slit.yaml" <<'END'
 variables: {h: 0.129 mm}
 space: plane stress

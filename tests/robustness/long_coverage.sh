@@ -1,6 +1,6 @@
 #!/bin/sh
-# Functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt: to be read, there is no
-# share to be met. Benchmarks are left out.
+# Lists functions that no small scene and no other command reaches, by file, in build-coverage/uncovered.txt, for inspection; no share is
+# required. Benches are left out.
 test_name=long_coverage
 . tests/support/summary.sh
 . tests/support/small_scenes.sh
@@ -15,16 +15,16 @@ build=build-coverage
 instrumented $build "--coverage -fprofile-update=atomic" OPTIMISE=-O0 SETS=portable
 find $build -name '*.gcda' -exec rm {} +
 
-# ---- what runs ---------------------------------------------------------------------------------------------------------------
+# ---- runs --------------------------------------------------------------------------------------------------------------------
 
 reach() { shift; "$cleave" run -q -t 2 -o "$work/run" --overwrite "$@" >"$work/out" 2>&1 || fail "$*: $(cat "$work/out")"; }
 each_scene "${SCENES:-.}" reach
 calls() { shift 2; "$cleave" "$@" >"$work/out" 2>&1; }
 each_command calls
 
-# ---- what did not ------------------------------------------------------------------------------------------------------------
+# ---- functions not reached ---------------------------------------------------------------------------------------------------
 
-# Every function of an object once, with its share of lines; bodies of parallel regions belong to the function around them.
+# Every function of an object once, with its share of lines; bodies of parallel regions belong to the enclosing function.
 for object in $(find "$build/src" "$build/kernels" -name "*.gcno"); do
     "$gcov" -n -f -o "$(dirname "$object")" "$object" 2>"$work/err" | awk -v file="$(basename "${object%.gcno}" .portable)" '
         /^Function / { name = substr($2, 2, length($2) - 2); next }

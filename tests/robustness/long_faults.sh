@@ -1,8 +1,8 @@
 #!/bin/sh
-# Every call of the whole process fails once, libraries included; and file systems that give no space, no names, no leave to write,
-# or go away. What was kept stays whole, and runs go on from it once they may.
+# Each call of the whole process fails once, libraries included; and file systems that have no space or names left, refuse permission, or
+# disappear. Saved data stay whole, and runs continue from them once writing is possible.
 test_name=long_faults
-[ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # no disk to wait for
+[ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # in memory, to avoid waiting for a disk
 . tests/support/summary.sh
 . tests/support/trust.sh
 small="inputs/kalthoff_winkler.yaml $current -s particles.spacing=4mm -s time.step=0.2us -s output.frames=10 -s output.samples=100 -s output.checkpoint=10ms"
@@ -21,7 +21,7 @@ cat "$work/whole"
 calm "$work/calm" $small -t 1
 interrupted "$work/part" 40 $small
 
-# refusing WHAT TEXT: the run that ended with $result said why in one line.
+# refusing WHAT TEXT: checks that the run that ended with $result stated the reason in one line.
 refusing()
 {
     holds "$1: exit status $result" test $result -eq 1 -o $result -eq 2
@@ -29,7 +29,7 @@ refusing()
     holds "$1: says $(cat "$work/err")" grep -q "$2" "$work/err"
 }
 
-# goes_on WHAT FOLDER: both checkpoints are as they were, and the run gets to its end from them.
+# goes_on WHAT FOLDER: checks that both checkpoints are unchanged and that the run reaches its end from them.
 goes_on()
 {
     for file in checkpoint.h5 checkpoint.previous.h5; do holds "$1: $file" cmp "$work/part/$file" "$2/$file"; done
@@ -37,7 +37,8 @@ goes_on()
     same "$1" "$work/calm" "$2"
 }
 
-# mounted OPTIONS COMMAND: in a new file system of these options with the interrupted run in it; what it leaves is $work/after.
+# mounted OPTIONS COMMAND: runs a command in a new file system with these options that holds the interrupted run; the result is copied to
+# $work/after.
 mounted()
 {
     rm -rf "$work/after"; mkdir -p "$work/mounted"
@@ -66,7 +67,7 @@ else
     echo "this user may mount nothing: no file systems tested"
 fi
 
-# A folder that goes while the run is in it: it ends, and says so.
+# A folder that is removed during a run: the run ends with a message.
 for what in run run/frames; do
     rm -rf "$work/gone"; mkdir "$work/gone"
     "$cleave" run -q -o "$work/gone/run" -t 2 $flat -s particles.spacing=1mm 2>"$work/err" &

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The fuzzer on all of its targets, 40 seconds each or as many as the argument says; `make fuzz FUZZ_SECONDS=3600`. SEED repeats one.
+# Runs the fuzzer on all targets, 40 seconds each or as given by the argument; `make fuzz FUZZ_SECONDS=3600`. SEED repeats a run.
 test_name=long_fuzz
 seconds=${1:-40} build=${BUILD:-build} seed=${SEED:-$(date +%s)}
 program=$(pwd)/$build/fuzz/fuzz inputs=$(pwd)/inputs failures=0
@@ -13,7 +13,7 @@ ${CC:-cc} -c -o "$work/trace.o" "$work/trace.c" && ${CC:-cc} -fsanitize=address,
     { echo "the compiler has no sanitizers or traces no branches"; exit 77; }
 ${MAKE:-make} -s -j"$(getconf _NPROCESSORS_ONLN)" BUILD="$build" ${CC:+CC="$CC"} "$build/fuzz/fuzz" >/dev/null || exit 1
 
-# the words of scenes, from the table of keys; refused scenes, from the tests
+# Words of scenes, from the table of keys; refused scenes, from the tests.
 "$build/cleave" help | awk '/^[a-z_]/ { n = split($1, part, "."); for (k = 1; k <= n; k++) print part[k] ": "; print $1 "=" }
     /^[a-z_.]+ +word;/ { sub(/^[^;]*; /, ""); sub(/;.*/, ""); n = split($0, part, ", "); for (k = 1; k <= n; k++) print part[k] }' >"$work/words"
 printf '%s\n' nan inf -inf 1e308 1e-308 1/0 2147483648 ' mm' ' GPa' ' us' '[0, 0]' '{' '}' '[' ']' '- ' '&a' '*a' '<<: ' '!!' '---' x,y,volume ,material ,body >>"$work/words"
@@ -21,20 +21,21 @@ sort -u -o "$work/words" "$work/words"
 awk -F'|' '/^[0-9]+\|.*\|[0-9]+:[0-9]+\|/ { gsub(/\^/, "\n", $2); print $2 > (out "/bad" NR) ; close(out "/bad" NR) }' out="$work" tests/robustness/test_refusals.sh
 printf '1x,y,volume\n0.5e-3,0.5e-3,1e-8\n1.5e-3,0.5e-3,1e-8\n' >"$work/list.csv"
 printf 'material.young=1 GPa\nparticles.spacing=2 mm\nboundary[0].velocity=[1, 2]\nmethod=pd\n' >"$work/keys"
-# what was found: the grid grows at the last step, and with it what loads keep
+# An earlier find: the grid grows at the last step, and with it the arrays of loads.
 printf '\155\143\160\141\142\047\163\163\142\157\165\156\144\141\162\160\162\157\142\145\163\056\154\151\000\145' >"$work/grown"
 
-# fuzz TARGET FILE...: what it found is kept beside the build.
+# fuzz TARGET FILE...: runs the fuzzer; finds are kept beside the build.
 fuzz()
 {
     target=$1 leaks=1; shift
-    [ "$target" != checkpoint ] || leaks=0       # HDF5 does not free all of what it read of a damaged file
+    [ "$target" != checkpoint ] || leaks=0       # HDF5 does not free all memory after reading a damaged file
     mkdir -p "$work/$target"
     (cd "$work/$target" && OMP_NUM_THREADS=1 ASAN_OPTIONS=allocator_may_return_null=1:exitcode=99:detect_leaks=$leaks UBSAN_OPTIONS=print_stacktrace=1 \
         "$program" "$target" "$seconds" "$seed" "$work/words" "$@") >"$work/$target.said" 2>&1
     result=$?
     if [ $result -eq 0 ]; then tail -n 1 "$work/$target.said"; return; fi
-    # a checksum that fits damage is a forgery: the library may crash over it, and the program says so in one line (src/base/last_words.c)
+    # A checksum that matches damaged data is a forgery: the library may crash on it, and the program reports that in one line
+    # (src/base/last_words.c).
     if grep -E '^ +#[0-3] ' "$work/$target.said" | grep -q libhdf5; then echo "$target: HDF5 crashed, seed $seed"; return; fi
     cp "$work/$target/$target.input" "$build/fuzz/$target.$seed"
     echo "$test_name: $target, status $result, input kept as $build/fuzz/$target.$seed:"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Data races: small scenes of every kind on 3 threads under ThreadSanitizer, with clang's OpenMP library and Archer, which
-# tells the sanitizer what a team's barriers order. RACES_CC: clang by another name.
+# Data races: small scenes of every kind on 3 threads under ThreadSanitizer, with clang's OpenMP library and Archer, which reports the
+# ordering by barriers to the sanitizer. RACES_CC: another name of clang.
 test_name=long_races
 . tests/support/summary.sh
 . tests/support/small_scenes.sh
@@ -13,7 +13,7 @@ archer=$("$cc" -print-resource-dir)/../../libarcher.so
 export OMP_TOOL_LIBRARIES="$archer" KMP_BLOCKTIME=0
 export TSAN_OPTIONS="ignore_noninstrumented_modules=1 report_signal_unsafe=1 exitcode=66"
 
-# ---- the tool sees what it is for ----------------------------------------------------------------------------------------
+# ---- check of the tool ---------------------------------------------------------------------------------------------------
 
 cat >"$work/race.c" <<'END'
 int main(void)
@@ -44,7 +44,7 @@ is "loops with a race: exit status" $? 66
 instrumented build-races "-fsanitize=thread -fno-omit-frame-pointer" CC="$cc" OPTIMISE=-O1 SETS=portable
 holds "Archer is on" sh -c 'ARCHER_OPTIONS=verbose=1 "$1" info 2>&1 | grep -q -i "archer detected.* with tsan"' sh "$cleave"
 
-# clean NAME ARGUMENTS: no race on three threads, more than the two that share work evenly
+# clean NAME ARGUMENTS: no race on three threads, an odd number that divides work unevenly.
 clean()
 {
     scene=$1; shift

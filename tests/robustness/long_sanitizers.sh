@@ -1,6 +1,6 @@
 #!/bin/sh
-# Memory, undefined behaviour and leaks: small scenes of every kind, the other commands and refusals under the address and
-# the undefined-behaviour sanitizer. SETS: sets of kernels; the portable one alone as a rule, since each takes minutes to build.
+# Memory errors, undefined behaviour and leaks: small scenes of every kind, the other commands and refusals under the address and
+# undefined-behaviour sanitizers. SETS: kernel sets; by default only the portable one, since each takes minutes to build.
 test_name=long_sanitizers
 . tests/support/summary.sh
 . tests/support/small_scenes.sh
@@ -12,7 +12,7 @@ ${CC:-cc} $flags -o "$work/none" "$work/none.c" >"$work/said" 2>&1 && "$work/non
 
 export ASAN_OPTIONS="detect_leaks=1 exitcode=99" LSAN_OPTIONS=exitcode=98 UBSAN_OPTIONS="print_stacktrace=1 halt_on_error=1 exitcode=97"
 
-# ---- the tools see what they are for ---------------------------------------------------------------------------------------
+# ---- check of the tools ----------------------------------------------------------------------------------------------------
 
 cat >"$work/faults.c" <<'END'
 #include <stdlib.h>
@@ -39,7 +39,7 @@ done
 
 instrumented build-sanitizers "$flags -fno-sanitize-recover=undefined -fno-omit-frame-pointer" OPTIMISE=-O0 SETS="${SETS:-portable}"
 
-# ends STATUS WHAT COMMAND...: this exit status and no report
+# ends STATUS WHAT COMMAND...: checks the exit status and that there is no report.
 ends()
 {
     wanted=$1 what=$2; shift 2
@@ -59,7 +59,7 @@ clean()
 }
 each_scene "${SCENES:-.}" clean
 
-# calls STATUS WHAT ARGUMENT...: what else there is to call, what is refused, and a run that is stopped and goes on
+# calls STATUS WHAT ARGUMENT...: other commands, refusals, and a run that is stopped and resumed.
 calls()
 {
     wanted=$1 what=$2; shift 2

@@ -1,17 +1,17 @@
 #!/bin/sh
-# The same bits under every setting of threads, allocator, locale, limits and environment.
+# Bitwise equality under every setting of threads, allocator, locale, limits and environment.
 test_name=long_settings
-[ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # no disk to wait for
+[ ! -w /dev/shm ] || export TMPDIR=/dev/shm       # in memory, to avoid waiting for a disk
 . tests/support/summary.sh
 . tests/support/trust.sh
 
-# German and Turkish numbers and letters, made here unless the machine has them.
+# German and Turkish locales, created here unless the machine has them.
 for place in de_DE tr_TR; do
     mkdir -p "$work/locales"
     localedef -i $place -f UTF-8 "$work/locales/$place.UTF-8" 2>/dev/null || echo "no locale $place: not tested"
 done
 
-# under SETTING... -- ARGUMENT...: a run with these variables (env's words) has the bits of $work/one.
+# under SETTING... -- ARGUMENT...: checks that a run with these variables (words of env) is bitwise equal to $work/one.
 under()
 {
     setting=

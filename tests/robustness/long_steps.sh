@@ -1,7 +1,7 @@
 #!/bin/sh
-# Load steps at length: every shipped scene at twice its spacing, by each way to lead a crack and of each method, and a plate that nothing
-# holds: stopped after every load step, and stopped and killed at random moments; static solvers, too. Always the bits of a run in peace.
-# SCENES: a pattern of those to take.
+# Load steps in detail: every shipped scene at twice its spacing, with each kind of crack growth and each method, and a plate without
+# supports: stopped after every load step, and stopped and killed at random moments; also static solvers. Results are always bitwise equal
+# to those of an undisturbed run. SCENES: a pattern of scenes to select.
 test_name=long_steps
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -9,7 +9,7 @@ seed=${SEED:-$(date +%s)}
 echo "seed $seed"
 export OMP_WAIT_POLICY=passive
 
-# disturbed WHAT ARGUMENTS: stopped and killed, 5 times each.
+# disturbed WHAT ARGUMENTS: runs that are stopped and killed, 5 times each.
 disturbed()
 {
     what=$1; shift
@@ -20,7 +20,7 @@ disturbed()
     kills 5 "$work/whole" "$@"
 }
 
-# in_steps WHAT ARGUMENTS: so, and stopped after every load step.
+# in_steps WHAT ARGUMENTS: also runs that are stopped after every load step.
 in_steps()
 {
     disturbed "$@"; shift

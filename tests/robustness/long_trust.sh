@@ -1,12 +1,12 @@
 #!/bin/sh
-# Test_trust.sh at length: 200 kills, stops at random moments, many threads, a full disk at every size.
+# Extended version of test_trust.sh: 200 kills, stops at random moments, many threads, a disk that is full at every size.
 test_name=long_trust
 . tests/support/summary.sh
 . tests/support/trust.sh
 seed=${SEED:-$(date +%s)}
 echo "seed $seed"
 
-# ---- threads, on more of them than there are cores, whole scenes --------------------------------------------------------
+# ---- more threads than cores, whole scenes ------------------------------------------------------------------------------
 
 for scene in hopkinson_bar plate_crack plate_hole kalthoff_winkler kalthoff_winkler_3d plate_impact_3d; do
     "$cleave" run -q inputs/$scene.yaml -s output.frames=4 -t 1 -o "$work/one" || fail "$scene"
@@ -30,13 +30,13 @@ done
 often="-s output.checkpoint=20ms"
 calm "$work/flat_often" $flat $often
 kills 100 "$work/flat_often" $flat $often
-# almost nothing but writing: a checkpoint after every sample, 100 frames
+# Mostly writing: a checkpoint after every sample, 100 frames.
 busy="-s output.checkpoint=0 -s output.frames=100"
 calm "$work/flat_busy" $flat $busy
 kills 30 "$work/flat_busy" $flat $busy
 calm "$work/solid_often" $solid $often
 kills 20 "$work/solid_often" $solid $often
-# points that convert and return all the time, a checkpoint after every step; cells that keep their points
+# Points that repeatedly convert and revert, with a checkpoint after every step; cells that keep their points.
 passing="inputs/bar_return.yaml -s particles.spacing=2mm -s output.frames=10 -s output.samples=1000000 -s output.checkpoint=0"
 calm "$work/passing" $passing
 kills 30 "$work/passing" $passing
@@ -58,7 +58,7 @@ for case in line flat solid; do
         case $? in
             0) ;;
             130) stops=$((stops + 1)) ;;
-            143) ;;                          # before it listened
+            143) ;;                          # before it handled the signal
             *) fail "$case, stopped: $(cat "$work/err")" ;;
         esac
         rounds=$((rounds + 1))
@@ -68,7 +68,7 @@ for case in line flat solid; do
     rm -rf "$work/calm" "$work/stopped"
 done
 
-# A terminal that goes takes the run along, but not one that was started by nohup.
+# Closing a terminal ends the run, unless it was started by nohup.
 interrupted "$work/hangup" 20 $flat
 (trap '' HUP; exec "$cleave" run -q -o "$work/hangup" --resume $flat 2>"$work/err") &
 process=$!
@@ -77,7 +77,7 @@ kill -HUP $process
 wait $process
 is "a hang-up that is ignored: exit status" $? 0
 
-# ---- a disk that fills, at every size --------------------------------------------------------------------------------------
+# ---- a disk that becomes full, at every size -------------------------------------------------------------------------------
 
 interrupted "$work/part" 50 $flat $often
 checkpoint=$(wc -c <"$work/part/checkpoint.h5")
@@ -97,7 +97,7 @@ for k in 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25; do
     same "after a limit of $limit bytes" "$work/flat_often" "$work/full"
 done
 
-# a file system that is full, where this user may mount one
+# A full file system, if this user may mount one.
 if unshare -rm true 2>/dev/null; then
     mkdir -p "$work/small"
     for size in 200k 700k 1500k 3000k 5000k; do

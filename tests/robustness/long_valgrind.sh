@@ -1,6 +1,5 @@
 #!/bin/sh
-# Values that are used before they are set, and memory that is lost: tiny scenes under valgrind, which knows no AVX-512, with
-# the portable kernels.
+# Uninitialised values and lost memory: tiny scenes under valgrind, which does not support AVX-512, with the portable kernels.
 test_name=long_valgrind
 . tests/support/summary.sh
 . tests/support/small_scenes.sh
@@ -9,7 +8,7 @@ command -v valgrind >/dev/null || { echo "valgrind is missing: values that are n
 export CLEAVE_SIMD=portable GOMP_SPINCOUNT=0
 memcheck="valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite"
 
-# A program that uses what is not set is found out.
+# Check of the tool: a program that uses uninitialised memory is detected.
 cat >"$work/unset.c" <<'END'
 #include <stdlib.h>
 int main(void)
@@ -23,7 +22,7 @@ ${CC:-cc} -g -O0 -o "$work/unset" "$work/unset.c" || fail "unset.c is not built"
 $memcheck "$work/unset" >"$work/out" 2>"$work/err"
 is "a value that is not set: exit status" $? 9
 
-# clean NAME ARGUMENTS: no fault
+# clean NAME ARGUMENTS: checks that there is no fault.
 clean()
 {
     scene=$1; shift
@@ -33,7 +32,7 @@ clean()
     rm -rf "$work/run"
 }
 
-# few particles and few steps: everything takes 30 times as long here
+# Few particles and steps: everything is 30 times slower here.
 coarse() { clean "$@" -s particles.spacing=8mm -s time.step=0.8us -s duration=24us -s output.samples=4; }
 short() { clean "$@" -s duration=2us; }
 each_scene "${SCENES:-plate$|plate_(bonds|reference|current|ordinary|turning|handshake)|points_cubic|cells}" coarse

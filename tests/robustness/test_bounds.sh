@@ -1,11 +1,11 @@
 #!/bin/sh
-# What is past all sense: numbers that doubles cannot bear, cells that are folded, energies that leave, names that a terminal obeys.
+# Extreme input: numbers beyond the range of doubles, inverted cells, diverging energies, names with control characters of terminals.
 test_name=test_bounds
 . tests/support/summary.sh
 . tests/support/trust.sh
 small="inputs/kalthoff_winkler.yaml -s particles.spacing=4mm -s duration=5us -s output.frames=2"
 
-# block TEXT...: the scene of a small block, its last lines these.
+# block TEXT...: writes the scene of a small block that ends with these lines.
 block()
 {
     cat <<'END'
@@ -39,7 +39,7 @@ done
 
 # ---- energies ----------------------------------------------------------------------------------------------------
 
-# A few steps far above the critical one: places stay small, velocities change sign in every step, and the balance closes.
+# A few steps far above the critical one: displacements are small, velocities change sign in every step, and the balance closes.
 for method in pd mpm; do
     for step in time.step=3us time.safety=1.2; do
         block "method: $method" "boundary: [{traction: [0, 12 MPa], face: y+}, {fixed: all, region: {box: {from: [-inf, -inf], to: [inf, 2 mm]}}}]" >"$work/block.yaml"
@@ -47,7 +47,7 @@ for method in pd mpm; do
     done
 done
 
-# Families that lose bonds under pressure: breaking releases what bonds had not held, and the balance closes.
+# Families that lose bonds under pressure: the energy balance includes the change of the remaining bonds.
 for method in pd adaptive; do
     cat >"$work/pressed.yaml" <<END
 space: plane strain
@@ -73,7 +73,7 @@ stopped "started beyond all speeds" "$work/b" "the scene starts with" "$work/blo
 block | sed 's/body: .*/body: {box: {from: [1e6, 0], to: [1000000.02, 0.02]}}/' >"$work/block.yaml"
 refused "a body far away" "$work/r" "beyond 1e7 spacings from the origin" "$work/block.yaml"
 
-# ---- cells that fold -----------------------------------------------------------------------------------------------
+# ---- inverted cells ------------------------------------------------------------------------------------------------
 
 block "method: mpm" "mpm: {frame: reference}" "boundary:" \
     "  - {name: base, velocity: [0, 0], region: {box: {from: [0, 0], to: [2 mm, 20 mm]}}}" \

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Guards round a run: whose folder it is, what an older run there is worth, and descriptors that are not there.
-# Takes 25 s: some 300 starts of the program, two thirds of them refusals, and runs that hold a folder while others ask for it.
+# Protection of folders: ownership, treatment of an older run, and missing descriptors.
+# Takes 25 s: some 300 starts of the program, two thirds of them refusals, and runs that hold a folder while others request it.
 test_name=test_guards
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -26,12 +26,12 @@ is "nothing to resume: exit status" $? 0
 holds "nothing to resume: said" grep -q "^warning: nothing to resume in $work/new" "$work/err"
 same "nothing to resume" "$work/once" "$work/new"
 
-# ---- two at a time -----------------------------------------------------------------------------------------------
+# ---- two runs at a time ------------------------------------------------------------------------------------------
 
 "$cleave" run -q -o "$work/live" $flat -s particles.spacing=1mm -t 1 2>/dev/null &
 first=$!
 await "$work/live" 3 $first
-kill -STOP $first                        # it holds the folder, however fast the machine
+kill -STOP $first                        # holds the folder, however fast the machine is
 for how in --resume --overwrite ""; do
     refused "a second run $how" "$work/live" "live: process $first on .* runs in it" $flat -s particles.spacing=1mm $how
 done
@@ -39,13 +39,13 @@ kill -KILL $first
 wait $first 2>/dev/null
 holds "the lock of a dead process" test -e "$work/live/.running"
 refused "a dead run of another scene" "$work/live" "another scene .*--overwrite" $small
-calm "$work/live" $flat -s particles.spacing=1mm --resume        # locks of dead processes do not bind
+calm "$work/live" $flat -s particles.spacing=1mm --resume        # locks of ended processes have no effect
 holds "the lock goes with the run" test ! -e "$work/live/.running"
 
 calm "$work/live" $small --overwrite
 same "another scene, replaced" "$work/once" "$work/live"
 
-# a folder that goes while a run is in it: the next run there has it to itself
+# A folder that is removed during a run: the next run there has it for itself.
 "$cleave" run -q -o "$work/gone" $flat -s particles.spacing=1mm -s output.checkpoint=0 2>"$work/err_gone" &
 first=$!
 await "$work/gone" 3 $first
@@ -58,7 +58,7 @@ is "a folder that is moved: exit status" $? 1
 holds "a folder that is moved: said" grep -q "gone was moved, removed or exchanged" "$work/err_gone"
 same "a folder that is moved: the next run" "$work/once" "$work/gone"
 
-# a lock that is a file of somebody else's too
+# A lock file that is also a link to another user's file.
 echo mine >"$work/mine"
 ln "$work/mine" "$work/once/.running"
 refused "a lock with another name" "$work/once" "running has another name elsewhere" $small --overwrite
@@ -141,12 +141,12 @@ calm "$work/again" "$work/lists/ran/scene.yaml" --resume
 mkdir "$work/lists/deeper"
 cp "$work/lists/grains.csv" "$work/lists/deeper"
 cp "$work/lists/moved.yaml" "$work/lists/deeper/grains.yaml"
-calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another place
+calm "$work/again" "$work/lists/deeper/grains.yaml" --resume     # the same contents in another folder
 sed -i '7s/1e-9/1.1e-9/' "$work/lists/grains.csv"
 refused "a list that changed" "$work/again" "line [0-9]* was .particles: .*grains.csv.*contents .*and is" "$work/lists/ran/scene.yaml" --resume
 calm "$work/again" "$work/lists/ran/scene.yaml" --overwrite
 
-# ---- frames that are lost or damaged ------------------------------------------------------------------------------
+# ---- lost or damaged frames ---------------------------------------------------------------------------------------
 
 rm -rf "$work/part"
 interrupted "$work/part" 30 $small -s output.frames=6
@@ -159,15 +159,15 @@ holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
 holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
-# a run that goes on leaves what is being drawn beside it
+# A resumed run leaves pictures that are being drawn.
 touch "$work/part/pictures/damage.png.cleave.tmp"
 calm "$work/part" $small -s output.frames=6 --resume
 holds "a picture half drawn" test -e "$work/part/pictures/damage.png.cleave.tmp"
-# a run made anew takes the pictures of the old one with it, finished or not, and leaves those of others
+# A replaced run loses its pictures, finished or not; pictures of others stay.
 touch "$work/part/pictures/mine.png" "$work/part/pictures/damage_mine.png"
 calm "$work/part" $small --overwrite
 is "pictures of the run before" "$(cd "$work/part/pictures" && echo *)" "damage_mine.png mine.png"
-# profiles of probes: those that are lost are named, and those of a longer run go with it
+# Profiles of probes: lost ones are reported, and those of a longer run are removed with it.
 cat >"$work/lined.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -199,7 +199,7 @@ for k in 1 2 3 4 5 6 7 8 9 10 11 12; do
 done
 holds "the frame as it was" "$cleave" compare "$work/part" "$work/whole" >/dev/null
 
-# ---- what is promised --------------------------------------------------------------------------------------------
+# ---- promises ----------------------------------------------------------------------------------------------------
 
 "$cleave" help trust >"$work/promises" || fail "help trust"
 for test in $(grep -o '\(test\|long\)_[a-z_]*\.\(sh\|c\)' "$work/promises" | sort -u); do
@@ -215,7 +215,7 @@ for command in run check; do
     is "$command --help: first words" "$(head -n 1 "$work/out" | cut -d ' ' -f 1-2)" "cleave $command"
 done
 
-# frames that changed places, a history of another run, warnings of a run that is over
+# Exchanged frames, a history of another run, warnings of a finished run.
 cp -r "$work/whole" "$work/swapped"
 mv "$work/swapped/frames/000001.hdf" "$work/frame"
 mv "$work/swapped/frames/000002.hdf" "$work/swapped/frames/000001.hdf"
@@ -236,7 +236,7 @@ rm -r "$work/swapped"
 is "no descriptors: exit status" $? 0
 same "no descriptors" "$work/once" "$work/closed"
 
-# ---- what is no number -------------------------------------------------------------------------------------------
+# ---- numbers that are not finite ---------------------------------------------------------------------------------
 
 sed 's/^boundary:/boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 0, tangential: held}}/' inputs/kalthoff_winkler.yaml >"$work/twice.yaml"
 refused "two mirrors in one place" "$work/twice" "its mirror stands where that of" "$work/twice.yaml"
@@ -244,7 +244,7 @@ refused "two mirrors in one place" "$work/twice" "its mirror stands where that o
 holds "a modulus of nothing: exit status" test $? -ne 0
 holds "a modulus of nothing: no number that is none" test -z "$(cut -d, -f3-8 "$work/lost/history.csv" 2>/dev/null | grep -i 'nan\|inf')"
 
-# ---- reactions across a stop -------------------------------------------------------------------------------------
+# ---- reactions before and after a stop ---------------------------------------------------------------------------
 
 load="inputs/load_displacement.yaml -s particles.spacing=1mm -s output.samples=800 -s output.checkpoint=10ms"
 calm "$work/load" $load
@@ -255,7 +255,7 @@ same "reactions, interrupted" "$work/load" "$work/load_stopped"
 
 # ---- all commands that write ---------------------------------------------------------------------------------------
 
-# declined WHAT TEXT COMMAND...: exit status 2 and one line with this text, within seconds.
+# declined WHAT TEXT COMMAND...: checks for exit status 2 and one line with this text, within seconds.
 declined()
 {
     what=$1 text=$2; shift 2
@@ -264,7 +264,7 @@ declined()
     is "$what: lines" "$(grep -c -v '^warning: ' "$work/err")" 1
     holds "$what: $(cat "$work/err")" grep -q -e "$text" "$work/err"
 }
-# kept WHAT FOLDER: it holds what `desk` made in it.
+# kept WHAT FOLDER: checks that it holds the files that `desk` created.
 kept() { is "$1: files of others" "$(cat "$2"/* 2>/dev/null)" "$(cat "$work/papers"/*)"; }
 cat >"$work/strip.yaml" <<'END'
 # comments of the user
@@ -297,7 +297,7 @@ for name in frames/holiday.jpg scene.yaml history.csv summary.json; do echo "$na
 declined "an album with frames" "holds files" run -q "$work/strip.yaml" -o "$work/album" --overwrite
 is "an album: files of others" "$(cat "$work/album/history.csv")" "history.csv of mine"
 
-# an export: once, again only with --overwrite, never over the scene that it reads
+# An export: once, again only with --overwrite, never over the scene that it reads.
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
 is "an export: $(cat "$work/out")" $? 0
 holds "what it leaves out is said" grep -q "^left out: 1 probes, frames of 0 regions" "$work/out"
@@ -309,7 +309,7 @@ declined "an export over its own scene" "scene.yaml is read by this command" \
     export lammps "$work/there/scene.yaml" -o "$work/there" --allow-different --overwrite -s duration=3us
 holds "it stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'"
 
-# an export that fails leaves the older one whole, and the next one finds its folder
+# A failing export leaves the older one whole, and the next one accepts its folder.
 limited() { (ulimit -f "$1"; shift; trap '' XFSZ; exec "$cleave" "$@") >"$work/out" 2>"$work/err"; }
 limited 1 export lammps "$work/strip.yaml" -o "$work/there" --allow-different --overwrite -s particles.spacing=0.5mm
 is "an export without room: $(cat "$work/err")" $? 1
@@ -318,7 +318,7 @@ holds "the older export stays" sh -c "cksum '$work/there'/* | cmp - '$work/sums'
 is "the next export: $(cat "$work/out")" $? 0
 declined "a name that is too long" "too long" export lammps "$work/strip.yaml" --allow-different -o "$(head -c 4200 /dev/zero | tr '\0' v)"
 
-# a run: not over its own scene, its list of particles, its table of loads
+# A run never overwrites its own scene, its list of particles or its table of loads.
 "$cleave" run -q "$work/strip.yaml" -o "$work/own" 2>"$work/err"
 declined "a run over its own scene" "scene.yaml is read by this command" run -q "$work/own/scene.yaml" -o "$work/own" -s duration=2us --overwrite
 "$cleave" run -q "$work/own/scene.yaml" -o "$work/own" --overwrite 2>"$work/err"
@@ -328,7 +328,7 @@ cp "$work/own/history.csv" "$work/before.csv"
 declined "a run over its own table" "history.csv is read by this command" run -q "$work/driven.yaml" -o "$work/own" --overwrite
 holds "the table stays" cmp "$work/before.csv" "$work/own/history.csv"
 
-# a refusal comes before the older run is removed
+# A refusal precedes the removal of the older run.
 sed 's#^output: .*#output: {frames: 1, samples: 4, regions: [{name: side, region: {box: {from: [0, 0], to: [5 mm, 5 mm]}}, every: 0.5 us}]}#' \
     "$work/strip.yaml" >"$work/side.yaml"
 "$cleave" run -q "$work/side.yaml" -o "$work/sided" 2>"$work/err"
@@ -342,7 +342,7 @@ ln -s "$work/far" "$work/sided/frames_side"
 declined "frames that are a link" "frames_side is a link" run -q "$work/side.yaml" -o "$work/sided" --overwrite
 holds "the older run stays" test -s "$work/sided/summary.json" -a -s "$work/sided/checkpoint.h5"
 
-# links: folders in a study, a history with a second name
+# Links: folders in a study, a history with a second name.
 "$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
 is "a study" $? 0
 for name in pictures logs; do
@@ -384,8 +384,8 @@ for link in results results/bench; do
     rm -r "$work/results"
 done
 
-# files of others in folders of Cleave, by the names that Cleave gives
-# others_stay WHAT FILE TEXT COMMAND...: it is refused before anything runs, and FILE is as it was.
+# Files of others in folders of Cleave, under names that Cleave uses.
+# others_stay WHAT FILE TEXT COMMAND...: checks that the command is refused before anything runs, and that FILE is unchanged.
 others_stay()
 {
     what=$1 file=$2 text=$3; shift 3
@@ -419,7 +419,7 @@ is "no more has run" "$(ls -d "$work/study"/*=* | wc -l | tr -d ' ')" 2
 $cleave $sweep >"$work/out" 2>&1
 is "the study goes on: $(cat "$work/out")" $? 0
 
-# ---- what is read is a file ----------------------------------------------------------------------------------------
+# ---- input must be files -------------------------------------------------------------------------------------------
 
 mkfifo "$work/pipe.yaml" "$work/pipe.csv" "$work/pipe.stl"
 for place in "$work/pipe.yaml" "$work" /dev/zero; do declined "a scene: $place" "is no regular file\|is a folder" check "$place"; done
@@ -438,11 +438,11 @@ for scene in a b c d e; do declined "a pipe in scene $scene" "$scene.yaml\|pipe"
 declined "a pipe for a run to plot" "is a file" plot "$work/pipe.yaml"
 declined "a pipe for a run to compare" "no run there" compare "$work/pipe.yaml" "$work/once"
 
-# ---- what is printed acts on no terminal ---------------------------------------------------------------------------
+# ---- no escape sequences in output ---------------------------------------------------------------------------------
 
 escape=$(printf '\033')
 red=$(printf '\033[31mred\302\233')
-# silent WHAT COMMAND...: neither output has an escape sequence, and one of them has the word.
+# silent WHAT COMMAND...: checks that neither output has an escape sequence, and that one of them has the word.
 silent()
 {
     what=$1; shift
@@ -459,7 +459,7 @@ silent "a figure" converge "$work/strip.yaml" --of "$red" -o "$work/none"
 silent "a field" plot "$work/once" --field "$red"
 silent "a folder" compare "$work/once" "$work/$red"
 silent "a command" "$red"
-# the list of a sweep is for a shell, which gets the same bytes
+# The list of a sweep is for a shell, which must receive the same bytes.
 odd=$(printf '%s/it\047s\033[31mred\342\200\256' "$work")
 silent "a list" sweep "$work/strip.yaml" -s method=pd,mpm -o "$odd" --list
 folder_listed() { while [ $# -gt 1 ] && [ "$1" != -o ]; do shift; done; echo "$2"; }

@@ -1,23 +1,23 @@
 #!/bin/sh
-# Limits of memory: scenes that need more are refused, and whoever runs out, this program or a library, leaves one line.
+# Memory limits: scenes that need more are refused, and a failed allocation in the program or a library leaves one line.
 test_name=test_little_memory
 . tests/support/summary.sh
 . tests/support/trust.sh
-# without surface weights, whose fit takes more than all else of so short a run
+# Without surface weights, whose fit would take most of so short a run.
 solid="inputs/kalthoff_winkler_3d.yaml -s pd.surface=none -s particles.spacing=2mm -s duration=1us -s output.frames=2 -s output.samples=4 -s output.checkpoint=0"
 (ulimit -v 4000000 && "$cleave" info >/dev/null 2>&1) || { echo "ulimit -v is not to be had here"; exit 77; }
 
-# within MEGABYTES THREADS: a run under that limit; $result: its status.
+# within MEGABYTES THREADS: runs under that limit; $result: its status.
 within()
 {
     (ulimit -v $(($1 * 1024)); exec "$cleave" run -q -t "$2" -o "$work/r" --overwrite $solid) >"$work/out" 2>"$work/err"
     result=$?
 }
 
-# the least the loader needs is not ours to say
+# The least memory that the loader needs, which is outside the program's control.
 least=24
 until (ulimit -v $((least * 1024)); "$cleave" --help) >/dev/null 2>&1; do least=$((least + 4)); done
-# Limits grow until eight in a row were enough: more of them would do the same run again.
+# Limits increase until eight in a row were sufficient: larger ones would repeat the same run.
 for threads in 1 2; do
     megabytes=$((least + 4)) failed=0 enough=0
     while [ $megabytes -lt 400 ] && [ $enough -lt 8 ]; do

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The list of faults for `make mutants` is alive: each text occurs exactly once in its file, each test that it names exists.
+# The list of faults for `make mutants` is up to date: each text occurs exactly once in its file, each test that it names exists.
 test_name=test_mutants
 . tests/support/summary.sh
 
@@ -10,7 +10,7 @@ said=$(awk -f tests/robustness/mutants/list.awk "$list")
 is "faults that are none" "$said" ""
 between "faults" "$(grep -c '^[^#]' "$list")" 80 100000
 
-# What is wrong with a fault is said with list and line.
+# Errors in the list are reported with list and line.
 cat >"$work/list" <<'END'
 # a comment
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# What the program refuses: exit status 2, one line on standard error that says where and what, and nothing left behind.
+# Refusals: exit status 2, one line on standard error with position and reason, and no files left.
 test_name=test_refusals
 . tests/support/summary.sh
 cd "$work" || exit 1
@@ -27,20 +27,20 @@ output: {frames: 2, samples: 2}
 probes: [tip, {point: {at: [1 mm, 1 mm]}}, {reaction: {boundary: pull}}]
 END
 
-# nothing_left WHAT: only what this script put there.
+# nothing_left WHAT: checks that only files of this script exist.
 nothing_left()
 {
     is "$1: left behind" "$(find . -mindepth 1 ! -name cleave ! -name good.yaml ! -name bad.yaml ! -name out ! -name err ! -path './kept*')" ""
 }
 
-# replace LINE TEXT: bad.yaml is the good scene but for one line; ^ is a line break.
+# replace LINE TEXT: writes bad.yaml, the valid scene with one line replaced; ^ is a line break.
 replace()
 {
     LINE=$1 TEXT=$2 awk 'NR == ENVIRON["LINE"] { text = ENVIRON["TEXT"]; gsub(/\^/, "\n", text); print text; next } { print }' \
         good.yaml >bad.yaml
 }
 
-# ended WHAT STATUS START WORDS: the last program's exit status, and its one line: how it begins, what it holds.
+# ended WHAT STATUS START WORDS: checks the last program's exit status and its only line: beginning and contents.
 ended()
 {
     is "$1: exit status" "$2" 2
@@ -53,15 +53,15 @@ ended()
     nothing_left "$1"
 }
 
-# The good scene runs: what is refused below is refused for its one change.
+# The valid scene runs: refusals below are caused by their one change.
 "$cleave" check good.yaml >out 2>err || fail "the good scene: $(cat err)"
 "$cleave" run good.yaml -q -o kept >out 2>err || fail "the good scene: $(cat err)"
 nothing_left "the good scene"
 
 # ---- scenes ----------------------------------------------------------------------------------------------------------
 
-# Line of the good scene | what stands in its place, ^ for a line break | line:column of the complaint | words of it.
-# `run` must refuse it; `check` must say the same.
+# Line of the valid scene | its replacement, ^ for a line break | line:column of the message | words in it. `run` must refuse it, and
+# `check` with the same message.
 while IFS='|' read -r line text place words; do
     replace "$line" "$text"
     "$cleave" run bad.yaml >out 2>err
@@ -179,7 +179,7 @@ done <<'END'
 20|---^name: second|20:1|second document
 END
 
-# What only the particles tell: the place of what asks for it, one sentence, and no folder made for nothing.
+# Errors found only with the particles: position of the cause, one sentence, and no folder created.
 while IFS='|' read -r line text start words; do
     replace "$line" "$text"
     "$cleave" run bad.yaml >out 2>err
@@ -199,7 +199,7 @@ done <<'END'
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
 END
 
-# ---- files that are no scenes ----------------------------------------------------------------------------------------
+# ---- files that are not scenes ---------------------------------------------------------------------------------------
 
 mkdir kept/folder
 : >kept/empty.yaml
@@ -225,7 +225,7 @@ ended "a scene without a name" $? "" ""
 
 # ---- particle lists ----------------------------------------------------------------------------------------------------
 
-# list WHAT PLACE WORDS: the list on standard input as the body
+# list WHAT PLACE WORDS: uses the list on standard input as the body.
 list()
 {
     cat >kept/grains.csv
@@ -250,7 +250,7 @@ list "a volume below 0" "kept/grains.csv:2:" "volume" <<'END'
 x,y,volume
 0.5e-3,0.5e-3,-1e-8
 END
-# In millimetres where metres are meant, and metres where the scene's spacing lacks its unit: `check` says so, too.
+# Millimetres written as metres, and the other way round with a spacing without unit: `check` refuses it as well.
 grid() { awk -v apart="$1" 'BEGIN { print "x,y,volume"; for (k = 0; k < 200; k++) print k % 20 * apart "," int(k / 20) * apart ",1e-8" }'; }
 grid 1 >kept/millimetres.csv
 grid 1e-3 >kept/metres.csv
@@ -292,7 +292,7 @@ END
 
 # ---- the command line ----------------------------------------------------------------------------------------------------
 
-# words of the command line | how the complaint begins | what it holds
+# Words of the command line | beginning of the message | contents.
 while IFS='|' read -r words start middle; do
     "$cleave" $words >out 2>err
     ended "$words" $? "$start" "$middle"

@@ -1,19 +1,19 @@
 #!/bin/sh
-# The sets of kernels: one scene is the same run with each, to round-off; each gives the same bits on any number of
-# threads; info names them, and a wrong name is refused.
+# Kernel sets: a scene gives equal results with each, to round-off; each is bitwise reproducible on any number of threads; info lists them,
+# and a wrong name is refused.
 test_name=test_sets
 . tests/support/summary.sh
 . tests/support/trust.sh
 
-# ---- which there are -------------------------------------------------------------------------------------------------
+# ---- available sets --------------------------------------------------------------------------------------------------
 
 "$cleave" info >"$work/info" || fail "info failed"
 sets=$(sed -n '/^kernels /,/^cores /{/^cores /d;/not on this processor/d;s/^kernels//;s/:.*//;p;}' "$work/info")
 sed -n 's/^  *\([a-z0-9]*\):.*not on this processor$/skipped: \1, not on this processor/p' "$work/info"
 case " $(echo $sets) " in *" portable "*) pass ;; *) fail "there is no portable set: $sets" ;; esac
-first=$(echo $sets | cut -d ' ' -f 1)              # the one in use
+first=$(echo $sets | cut -d ' ' -f 1)              # the default
 
-# refused NAME WORDS: CLEAVE_SIMD=NAME is answered with one line that has WORDS, and exit status 2
+# refused NAME WORDS: checks that CLEAVE_SIMD=NAME causes one line with WORDS, and exit status 2.
 refused()
 {
     CLEAVE_SIMD=$1 "$cleave" info >"$work/out" 2>"$work/error"
@@ -25,7 +25,7 @@ refused sse9 "no such set"
 refused "" "no such set"
 for set in $(sed -n 's/^  *\([a-z0-9]*\):.*not on this processor$/\1/p' "$work/info"); do refused $set "this processor lacks"; done
 
-# ---- one scene, every set ----------------------------------------------------------------------------------------------
+# ---- one scene with every set ------------------------------------------------------------------------------------------
 
 cat >"$work/strip.yaml" <<'END'
 space: plane stress
@@ -58,10 +58,9 @@ boundary:
   - {traction: [0, -6 MPa, 0], face: y-}
 END
 
-# alike A B UNTIL: no column of history.csv differs by more than 2e-9 of its largest size before the time UNTIL. Nine digits
-# are kept: round-off of 1e-16 may turn the last one, half of it in each file. Round-off itself (momentum) and what is small
-# beside what it is the difference of (balance_error, errors) are left out, and energies below a round-off of the largest one:
-# faces that graze have 1e-20 J of contact.
+# alike A B UNTIL: checks that no column of history.csv differs by more than 2e-9 of its largest magnitude before the time UNTIL. Nine
+# digits are written: round-off of 1e-16 may change the last one, by a half in each file. Left out: quantities that are round-off (momentum)
+# or small differences (balance_error, errors), and energies below the round-off of the largest one: grazing faces have 1e-20 J of contact.
 alike()
 {
     paste -d , "$1/history.csv" "$2/history.csv" | awk -F, -v until="$3" '
@@ -92,14 +91,14 @@ for scene in "strip" "strip -s mpm.frame=current" "strip -s model=ospd" "strip -
         run $set "$work/two" -t 2 "$work/"${scene%% *}.yaml ${scene#"${scene%% *}"}
         same "threads: $scene, $set" "$work/$set" "$work/two"
         is "summary: $set" "$(figure "$work/$set" kernels)" $set
-        # bonds break one by one: which of two equally stretched ones goes first is round-off's choice
+        # Bonds break one by one: the order of two equally stretched ones depends on round-off.
         holds "$scene: $set and $first" alike "$work/$set" "$work/$first" "$(figure "$work/$first" crack.start_time)"
     done
 done
 
-# ---- a restart with another set ----------------------------------------------------------------------------------------
+# ---- restart with another set ------------------------------------------------------------------------------------------
 
-# resumed SET LINES: the strip goes on with this set from where the first one was stopped; LINES on standard error
+# resumed SET LINES: resumes the stopped strip with this set; LINES: expected on standard error.
 resumed()
 {
     rm -rf "$work/resumed"

@@ -1,11 +1,11 @@
 #!/bin/sh
-# How many threads a run takes: physical cores, within the mask, on machines that hwloc makes up.
+# Default number of threads: physical cores, within the mask, on machines simulated by hwloc.
 set -eu
 cleave=$(cd "${BUILD:-build}" && pwd)/cleave
 unset OMP_NUM_THREADS OMP_PROC_BIND OMP_PLACES
 fail() { echo "test_threads: $1" >&2; exit 1; }
 
-# says MACHINE CORES THREADS: hardware threads are twice the cores where each has two, and a run takes one a core
+# says MACHINE CORES THREADS: hardware threads are twice the cores if each has two, and a run uses one per core.
 says()
 {
     HWLOC_SYNTHETIC=$1 "$cleave" info >out || fail "$1: info failed"
@@ -19,12 +19,12 @@ says "pack:1 core:16 pu:1" 16 16
 says "pack:2 core:4 pu:2" 8 16
 says "pack:2 numa:2 core:8 pu:2" 32 64
 
-# who says how many gets as many, on any machine; whoever binds is not asked for cores
+# An explicit number is used on any machine; with explicit binding the number of cores is not used.
 HWLOC_SYNTHETIC="pack:2 core:4 pu:2" OMP_NUM_THREADS=3 "$cleave" info | grep -q "^threads of a run  *3;" || fail "OMP_NUM_THREADS"
 bound=$(HWLOC_SYNTHETIC="pack:2 core:4 pu:2" OMP_PROC_BIND=true OMP_PLACES="{0}" "$cleave" info | grep "^threads of a run")
 case $bound in *" 1;"*) ;; *) fail "one place makes one thread: $bound" ;; esac
 
-# the mask of the process
+# The mask of the process.
 if command -v taskset >/dev/null; then
     first=$(taskset -pc $$ | sed 's/.*: *//; s/[-,].*//')
     taskset -c "$first" "$cleave" info | grep -q "^threads of a run  *1; the hardware allows 1\$" || fail "a mask of one"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Results can be trusted: the same bits on any number of threads and after any interruption, and no silent failure.
-# Runs alone: it stops and kills runs of several threads in the midst of what they do.
+# Reproducibility: bitwise equal results on any number of threads and after any interruption, and no silent failure.
+# Runs alone: it stops and kills runs of several threads at any stage.
 test_name=test_trust
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -21,10 +21,10 @@ done
 
 # ---- interrupted ---------------------------------------------------------------------------------------------------
 
-# once by each signal that asks to stop, on another number of threads each time
+# Stopped once by each signal, and resumed on another number of threads each time.
 rm -rf "$work/stopped"
 lines=15
-# (a shell that runs under nohup hands its deafness on: then the run rightly goes on at SIGHUP, and TERM takes its place)
+# (A shell under nohup passes on that SIGHUP is ignored: the run then rightly continues, and TERM is used instead.)
 hangup=HUP
 [ -z "$(sh -c 'kill -HUP $$; echo deaf' 2>/dev/null)" ] || hangup=TERM
 for signal in INT TERM $hangup XCPU USR1 USR2; do
@@ -45,7 +45,7 @@ wait $process
 is "SIGINT that is ignored: exit status" $? 0
 same "SIGINT that is ignored" "$work/flat1" "$work/deaf"
 rm -rf "$work/deaf"
-# a batch system's notice, again and again: once is enough, and it never kills
+# Repeated notices of a batch system: one stops the run, and further ones never kill it.
 rm -rf "$work/noticed"
 "$cleave" run -q -o "$work/noticed" $flat 2>"$work/err" &
 process=$!
@@ -55,7 +55,7 @@ wait $process
 is "SIGUSR1 without end: exit status" $? 130
 calm "$work/noticed" --resume $flat
 same "SIGUSR1 without end" "$work/flat1" "$work/noticed"
-# a limit on wall clock, an hour of it and almost none
+# Limits on wall-clock time, of an hour and of almost zero.
 calm "$work/wall" $flat -s time.wall=1h
 same "an hour of wall clock" "$work/flat1" "$work/wall"
 "$cleave" run -q -o "$work/wall" --overwrite $flat -s time.wall=20ms 2>"$work/err"
@@ -64,12 +64,12 @@ holds "20 ms of wall clock: said" grep -q 'time.wall is over at step .*--resume'
 calm "$work/wall" --resume $flat
 same "20 ms of wall clock, resumed without a limit" "$work/flat1" "$work/wall"
 
-# a finished run is finished
+# A finished run is recognised as finished.
 cp -r "$work/stopped" "$work/finished"
 calm "$work/finished" --resume $flat
 same "finished, resumed" "$work/flat1" "$work/finished"
 
-# another scene in the same folder
+# Another scene in the same folder.
 "$cleave" run -q -o "$work/finished" --resume $flat -s material.density=7801 2>"$work/err"
 is "resumed with another scene: exit status" $? 2
 same "after the refusal" "$work/flat1" "$work/finished"
@@ -80,7 +80,7 @@ often="-s output.checkpoint=20ms"
 calm "$work/flat_often" $flat $often
 kills 10 "$work/flat_often" $flat $often
 
-# ---- a checkpoint that went bad ------------------------------------------------------------------------------------
+# ---- a damaged checkpoint ------------------------------------------------------------------------------------------
 
 rm -rf "$work/stopped"
 interrupted "$work/stopped" 40 $flat
@@ -90,31 +90,31 @@ is "newest checkpoint damaged: exit status" $? 0
 holds "newest checkpoint damaged: says so" grep -q 'resuming from checkpoint.previous.h5' "$work/err"
 same "newest checkpoint damaged" "$work/flat1" "$work/stopped"
 
-# from the checkpoint of step 0, which a run of this length is not without
+# From the checkpoint of step 0, which every run has.
 rm -rf "$work/stopped"
 calm "$work/stopped" -t 1 $flat
 mv "$work/stopped/checkpoint.previous.h5" "$work/stopped/checkpoint.h5"
 calm "$work/stopped" -t 2 --resume $flat
 same "from step 0" "$work/flat1" "$work/stopped"
 
-# ---- a disk that fills -----------------------------------------------------------------------------------------------
+# ---- a disk that becomes full ----------------------------------------------------------------------------------------
 
-# Files may not pass a limit: at first nothing fits, then small files, then all but a frame, all but a checkpoint. Both
-# checkpoints must stay as they are, and the run must go on from them once there is room.
+# Files may not exceed a limit: first nothing fits, then small files, then all but a frame, all but a checkpoint. Both checkpoints must be
+# unchanged, and the run must resume from them once there is space.
 rm -rf "$work/stopped"
 interrupted "$work/stopped" 50 $flat $often
 frame=$(wc -c <"$work/stopped/frames/000000.hdf")
 checkpoint=$(wc -c <"$work/stopped/checkpoint.h5")
 holds "a checkpoint is larger than a frame" test "$checkpoint" -gt "$frame"
 nothing=0
-if ! (ulimit -f 0; "$cleave" info 2>&1) | grep -q '^cleave'; then      # clang's OpenMP makes a file of its own as it starts
+if ! (ulimit -f 0; "$cleave" info 2>&1) | grep -q '^cleave'; then      # clang's OpenMP creates a file when it starts
     echo "the OpenMP library starts no program that may write 0 bytes: not tested"
     nothing=""
 fi
 for limit in $nothing 4096 $((frame / 2)) $((frame - 600)) $((frame + 2048)) $(((frame + checkpoint) / 2)); do
     rm -rf "$work/full"
     cp -r "$work/stopped" "$work/full"
-    # through a pipe: the limit would hold for a file, too
+    # Through a pipe: the limit would also apply to a file.
     said=$(ulimit -f $((limit / 512)); "$cleave" run -q -o "$work/full" -t 2 --resume $flat $often 2>&1; echo "status $?")
     echo "$said" >"$work/said"
     is "$limit bytes: exit status" "$(tail -n 1 "$work/said")" "status 1"
@@ -127,19 +127,19 @@ for limit in $nothing 4096 $((frame / 2)) $((frame - 600)) $((frame + 2048)) $((
     same "after a limit of $limit bytes" "$work/flat_often" "$work/full"
 done
 
-# what a killed process leaves beside the files
+# Files left by a killed process.
 touch "$work/full/checkpoint.h5.cleave.tmp" "$work/full/frames/000099.hdf.cleave.tmp"
 calm "$work/full" --resume $flat $often
 bare "stale files" "$work/full"
 
-# standard output
+# Standard output.
 for words in "run $line -o $work/loud" "check $line" "help" "help time.step" "info" "--help"; do
     "$cleave" $words >/dev/full 2>"$work/err"
     is "$words >/dev/full: exit status" $? 1
     is "$words >/dev/full: lines on standard error" "$(grep -c -v '^warning: ' "$work/err")" 1
 done
 
-# ---- whose folder ------------------------------------------------------------------------------------------------------
+# ---- ownership of folders ----------------------------------------------------------------------------------------------
 
 echo text >"$work/plain"
 mkdir "$work/foreign"
@@ -159,7 +159,7 @@ same "the same scene again" "$work/other_before" "$work/other"
 
 # ---- unstable runs -------------------------------------------------------------------------------------------------------
 
-# Steps above the critical one: stopped with step, place and cause, never a number that is none on disk.
+# Steps above the critical one: stopped with step, position and cause, and never a NaN on disk.
 unstable()
 {
     what=$1; shift
@@ -171,7 +171,7 @@ unstable()
         grep -q 'unstable at step [0-9]*, t = .* s: particle [0-9]* at (.*) m .*; .*time' "$work/err"
     is "$what: status" "$(figure "$work/unstable" status)" failed
     holds "$what: message" test -n "$(figure "$work/unstable" message)"
-    # tip_z is none in the plane, tip_x and tip_y are none before a crack grows: the only columns that may say nan
+    # tip_z does not exist in 2D, tip_x and tip_y do not before a crack grows: the only columns that may be nan.
     awk -F, 'NR > 1 { for (k = 1; k <= NF; k++) if ($k !~ /^-?[0-9]/ && !(k >= 17 && k <= 19)) exit 1 }' \
         "$work/unstable/history.csv"
     is "$what: numbers in history.csv" $? 0

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Puts small faults into copies of the program, one at a time, and runs the tests that must see them:
+# Puts small faults into copies of the program, one at a time, and runs the tests that must detect them:
 #     sh tests/robustness/mutants/run.sh [LIST...]                     (make mutants, make mutants MUTANTS=LIST)
-# A list has one fault a line, `file @ old @ new @ tests` (list.txt). THREADS: how many faults at once, each in a copy of the
-# tree of its own, with kernels for this processor alone; else one for each processor. Prints a line for each fault: seen (one of
-# its tests fails or takes far too long), NOT SEEN, or what is wrong with it; then the share that was seen.
-# Exit status: 0 when 95 % or more were seen, 1 when not, 2 when there is no list or the program does not build.
+# A list has one fault per line, `file @ old @ new @ tests` (list.txt). THREADS: number of faults tested in parallel, each in its own copy
+# of the tree, with kernels for this processor only; default: one per processor. Prints a line for each fault: seen (one of its tests fails
+# or takes far too long), NOT SEEN, or an error in the list; then the share that was seen.
+# Exit status: 0 if 95 % or more were seen, 1 if not, 2 if there is no list or the program does not build.
 set -u
 [ $# -gt 0 ] || set -- tests/robustness/mutants/list.txt
 lanes=${THREADS:-$(getconf _NPROCESSORS_ONLN)}
@@ -13,7 +13,7 @@ unset MAKEFLAGS MAKELEVEL MFLAGS
 
 for list in "$@"; do [ -r "$list" ] || { echo "mutants: no such list: $list" >&2; exit 2; }; done
 
-# Copies lie in memory where it has room. Those of a run that was killed go when the next begins.
+# Copies are in memory if there is space. Copies of a killed run are removed at the start of the next.
 room=${TMPDIR:-/tmp}
 [ ! -w /dev/shm ] || [ "$(df -Pk /dev/shm | awk 'END { print $4 }')" -lt 4000000 ] || room=/dev/shm
 for left in "$room"/cleave-mutants.*; do
@@ -25,18 +25,18 @@ trap 'rm -rf "$work"' EXIT
 trap 'trap "" TERM; kill $lane_processes 2>/dev/null; wait; exit 1' INT TERM HUP
 lane_processes=
 
-# What a shell starts beside itself is deaf to SIGINT, which tests raise (tests/support/run.sh).
+# Background processes of a shell ignore SIGINT, which tests raise (tests/support/run.sh).
 hearing="env --default-signal=INT,QUIT"
 $hearing true 2>/dev/null || hearing=
 export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
 
-# ---- the tree, and what is wrong with the list itself ----------------------------------------------------------------
+# ---- the tree, and errors in the list --------------------------------------------------------------------------------
 
 tree=$work/tree
 mkdir -p "$tree/build" "$work/jobs" "$work/first"
 cp -a Makefile README.md LICENSE CITATION.cff CHANGELOG.md .clang-format .clang-tidy .editorconfig .ci .github \
     src include kernels bench tests inputs "$tree"
-# Objects that are there, of the usual build: what is up to date is not compiled again.
+# Copies existing objects of the usual build: files that are up to date are not compiled again.
 if [ "${BUILD:-build}" = build ] && [ -d build ]; then
     (cd build && find . -name '*.[odh]' ! -path './fuzz/*' -exec cp -a --parents -t "$tree/build" {} +)
 fi
@@ -47,7 +47,7 @@ for list in "$@"; do awk 1 "$list"; done | awk -f tests/robustness/mutants/list.
 [ -n "$(ls "$work/jobs")" ] || { echo "mutants: no fault in $*" >&2; exit 2; }
 cat "$work"/jobs/*/tests | sort -u >"$work/tests"
 
-# goals TEST...: what make builds for these tests.
+# goals TEST...: prints the make targets of these tests.
 goals()
 {
     for goal in "$@"; do
@@ -71,7 +71,7 @@ build "$tree" "$work/log" -j"$lanes" build/cleave $objects || { tail -n 20 "$wor
 
 # ---- lanes -----------------------------------------------------------------------------------------------------------
 
-# attempt LANE FOLDER LIMIT TEST: runs a test in a copy of the tree for LIMIT seconds at most; returns its status.
+# attempt LANE FOLDER LIMIT TEST: runs a test in a copy of the tree for at most LIMIT seconds; returns its status.
 attempt()
 {
     here=$2 limit=$3 test=$4
@@ -86,7 +86,7 @@ attempt()
     return $result
 }
 
-# put_back LANE: gives the lane its sources and objects back, with their times.
+# put_back LANE: restores the sources and objects of the lane, with their times.
 put_back()
 {
     (cd "$work/lane$1" && find . -type f -newer "$work/stamp$1") | while read -r path; do
@@ -99,7 +99,7 @@ put_back()
     done
 }
 
-# first LANE TEST: runs a test without a fault, once of all lanes. Leaves why it cannot be used, if so, and its seconds.
+# first LANE TEST: runs a test without a fault, once for all lanes. Records its duration, or why it cannot be used.
 first()
 {
     name=$(basename "$2" .c) says=
@@ -128,7 +128,7 @@ first()
     echo $(($(date +%s) - begin)) >"$work/first/$name"
 }
 
-# judge LANE JOB: builds with the fault and runs its tests; leaves the verdict, and the test that decides, in JOB.
+# judge LANE JOB: builds with the fault and runs its tests; records the verdict, and the test that decides, in JOB.
 judge()
 {
     job=$2 file=$(cat "$2/file") verdict="NOT SEEN" by= tried=
@@ -159,7 +159,7 @@ judge()
     put_back "$1"
 }
 
-# lane NUMBER: judges the faults that no other lane has begun.
+# lane NUMBER: judges the faults that no other lane has started.
 lane()
 {
     running=
@@ -179,7 +179,7 @@ lane()
 for number in $(seq "$lanes"); do lane "$number" & lane_processes="$lane_processes $!"; done
 wait
 
-# ---- the count -------------------------------------------------------------------------------------------------------
+# ---- result ----------------------------------------------------------------------------------------------------------
 
 cat "$work"/jobs/*/verdict | awk -v wanted="$wanted" '
     { all++ }
