@@ -1,13 +1,13 @@
 #!/bin/sh
-# Second opinion: peridynamics of this program against LAMMPS (peri/pmb), particle by particle, 200 steps.
-# BUILD: the folder of the program.
+# Independent check: peridynamics of Cleave compared with LAMMPS (peri/pmb), particle by particle, over 200 steps.
+# BUILD: folder of the program.
 #
-# A plate of 30 x 30 particles is pulled, sheared and turned by an initial velocity gradient: whole, with a straight and
-# with an inclined pre-crack, until cracks run through it and its pieces meet; and its halves, apart, meet head-on and
-# aslant. Contact is LAMMPS' own (contact.distance: lammps), between bonded pairs too, and a bond acts in the step in
-# which it breaks (pd.last_force: whole). LAMMPS knows partial volumes only as cut-ramp and takes the micro-modulus as a number: 8 k2 / sum of r V beta over a full family,
-# k2 the plane bulk modulus. It has no command to cut chosen bonds: bonds come from its first neighbour list, so each
-# particle of a cut bond has a type of its own, and the cut pairs of types are excluded while that list is made.
+# A plate of 30 x 30 particles is extended, sheared and rotated by an initial velocity gradient: intact, and with a straight or inclined
+# pre-crack, until cracks run through it and its fragments come into contact; and its separated halves collide centrally and obliquely.
+# Contact is that of LAMMPS (contact.distance: lammps), also between bonded pairs, and a bond acts in the step in which it breaks
+# (pd.last_force: whole). LAMMPS has partial volumes only as cut-ramp and reads the micro-modulus as a number: 8 k2 / sum of r V beta over a
+# full family, k2 the plane bulk modulus. It has no command to cut selected bonds: bonds are created from its first neighbour list, so that
+# each particle of a cut bond has its own type, and the cut pairs of types are excluded while that list is built.
 set -eu
 command -v lmp >/dev/null || { echo "lmp (LAMMPS with its package PERI) is missing: no second opinion"; exit 77; }
 lmp -h | grep -q "peri/pmb" || { echo "this lmp was built without its package PERI: no second opinion"; exit 77; }
@@ -16,10 +16,10 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
-# One awk program writes both inputs from the same figures. Reach: horizon in spacings. Crack: x0 y0 x1 y1 in spacings;
-# its ends are chosen so that no bond passes exactly through them. Poisson's ratio is that of bonds.
+# One awk program writes both inputs from the same parameters. Reach: horizon in spacings. Crack: x0 y0 x1 y1 in spacings; no bond passes
+# exactly through its ends. Poisson's ratio is that of bonds.
 cat >write.awk <<'END'
-function cut(i, j,    d0, d1, e0, e1) {             # does the bond i-j cross the crack?
+function cut(i, j,    d0, d1, e0, e1) {             # returns true if bond i-j crosses the crack
     if (!cracked) return 0
     d0 = side(x[i], y[i]); d1 = side(x[j], y[j])
     e0 = (x[j] - x[i]) * (c[2] * D - y[i]) - (y[j] - y[i]) * (c[1] * D - x[i])
@@ -93,7 +93,7 @@ BEGIN {
 }
 END
 
-# Largest difference of two displacements over the largest displacement; "-" where particles do not match.
+# Prints the largest difference of two displacements over the largest displacement; "-" if particles do not match.
 cat >compare.awk <<'END'
 FNR == NR && /"p[0-9]+": *\{/ { i = $1; gsub(/[^0-9]/, "", i); next }
 FNR == NR && /displacement_x/ { u[i] = $2 + 0; next }
@@ -130,8 +130,8 @@ happens() {                              # least energy of breaks [J], least pai
         { echo "long_lammps: nothing broke, or nothing met"; bad=1; }
 }
 
-# Reach 2.75: no neighbour lies on the ramp, every weight is 1 and only round-off differs (measured 2e-13; a missing
-# bond or a wrong factor makes 1e-3). Reach 3.015: shares of volume are kept in single precision (measured 2e-9).
+# Reach 2.75: no neighbour is on the ramp, every weight is 1 and only round-off differs (measured 2e-13; a missing bond or a wrong factor
+# causes 1e-3). Reach 3.015: shares of volume are in single precision (measured 2e-9).
 pull="100 -700 900 400" meet="" apart=0 s0=10 steps=200
 for reach in 2.75 3.015; do
     tolerance=1e-11
@@ -142,7 +142,7 @@ for reach in 2.75 3.015; do
     opinion "inclined pre-crack" "plane strain" $reach "-4.23 -2.61 5.37 3.19" $tolerance
 done
 
-# What breaks and what meets: round-off grows with each collision, and 1e-10 is asked for.
+# Breaking and contact: round-off grows with each collision; the tolerance is 1e-10.
 pull="-2000 300 500 9000" s0=0.02 steps=600
 opinion "cracks run through, pieces meet" "plane stress" 2.75 "-6.2 0 6.2 0" 1e-10
 happens 0.1 10

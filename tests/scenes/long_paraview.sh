@@ -1,5 +1,5 @@
 #!/bin/sh
-# The recipe of inputs/results.md by ParaView itself, and the XDMF index from another folder.
+# The procedure of inputs/results.md in ParaView itself, and the XDMF index opened from another folder.
 test_name=long_paraview
 . tests/support/summary.sh
 command -v pvpython >/dev/null && command -v xvfb-run >/dev/null ||

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The scenes of inputs/ at finer spacings and other time steps: what test_scenes.sh accepts does not hang on either.
+# Scenes of inputs/ at finer spacings and other time steps: the results accepted by test_scenes.sh depend on neither.
 test_name=long_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -13,7 +13,7 @@ sound kalthoff_pd $pd_balance
 sound kalthoff_adaptive $adaptive_balance
 for method in pd adaptive; do
     run=kalthoff_$method
-    between "$run: start" "$(f $run crack.start_time)" 19.5e-6 24e-6     # pd: 19.96 us, on its way down with the spacing
+    between "$run: start" "$(f $run crack.start_time)" 19.5e-6 24e-6     # pd: 19.96 us, decreasing with the spacing
     between "$run: tip moves" "$(f $run crack.tip_start_time)" 23.5e-6 28.5e-6
     between "$run: angle" "$(f $run crack.angle_deg)" 62 74
     apart "$run: a pair, x" "$(f $run crack.tips.0.x)" "$(f $run crack.tips.1.x)" 0.501e-3
@@ -22,7 +22,7 @@ for method in pd adaptive; do
 done
 apart "kalthoff: pd and adaptive" "$(f kalthoff_pd crack.angle_deg)" "$(f kalthoff_adaptive crack.angle_deg)" 3
 
-# Its adaptive angle from one time step to the next: affine transfer keeps it near that of peridynamics, 68.4 degrees.
+# Its adaptive angle for different time steps: affine transfer keeps it close to that of peridynamics, 68.4 degrees.
 start step_0.03 kalthoff_winkler -s time.step=0.03us
 start step_0.1 kalthoff_winkler -s time.step=0.1us
 wait
@@ -34,7 +34,7 @@ for step in 0.03 0.1 0.15; do
     apart "kalthoff at $step us" "$(f step_$step crack.angle_deg)" "$(f step_pd crack.angle_deg)" 3
 done
 
-# The plate with a crack at a quarter of a millimetre.
+# The plate with a crack at a spacing of 0.25 mm.
 for method in pd adaptive; do
     start crack_$method plate_crack -s method=$method -s particles.spacing=0.25mm -s time.step=0.03us
 done
@@ -48,7 +48,7 @@ for method in pd adaptive; do
 done
 apart "plate_crack: pd and adaptive within a spacing" "$(f crack_pd crack.length_end)" "$(f crack_adaptive crack.length_end)" 0.2501e-3
 
-# The bar in three dimensions at half the spacing: the delay of the peridynamic spall falls from 7 to 5.5 %, within the 6 % asked.
+# The bar in 3D at half the spacing: the delay of the peridynamic spall decreases from 7 to 5.5 %, within the required 6 %.
 for method in pd adaptive; do
     start impact_$method plate_impact_3d -s method=$method -s particles.spacing=0.5mm -s time.step=1us
 done

@@ -1,16 +1,16 @@
 #!/bin/sh
-# Absorbing faces as a user has them: the scene, the same bits on any number of threads and after a stop, the echo, the help.
+# Absorbing faces from the command line: the scene, bitwise equality on any number of threads and after a stop, the echo, the help.
 test_name=test_absorbing
 . tests/support/summary.sh
 . tests/support/trust.sh
 plate=inputs/absorbing_plate.yaml
 
-# share FOLDER: absorbed energy over the work of the loads.
+# share FOLDER: prints the absorbed energy over the work of the loads.
 share() { awk -v a="$(figure "$1" energy.absorbed)" -v w="$(figure "$1" energy.external_work)" 'BEGIN { print a / w }'; }
 # within WHAT VALUE LOW HIGH
 within() { holds "$1: $2 is not within $3 .. $4" awk -v x="$2" -v a="$3" -v b="$4" 'BEGIN { exit !(x >= a && x <= b) }'; }
 
-# Bonds and cells keep their energy; APIC loses some on its grid, with these faces or without.
+# Bonds and cells conserve energy; APIC dissipates some on its grid, with and without absorbing faces.
 for way in pd reference apic; do
     case $way in
     pd) more="-s method=pd" ;;
@@ -29,16 +29,16 @@ for way in pd reference apic; do
     rm -r "$work/${way}2" "$work/${way}3" "$work/stopped"
 done
 
-# points convert up to the face while they move
+# Points convert up to the face during the motion.
 adaptive="$plate -s method=adaptive -s mpm.frame=reference -s conversion.stress=0.2MPa -s material.energy_release_rate=100"
 for threads in 1 2; do calm "$work/adaptive$threads" $adaptive -t $threads; done
 same "adaptive on 2 threads" "$work/adaptive1" "$work/adaptive2"
-# conversion in motion loses 5 % here, without the faces too
+# Conversion in motion dissipates 5 % here, also without the faces.
 within "adaptive: absorbed" "$(share "$work/adaptive1")" 0.85 1
 within "adaptive: balance error" "$(figure "$work/adaptive1" energy.balance_error)" -0.06 0.001
 holds "adaptive: nothing converted" test -n "$(figure "$work/adaptive1" conversion.first_time)"
 
-# a face in two parts is the face; parts that overlap would have dashpots twice
+# A face in two parts is equivalent to the whole face; overlapping parts would have two dashpots.
 part() { sed "s/{name: right, absorbing: true, face: x+}/{name: right, absorbing: true, face: x+, region: {box: {from: [0, 0], to: [80 mm, 30 mm]}}}\n  - {absorbing: true, face: x+, region: {box: {from: [0, $1 mm], to: [80 mm, 60 mm]}}}/" $plate; }
 part 30 >"$work/parts.yaml"
 part 28 >"$work/overlap.yaml"
@@ -48,7 +48,7 @@ sed "s/^boundary:/boundary:\n  - {name: middle, mirror: {axis: x, at: 80 mm}}/" 
 refused "a face in a mirror" "$work/not" "the body goes on behind mirror middle" "$work/behind.yaml"
 refused "parts that overlap" "$work/not" "boundary boundary4: boundary right absorbs at this face already" "$work/overlap.yaml"
 
-# the echo is the same scene, the key is explained, check takes the scene
+# The echo is an equivalent scene, the key is documented, check accepts the scene.
 calm "$work/echo" "$work/pd1/scene.yaml"
 same "the echo" "$work/pd1" "$work/echo"
 holds "help" sh -c '"$1" help boundary.absorbing | grep -q rho' - "$cleave"

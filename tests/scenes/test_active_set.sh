@@ -1,12 +1,12 @@
 #!/bin/sh
-# What history.csv says of who is modelled how and who rests: shares that add up, a share at rest that falls as a wave
-# spreads and never counts what it has reached, the same other columns without rest, the same lines after a restart.
+# Columns of history.csv on the share of each method and of particles at rest: shares add up; the share at rest decreases as a wave spreads
+# and never includes particles that it has reached; all other columns are equal without the active set, and all lines after a restart.
 test_name=test_active_set
 . tests/support/summary.sh
 . tests/support/trust.sh
 
-# The middle 20 mm of a strip are thrown; waves run both ways at sqrt(C11/rho) = 100 m/s and reach its ends after 2.46 ms. Right of
-# 300 mm it is peridynamic in the adaptive run.
+# The middle 20 mm of a strip have an initial velocity; waves travel in both directions at sqrt(C11/rho) = 100 m/s and reach its ends after
+# 2.46 ms. Beyond 300 mm it is peridynamic in the adaptive run.
 cat >"$work/strip.yaml" <<'END_OF_SCENE'
 space: plane stress
 thickness: 1 mm
@@ -22,14 +22,14 @@ time: {step: 2 us}
 output: {frames: 1, samples: 1500}
 END_OF_SCENE
 
-# series DIR PROGRAM: awk over the samples, with time, steps, pd, mpm, rest of each.
+# series DIR PROGRAM: runs awk over the samples, with time, steps, pd, mpm, rest of each.
 series()
 {
     awk -F, "NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \\[.*/, \"\", \$k); at[\$k] = k } next }
         { time = \$1; steps = \$2; pd = \$at[\"pd_share\"]; mpm = \$at[\"mpm_share\"]; rest = \$at[\"rest_share\"] } $2" "$1/history.csv"
 }
 
-# without DIR: its columns but for the share at rest.
+# without DIR: prints its columns without the share at rest.
 without() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "rest_share") at = k } { $at = ""; print }' "$1/history.csv"; }
 
 right="pd.region=[{box: {from: [300 mm, 0], to: [512 mm, 8 mm]}}]"
@@ -39,7 +39,7 @@ for name in pd mpm adaptive; do
         mpm) points=1; set -- ;;
         adaptive) points=0.5859375; set -- -s "$right" ;;          # 300 of 512 columns
     esac
-    # a sample every step, so that even the mesh takes its time and is caught on the way; a busy machine may look too late
+    # A sample in every step, so that the mesh takes time and is interrupted during the run; a busy machine may check too late.
     calm "$work/$name" "$work/strip.yaml" -s method=$name "$@"
     calm "$work/never" "$work/strip.yaml" -s method=$name "$@" -s time.active_set=false
     is "$name: all is either" "$(series "$work/$name" 'pd + mpm < 1 - 1e-8 || pd + mpm > 1 + 1e-8')" ""
@@ -47,7 +47,7 @@ for name in pd mpm adaptive; do
     is "$name: without rest nobody rests" "$(series "$work/never" 'rest != 0')" ""
     without "$work/$name" >"$work/rests"; without "$work/never" >"$work/never.csv"
     holds "$name: the other columns" cmp "$work/rests" "$work/never.csv"
-    # 20 mm and what the wave has passed since, in the middle of the steps between two samples, never rest
+    # The initial 20 mm and the region passed by the wave are never at rest, evaluated in the middle of the steps between two samples.
     is "$name: what the wave has reached is awake" "$(series "$work/$name" \
         'NR > 2 && rest > 0 && rest > 1 - (0.02 + 200 * (time + last) / 2) / 0.512 + 1e-8 { print time, rest } { last = time }')" ""
     is "$name: falls" "$(series "$work/$name" 'NR > 3 && rest > last { print time, rest, last } { last = rest }')" ""
@@ -55,7 +55,7 @@ for name in pd mpm adaptive; do
     between "$name: on the way" "$(column "$work/$name" rest_share 1e-3)" 0.2 0.56
     between "$name: at the end" "$(column "$work/$name" rest_share 3e-3)" 0 0
     mean=$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')
-    near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are shown
+    near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are printed
     for try in 1 2 3 4 5 6; do
         interrupted "$work/resumed" 200 "$work/strip.yaml" -s method=$name "$@"
         resting=$(series "$work/resumed" 'END { print rest }')

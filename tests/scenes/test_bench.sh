@@ -1,7 +1,6 @@
 #!/bin/sh
-# `cleave bench`: what it refuses, the table of efficiency on a coarse plate, and that of couplings. BUILD: the
-# folder of the program.
-# Takes 90 s: every bench is run once, on the smallest bodies that its figures are known for.
+# `cleave bench`: refusals, the table of efficiency for a coarse plate, and that of couplings. BUILD: folder of the program.
+# Takes 90 s: every bench is run once, on the smallest bodies for which its results are known.
 set -eu
 build=$(cd "${BUILD:-build}" && pwd)
 cleave=$build/cleave
@@ -12,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 fail() { echo "test_bench: $1" >&2; exit 1; }
 
-# Refused in one line, exit status 2, nothing written.
+# Refused in one line with exit status 2, nothing written.
 for words in nonsense accuracy=nonsense accuracy=auto stability=nonsense "--slow" "kernels nonsense" coupling factors sif efficiency scatter sensitivity slow; do
     set +e
     "$cleave" bench $words >out 2>err
@@ -24,7 +23,7 @@ for words in nonsense accuracy=nonsense accuracy=auto stability=nonsense "--slow
 done
 grep -q "inputs" err || fail "scatter does not say what it misses"
 
-# One scene at a quarter of the particles: the files are there, the columns those of the contract.
+# One scene with a quarter of the particles: the files exist and have the columns of the contract.
 command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
 mkdir inputs
 sed 's/spacing: 0.5 mm/spacing: 1 mm/' "$inputs/plate_crack.yaml" >inputs/plate_crack.yaml
@@ -39,17 +38,17 @@ awk -F, 'NR > 1 { exit $2 != "bond" }' efficiency.csv || fail "the model"
 [ "$(head -1 efficiency_runs.csv)" = \
     scene,model,levers,particles,steps,time_step,paper_t_r,start_pd,start_adaptive,angle_pd_deg,angle_adaptive_deg,t_r_stepping,t_r_bound,rest_share,aim,bonds,points,conversion,samples ] ||
     fail "columns of efficiency_runs.csv"
-# t_r is what the two times before it say, to the nine digits written
+# t_r agrees with the two times before it, to the nine digits written.
 awk -F, 'NR > 1 { d = $5 - (1 - $3 / $4); if (!($3 > 0 && $4 > 0 && d < 1e-6 && d > -1e-6)) bad = 1 } END { exit bad }' efficiency.csv || fail "t_r"
-# conversion takes some of the time, and not all
+# Conversion takes some of the time, but not all.
 paste -d, efficiency.csv efficiency_runs.csv | awk -F, 'NR > 1 && !($22 > $5 && $22 < 1) { bad = 1 } END { exit bad }' ||
     fail "the bound of t_r"
 for file in efficiency.json efficiency.png efficiency.svg efficiency_share.csv; do [ -s $file ] || fail "$file is missing"; done
 [ "$(wc -l <efficiency_share.csv)" -eq 708 ] || fail "the share is noted at 100 samples and at the start"
 cd ../..
 
-# Three runs of each method at other steps: means and scatter are what the runs say, to the nine digits written.
-# --readme: what is printed and the tables are written to bench/results as well, below lines that tell where they come from.
+# Three runs of each method with other steps: means and scatter agree with the runs, to the nine digits written. --readme also writes
+# the output and the tables to bench/results, with head lines that state their origin.
 "$cleave" bench sensitivity --readme >out 2>err && fail "--readme outside a source tree"
 grep -q "top of the source tree" err || fail "--readme outside a source tree: $(cat err)"
 mkdir bench
@@ -73,7 +72,7 @@ awk -F, 'FNR == 1 { next }
 for file in sensitivity.json sensitivity.png sensitivity.svg; do [ -s $file ] || fail "$file is missing"; done
 cd ../..
 
-# Scaling over threads and sizes: files, columns, and figures that follow from the others.
+# Scaling over threads and sizes: files, columns, and derived values.
 OMP_NUM_THREADS=2 "$cleave" bench threads scale peers --quick >out || fail "threads, scale or peers failed"
 cd results/bench
 [ "$(head -1 threads.csv)" = method,scaling,threads,particles,step_seconds,ns_per_particle_step,efficiency ] ||
@@ -85,14 +84,14 @@ awk -F, 'NR > 1 { if ($3 == 1) one = $6; d = $7 * $3 * $6 / one - 1; if (d > 1e-
 awk -F, 'NR > 1 && !($3 > 2000 && $5 > 0 && $6 > 0 && $8 > 0 && $9 > 0) { bad = 1 } END { exit bad }' scale.csv ||
     fail "figures of scale.csv"
 [ "$(awk -F, 'NR > 1 && $12 > 0' scale.csv | wc -l)" -eq 5 ] || fail "output is measured for five methods"
-# The bonds of full families but for edges: sum over the 28 neighbours of (n - |a|)(n - |b|), n = 50
+# Number of bonds of a square: sum over the 28 neighbours of (n - |a|)(n - |b|), n = 50.
 awk -F, '$1 == "pd" && $2 == 2 && $3 == 2500 { n = $4 } END { exit n != 66436 }' scale.csv || fail "bonds of a square of 50"
 for file in threads.json threads.png threads.svg threads_memory.csv scale.json scale.png; do
     [ -s $file ] || fail "$file is missing"
 done
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "scaling leaves runs behind"
 [ ! -e scale_growth.csv ] || fail "growth has figures of scenes that are not here"
-# A far field: cells of 8 spacings and a part between absorbing faces are within 2 % of K of both direct runs, cells of 32 are not.
+# Far field: cells of 8 spacings and a part between absorbing faces have K within 2 % of both direct runs, cells of 32 do not.
 [ "$(head -1 scale_field.csv)" = run,levels,part,made,particles,bytes,seconds,steps_seconds,K_peak,off_bonds,off_cells ] ||
     fail "columns of scale_field.csv"
 [ "$(wc -l <scale_field.csv)" -eq 9 ] || fail "eight runs of a far field"
@@ -106,7 +105,7 @@ if command -v lmp >/dev/null; then
     awk -F, 'NR > 1 && !($11 < 1e-9) { bad = 1 } END { exit bad || NR != 13 }' results/bench/peers.csv || fail "beside LAMMPS: $(cat results/bench/peers.csv)"
 fi
 
-# Growth over the spacing, of the plate in space: of two rows the exponents are those of their ratios.
+# Growth over the spacing for the plate in 3D: the exponents of two rows are those of their ratios.
 cp "$inputs/kalthoff_3d_fine.yaml" inputs
 "$cleave" bench scale=growth --quick >out || fail "growth failed"
 cd results/bench
@@ -120,11 +119,11 @@ awk -F, 'FNR == 1 { next }
 [ -s scale_growth.png ] || fail "scale_growth.png is missing"
 cd ../..
 
-# Speed against accuracy, its bar: files, figures known from inputs/bar_smooth.yaml, and that nothing is run twice.
+# Accuracy over time for its bar: files, values known from inputs/bar_smooth.yaml, and nothing runs twice.
 "$cleave" bench accuracy=bar --quick >out || fail "accuracy failed"
 cp results/bench/accuracy.csv before.csv
 head -3 before.csv >results/bench/accuracy.csv
-printf 'bar,pulse,pd bo' >>results/bench/accuracy.csv      # broken off
+printf 'bar,pulse,pd bo' >>results/bench/accuracy.csv      # an incomplete line
 "$cleave" bench accuracy=bar --quick >out || fail "accuracy does not go on"
 grep -q ', 54 of them to be run' out || fail "accuracy runs again what it knows: $(grep 'to be run' out)"
 cut -d, -f1-9 before.csv >one
@@ -137,14 +136,14 @@ for file in accuracy.json accuracy.md accuracy.png accuracy.svg accuracy_bar.png
 done
 cd ../..
 
-# The kept table has the form of bench/accuracy/cost_accuracy.csv, and is written again from what is known, without a run.
+# The stored table has the form of bench/accuracy/cost_accuracy.csv, and is rewritten from known results without a run.
 [ "$(head -1 results/bench/cost_accuracy.csv)" = "$(head -1 "$measured")" ] || fail "columns of cost_accuracy.csv"
 cp results/bench/cost_accuracy.csv kept
 rm results/bench/cost_accuracy.csv
 "$cleave" bench accuracy=chart >out || fail "accuracy=chart failed"
 cmp -s kept results/bench/cost_accuracy.csv || fail "accuracy=chart writes another table"
 
-# Couplings: the columns, and figures known from the literature's couplings and from an independent prototype.
+# Couplings: columns, and values known from the literature and from an independent prototype.
 cp "$inputs/bar_pulse.yaml" "$inputs/plate_pulse.yaml" inputs
 "$cleave" bench coupling --quick >out || fail "coupling failed"
 cd results/bench
@@ -155,45 +154,44 @@ for file in coupling_places.csv coupling_variants.csv coupling_patch.csv couplin
     coupling.json coupling.png coupling.svg coupling_pulse.png coupling_pulse.svg; do
     [ -s $file ] || fail "$file is missing"
 done
-# line FILE PATTERN COLUMN FROM TO: that column of the only line that begins with the pattern lies there.
+# line FILE PATTERN COLUMN FROM TO: checks the range of a column in the only line that begins with the pattern.
 line()
 {
     awk -F, -v pattern="^$2" -v at="$3" -v from="$4" -v to="$5" '
         $0 ~ pattern { n++; if ($at < from + 0 || $at > to + 0 || $at == "") bad = 1 }
         END { exit n != 1 || bad }' "$1" || fail "$1: $2: column $3 is not within $4 to $5: $(grep "^$2" "$1")"
 }
-# A pulse 32 spacings wide: 2.4 % of the hand-shake, 2.7 % of PMG; at most 1.5 % of partial stress, and 0.6 % at 64. 4.4 % of PM as
-# published, where the grid moves what lies at the interface with its first velocity; with the second, which has an energy, 5.7 %.
+# A pulse 32 spacings wide: handshake reflects 2.4 %, PMG 2.7 %; partial stress at most 1.5 %, and 0.6 % at 64. PM as published, where the
+# grid moves points at the interface with its first velocity: 4.4 %; with the second velocity, which conserves energy: 5.7 %.
 line coupling.csv handshake,32, 3 0.0207 0.0267
 line coupling.csv pm,32, 3 0.040 0.062
 line coupling.csv pmg,32, 3 0.024 0.030
 line coupling.csv 'partial stress,32,' 3 0.001 0.015
 line coupling.csv 'partial stress,64,' 3 0.0005 0.006
 line coupling.csv 'partial stress undamped,32,' 3 0.0090 0.0125
-# wherever the interface is in its cell; without damping some place is bad
+# At every position of the interface in its cell; without damping some position has a larger reflection.
 line coupling_places.csv 'partial stress,32,2,0.25' 6 0.001 0.015
 line coupling_places.csv 'partial stress,32,2,0.5' 6 0.001 0.015
 line coupling_places.csv 'partial stress,32,2,0.75' 6 0.001 0.015
 line coupling_places.csv 'partial stress undamped,32,2,0.5' 6 0.05 0.2
-# uniform strain: exactly 13/24 and 3/4 of the hand-shake in a bar, nothing of partial stress if a flat
-# interface is on nodes
+# Uniform strain: handshake exactly 13/24 and 3/4 in a bar, partial stress zero if a flat interface is on nodes.
 line coupling_patch.csv bar,axial,1,handshake, 6 0.7499 0.7501
 line coupling_patch.csv bar,axial,2,handshake, 6 0.54157 0.54177
 line coupling_patch.csv 'bar,axial,2,partial stress,' 6 0 1e-5
 line coupling_patch.csv 'flat,axial,2,partial stress,isotropic,' 6 0 1e-5
 line coupling_patch.csv '45 degrees,axial,2,partial stress,isotropic,' 6 0.001 0.06
 line coupling_patch.csv 'square,axial,2,partial stress,isotropic,' 6 0.001 0.06
-# second order of bonds, first of the stress of linear cells (inputs/bar_smooth.yaml has 200 and 400 within it)
+# Second order of bonds, first order of the stress of linear cells (inputs/bar_smooth.yaml has 200 and 400).
 line accuracy.csv 'bar,pulse,pd bond,200,' 7 0.004 0.008
 line accuracy.csv 'bar,pulse,pd bond,400,' 7 0.001 0.002
 line accuracy.csv 'bar,pulse,mpm reference,400,' 7 0.007 0.011
 line accuracy.csv 'bar,step,mpm reference,400,' 7 0.02 0.03
-# an oblique interface throws back less of a wave with partial stress
+# An oblique interface reflects less of a wave with partial stress.
 line coupling_plane.csv '45 degrees,16,flip,handshake,isotropic,' 7 0.018 0.030
 line coupling_plane.csv '45 degrees,16,flip,partial stress,isotropic,' 7 0.006 0.017
 
-# Stress-intensity factors, on coarser waves: what is asked of an edge crack on 100 x 100 particles, and of the others
-# what their particles are good for.
+# Stress-intensity factors with coarser waves: required values for an edge crack on 100 x 100 particles, and for the others the accuracy of
+# their resolution.
 cd ../..
 cp "$inputs/edge_crack_k1.yaml" "$inputs/inclined_crack.yaml" "$inputs/load_displacement.yaml" "$inputs/kalthoff_sif.yaml" \
     inputs

@@ -1,13 +1,13 @@
 #!/bin/sh
-# What `cleave check` says of a scene: its memory, what it does not resolve, what it does not need; and that it holds its
-# tongue where there is nothing to say. Run times are not tested: they depend on the load of the machine.
-# Takes 40 s: 150 scenes are set up, some of them of 1e5 particles, whose coarse cells small ones do not have.
+# Output of `cleave check`: memory, unresolved and unnecessary features of a scene; and no output without a cause. Run times are not tested:
+# they depend on the load of the machine.
+# Takes 40 s: 150 scenes are set up, some of them with 1e5 particles, whose coarse cells small scenes do not have.
 test_name=test_check
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# checked SCENE [ARGUMENT...]: writes what check prints into the file `said`. trial: `--no-trial` leaves out run time and memory, which
-# take a second or two of trial steps each time; `costs` sets it to nothing.
+# checked SCENE [ARGUMENT...]: writes the output of check to the file `said`. trial: `--no-trial` omits run time and memory, which need
+# trial steps of a second or two each; `costs` sets it to nothing.
 trial=--no-trial
 checked()
 {
@@ -16,13 +16,13 @@ checked()
     "$cleave" check "$scene" $trial "$@" >"$work/said" 2>"$work/err" || fail "check $scene $*: $(cat "$work/err")"
 }
 
-# says WHAT PATTERN SCENE [ARGUMENT...]: the pattern is in what check prints of the scene. silent: it is not. costs: it is, and trial
-# steps have been taken.
+# says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not. costs:
+# that it is, with trial steps.
 costs() { trial=; says "$@"; trial=--no-trial; }
 says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" grep -q "$pattern" "$work/said"; }
 silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "! grep -q '$pattern' '$work/said'"; }
 
-# ---- what a run takes --------------------------------------------------------------------------------------------------
+# ---- cost of a run -----------------------------------------------------------------------------------------------------
 
 # Within 10 % of the system's high-water mark. Nothing converts in the first five steps.
 for setting in "method=pd" "method=mpm" "method=mpm -s mpm.frame=current" "method=adaptive" "method=pd -s model=mospd"; do
@@ -39,8 +39,8 @@ costs "it is" '^run time' plate_crack -s method=pd
 holds "it is: no other time" sh -c "! grep -q 'were peridynamic' '$work/said'"
 says "no trial" '^time step' plate_crack
 holds "no trial: neither run time nor memory" sh -c "! grep -qE '^(run time|memory)' '$work/said'"
-# What is short is tried as a whole. Nobody tries 1e7 steps, nor says more of them than they are like the first; a step above the
-# critical one fails where it is tried.
+# Short runs are tried completely. 1e7 steps are not tried, and the prediction assumes that all are like the first; a step above the
+# critical one fails in the trial.
 costs "tried" 'run time  *about .* at first; [0-9.e-]* s if all' bar_spall -t 1
 costs "too long to try" 'run time  *at least .* like the first ones, more as particles convert' plate_crack -s duration=1s
 costs "too long, but nothing converts" 'run time  *about .* like the first ones$' plate_crack -s duration=1s -s method=mpm
@@ -52,10 +52,9 @@ is "check writes nothing" "$after" "$before"
 
 # ---- coarse cells ------------------------------------------------------------------------------------------------------
 
-# A plate 200 spacings across, of 133,400 particles; waves go 38.4 spacings in a microsecond. What levels are and save; why there are
-# that many, or none; and where the scene gives too many. The limits are those of the sheet on frequencies: 2.5 cells in a rise, 10 in
-# a pulse, 50 across a body that is loaded suddenly (a warning from 25 on).
-# A disc of radius 20 fills pi 400 squares; boxes say nothing.
+# A plate 200 spacings wide with 133,400 particles; waves travel 38.4 spacings per microsecond. Levels and their savings; why there are that
+# many, or none; and too many levels in the scene. Limits: 2.5 cells in a rise, 10 in a pulse, 50 across a suddenly loaded body (a warning
+# from 25 on). A disc of radius 20 has 400 pi squares; its box does not count.
 cat >"$work/disc.yaml" <<'END'
 space: plane stress
 thickness: 1
@@ -67,8 +66,8 @@ particles: {spacing: 1}
 END
 says "filled" '^filled  *body body: its particles are 12[0-9][0-9] m^3, [0-9.]* % [a-z]* than its shape' "$work/disc.yaml"
 silent "filled: boxes" '^filled' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}'
-# Loads: 20 x 10 m^2 under 3 Pa at the half of a pulse, linear in x towards the end, the weight of 400 m^2; areas of faces that the
-# spacing does not divide; a circle of radius 20, on which steps lie nearer than a tenth of a spacing.
+# Loads: 20 x 10 m^2 under 3 Pa at half of a pulse, linear in x towards the end, the weight of 400 m^2; areas of faces that the spacing does
+# not divide; a circle of radius 20, on which steps are closer than a tenth of a spacing.
 checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'gravity=[0, -10 m/s^2]' -s 'boundary=[
     {traction: [0, 3 Pa], face: y+, region: {box: {from: [10, 0], to: [20, 20]}}, time: {pulse: {until: 1 ms}}, name: a},
     {traction: ["2 Pa*x/(1 m)*t/(1 ms)", 0], face: x+, name: b}, {fixed: [y], region: {box: {from: [0, 0], to: [20, 1]}}, name: c},
@@ -83,7 +82,7 @@ says "area" '20 m^2 (2.56 % more than the face of its box)' "$work/disc.yaml" -s
     -s 'boundary=[{traction: [0, 3 Pa], face: y+}]'
 says "round" 'pressure, [0-9]* particles, 12[56][0-9.]* m^2 0.0[0-9]* spacings [a-z]* the surface of its shape on average; force (0, 0)' \
     "$work/disc.yaml" -s 'boundary=[{pressure: 1 Pa}]'
-# The worst time is no end: a table that goes back, formulas of t, of what is displaced and of forces; a formula without a value.
+# The worst time is not the end: a table that decreases, formulas of t for displacements and forces; a formula without a value.
 checked "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boundary=[
     {traction: ["2 Pa*sin(2*pi*t/(1 ms))", 0], face: x+, name: b},
     {displacement: ["-2 mm*sin(0.75*pi*t/(1 ms))", free], face: x-, depth: 1, region: {box: {from: [0, 10], to: [20, 20]}}, name: f},
@@ -96,12 +95,12 @@ says "formula without value" 'boundary b: its formula has no finite value at ([^
     -s 'body={box: {from: [0, 0], to: [20, 20]}}' -s 'boundary=[{traction: ["2 Pa*sqrt(1-t/(0.5 ms))", 0], face: x+, name: b}]'
 holds "formula without value at the end: the largest force" grep -q '; force (40, 0) N, .* when it is largest, at 0 s$' "$work/said"
 holds "no figure that is none" sh -c "! grep -qE '(nan|inf)[,) ]' '$work/said'"
-# Points of the current frame share no nodes beyond twice their distance: a body of 20 that is pulled by 40, and back.
+# Points of the current frame share no nodes beyond twice their distance: a body of 20 that is extended by 40, and back.
 says "pulled apart on the way" 'pulled to 3[.0-9]* times its length' "$work/disc.yaml" -s 'body={box: {from: [0, 0], to: [20, 20]}}' \
     -s mpm.frame=current -s duration=1s -s 'boundary=[{displacement: ["40 m*sin(pi*t/(1 s))", free], face: x+, depth: 1}, {fixed: [x], face: x-, depth: 1}]'
 
-# Load steps: 19 bonds of one spacing between ends that are driven are all stretched by u/19 mm, over 1 % of limit. Worst times: where
-# the table turns; at the end, where what was pressed is pulled; where sin is 1; where one end goes 0.05 and the other 0.025 mm.
+# Load steps: 19 bonds of one spacing between driven ends are stretched by u/19 mm, above the limit of 1 %. Worst times: at a maximum of the
+# table; at the end, after compression; where sin is 1; where one end moves by 0.05 and the other by 0.025 mm.
 cat >"$work/back.yaml" <<'END'
 space: line
 section: 0.37 cm^2
@@ -166,7 +165,7 @@ costs "few particles made" '^levels  *321536 particles become [0-9]* at first; m
     kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
-# too_coarse WHAT PATTERN ARGUMENT...: check says so, and the run once.
+# too_coarse WHAT PATTERN ARGUMENT...: checks that check reports it, and the run once.
 too_coarse()
 {
     load=$1 words=$2; shift 2
@@ -183,7 +182,7 @@ too_coarse "a ramp of 23 spacings" '3 makes .* want a rise over 40, or a body 40
 silent "a ramp of 23 spacings and cells of 8" 'unresolved: mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'unresolved: mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
 silent "a sudden load and cells of 4" 'unresolved: mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
-# Keys that have no effect.
+# Keys without effect.
 cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"
 says "levels without cells" 'warning: mpm.levels: 2 has no effect, as method pd has no cells' plate_crack -s method=pd $cells
 says "fill without cells" 'warning: mpm.fill: needed has no effect, all particles are made, as method pd' plate_crack -s method=pd $cells
@@ -197,11 +196,11 @@ says "fill without levels" 'warning: mpm.fill: needed has no effect, .* as there
 silent "keys that have none and say so" 'has no effect' plate_crack -s method=pd -s mpm.levels=0 -s conversion.notch=bonds
 silent "keys that have" 'has no effect' "$far" -s mpm.levels=1 -s mpm.fill=needed
 
-# ---- what is not resolved ----------------------------------------------------------------------------------------------
+# ---- not resolved ------------------------------------------------------------------------------------------------------
 
 says "thin plate" 'unresolved: body body: a part of 0.01 m is 1.7 horizons (5 spacings)' kalthoff_winkler_3d
 silent "thick plate" 'unresolved: body' kalthoff_winkler
-# Between rollers families are whole; beside one, the body is twice as thick.
+# Between rollers families are complete; beside one, the body counts twice.
 rollers() { sed "/name: $1/d" inputs/plate_pulse.yaml >"$work/rollers.yaml"; }
 silent "thin between mirrors" 'unresolved: body' plate_impact_3d
 rollers high
@@ -215,7 +214,7 @@ says "a probe at a curved face" 'unresolved: probe rim: it is at a face of body 
 silent "a probe at a flat face" 'unresolved: probe' plate_hole -s 'probes=[{point: {name: side, at: [25 mm, 5 mm]}}]'
 says "short crack" 'unresolved: crack 1 is 0.01 m long, 3.3 horizons' plate_crack -s particles.spacing=1mm
 silent "long crack" 'unresolved: crack' plate_crack
-# What comes from a face has one tip: its length in the body is that of half a crack. Four horizons are 30.7 mm here.
+# A crack from a face has one tip: its length in the body is that of half a crack. Four horizons are 30.7 mm here.
 notched() { sed "s/19 mm\], width/$1 mm], width/" inputs/three_point_bend.yaml >"$work/notched.yaml"; }
 silent "crack from a face" 'unresolved: crack' three_point_bend
 notched 14
@@ -225,16 +224,16 @@ silent "crack through the body" 'unresolved: crack' "$work/notched.yaml"
 says "narrow pulse" 'unresolved: an initial pulse is .* spacings wide' bar_pulse -s particles.spacing=40mm
 silent "wide pulse" 'initial pulse' bar_pulse
 
-# The ends of the plate's crack are between four particles, on their diagonals and longer bonds: six. A tenth of a spacing on
-# they are not.
+# The ends of the plate's crack are midway between four particles, on their diagonals and longer bonds: six. A tenth of a spacing away they
+# are on none.
 says "ends on bonds" 'an end of crack 1 lies exactly on 6 bonds' plate_crack
 sed 's/-5 mm, 0\], to: \[5 mm/-5.05 mm, 0], to: [5.05 mm/' inputs/plate_crack.yaml >"$work/apart.yaml"
 silent "ends between bonds" 'lies exactly on' "$work/apart.yaml"
-# Where plate and projectile meet there are none.
+# None at the contact of plate and projectile.
 checked kalthoff_projectile
 is "ends between bodies" "$(grep -c 'lies exactly on' "$work/said") $(grep -c 'of crack [12] lies exactly on 6 bonds' "$work/said")" "2 2"
 
-# pulled FILE RATE TIME: a plate pulled at its right end.
+# pulled FILE RATE TIME: writes a plate loaded at its right end.
 pulled() { sed "s/RATE/$2/; s/TIME/$3/" "$work/plate.yaml" >"$work/$1.yaml"; }
 cat >"$work/plate.yaml" <<'END'
 space: plane stress
@@ -250,8 +249,8 @@ boundary:
   - {name: right, velocity: [RATE, free], region: {box: {from: [19 mm, 0], to: [20 mm, 10 mm]}}, time: {ramp: {from: 0, until: TIME}}}
 output: {frames: 0, samples: 1}
 END
-# A ramp to 60 m/s in 1 ms: 30 mm on 19 mm between the outermost particles, a stretch of 2.58; the points are two to a cell.
-# Waves run at 33 m/s: 34 spacings while that load rises, 3.4 in a tenth of the time.
+# A ramp to 60 m/s in 1 ms: 30 mm over 19 mm between the outermost particles, a stretch of 2.58; two points per cell. Waves travel at 33
+# m/s: 34 spacings during the ramp, 3.4 in a tenth of the time.
 pulled fast '60 m\/s' '1 ms'
 pulled slow '25 m\/s' '1 ms'
 pulled sudden '25 m\/s' '0.1 ms'
@@ -261,14 +260,14 @@ silent "in time" 'no longer share nodes' "$work/fast.yaml" -s mpm.cell=3
 says "sudden load" 'boundary right changes within 3.3. spacings' "$work/sudden.yaml"
 silent "slow load" 'changes within' "$work/slow.yaml"
 
-# ---- what is not needed ------------------------------------------------------------------------------------------------
+# ---- not needed --------------------------------------------------------------------------------------------------------
 
-# Directed bonds take 0.44 and 0.55 ns in two and three dimensions, ospd 0.75 in two, mospd 2.2 in three.
+# Directed bonds take 0.44 and 0.55 ns in 2D and 3D, ospd 0.75 ns in 2D, mospd 2.2 ns in 3D.
 says "bonds would do" "unneeded: model ospd: .*ratio 0.3333, .* 59 % of the time" plate_crack -s model=ospd
 says "bonds would do in 3D" "unneeded: model mospd: .*ratio 0.25, .* 25 % of the time" kalthoff_winkler_3d -s method=pd -s model=mospd -s pd.surface=none
 silent "bonds would not" 'unneeded: model' plate_crack -s model=ospd -s material.poisson=0.25
-# Edges part at 36 m/s in steel of 192 GPa, 8000 kg/m^3, waves at 5196 m/s: 4 rho c v/E = 0.0312, until they have passed the plate's
-# 0.1 m four times, after 77 us.
+# Edges move at 36 m/s in steel of 192 GPa, 8000 kg/m^3, with waves at 5196 m/s: strain 4 rho c v/E = 0.0312, until the waves have crossed
+# the plate's 0.1 m four times, after 77 us.
 says "reference frame would do" 'unneeded: body body in mpm.frame current: .* strain it by 0.031 at the most.* frame auto$' plate_crack -s mpm.frame=current
 says "who knows how far" 'in mpm.frame current: it meets no other body; ' plate_crack -s mpm.frame=current -s duration=80us
 says "it would but for a key" 'unneeded: body body in mpm.frame current: .* frame reference$' plate_crack -s mpm.transfer=apic
@@ -276,7 +275,7 @@ silent "it does" 'mpm.frame current' plate_crack
 silent "bodies meet" 'mpm.frame current' hopkinson_bar
 says "nothing breaks" 'unneeded: method pd: nothing breaks' bar_step
 silent "bonds meet rigid bodies" 'unneeded: method' slope
-# 4 rho c v = 4 x 1000 kg/m^3 x 33.54 m/s x 25 m/s; they have passed the plate's 20 mm four times after 2.4 ms.
+# 4 rho c v = 4 x 1000 kg/m^3 x 33.54 m/s x 25 m/s; the waves have crossed the plate's 20 mm four times after 2.4 ms.
 says "too slow to break" 'unneeded: method adaptive: waves here reach 3.35e+06 Pa at the most, bonds break at 6e+07 Pa' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60
 silent "waves pile up" 'unneeded: method' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=60 -s duration=3ms
 silent "fast enough" 'unneeded: method' "$work/slow.yaml" -s method=adaptive -s material.critical_stretch=0.1
@@ -304,9 +303,10 @@ says "uneven loads, even sides" 'own mirror image at x' "$work/uneven.yaml"
 sed 's/to: \[5 mm, 0\]/to: [6 mm, 0]/' inputs/plate_crack.yaml >"$work/uneven.yaml"
 silent "crack to one side" 'own mirror image at x' "$work/uneven.yaml"
 
-# ---- what is wrong without being an error --------------------------------------------------------------------------------
+# ---- probable mistakes ---------------------------------------------------------------------------------------------------
 
-# warned WHAT PATTERN SCENE [ARGUMENT...]: check says it, a quiet run says it on standard error and writes it into the summary.
+# warned WHAT PATTERN SCENE [ARGUMENT...]: checks that check reports it, and that a quiet run prints it on standard error and writes it to
+# the summary.
 warned()
 {
     says "$@"
@@ -356,8 +356,8 @@ warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yam
 silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
 "$cleave" run "$two" -q -o "$work/warned" $apart
 is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
-# Weights of bonds near faces require one lattice, beyond mirrors and interfaces, too: a refusal names where it ends.
-# refused WHAT PATTERN SCENE [ARGUMENT...]: check refuses the scene with a line that holds the pattern.
+# Weights of bonds near faces require a single lattice, also beyond mirrors and interfaces: a refusal states where it ends.
+# refused WHAT PATTERN SCENE [ARGUMENT...]: checks that check refuses the scene with a line that contains the pattern.
 refused() { what=$1 pattern=$2; shift 2; "$cleave" check "$@" --no-trial >/dev/null 2>"$work/err"; holds "$what: $(cat "$work/err")" grep -qF "$pattern" "$work/err"; }
 cat >"$work/rows.yaml" <<'END'
 space: plane stress
@@ -381,7 +381,7 @@ refused "rows beside a mirror" 'body body: its lattice does not go on beyond the
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3.5 mm]}}'
 says "rows that fit a mirror" 'is sound' \
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3 mm]}}'
-# A grip that tears off in the trial steps, of which some are taken twice, is one warning.
+# A grip that tears off in the trial steps, some of which are repeated, causes one warning.
 cat >"$work/grip.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -400,7 +400,7 @@ is "a grip tears off on trial: said once" "$(cat "$work/said" "$work/err" | grep
 
 # ---- shocks ----------------------------------------------------------------------------------------------------------
 
-# steel on alumina, whose bonds break at a stretch of 4.8e-4: fronts of 5 m/s
+# Steel on alumina, whose bonds break at a stretch of 4.8e-4: fronts of 5 m/s.
 cat >"$work/strike.yaml" <<'END'
 space: plane strain
 thickness: 3 mm

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Scenes of contact: what inputs/ promises; the same bits on any number of threads and after an interruption; what is refused.
-# Takes 30 s: two solids that a ball goes through and the plate with its projectile are no quicker at the spacings at which they hold.
+# Scenes with contact: results stated in inputs/; bitwise equality on any number of threads and after an interruption; refusals.
+# Takes 30 s: two solids perforated by a ball, and the plate with its projectile, need their spacings for correct results.
 test_name=test_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -20,13 +20,13 @@ done
 wait
 for run in bars_collide discs_collide kalthoff_projectile three_point_bend brazilian_disc ring ball_3 ball_4; do sound $run $pd_balance; done
 
-# An impactor of 30 m/s, both of bonds: as with points, test_scenes.sh.
+# An impactor of 30 m/s, both bodies of bonds; with material points: test_scenes.sh.
 sound spall $pd_balance
 between "hopkinson_bar of bonds: first break" "$(f spall crack.start_time)" 1.00e-3 1.07e-3
 between "hopkinson_bar of bonds: spall" "$(f spall probes.spall.position)" 0.038 0.042
 between "hopkinson_bar of bonds: its speed" "$(f spall probes.spall.speed)" 26 30
 between "bars: duration" "$(compute "$(f bars_collide contact.ended) - $(f bars_collide contact.began)")" 40e-6 42e-6
-# mass 8e-4 kg at -5 m/s
+# Mass 8e-4 kg at -5 m/s.
 between "bars: speed" "$(compute "$(f bars_collide probes.left.x) / -4e-3")" 0.98 1.001
 between "projectile: angle, 63.2 where its face drives the plate" "$(f kalthoff_projectile crack.angle_deg)" 60.2 66.2
 between "projectile: leaves" "$(f kalthoff_projectile contact.ended)" 40e-6 80e-6
@@ -36,12 +36,12 @@ between "beam, notch farther out: none there" "$(f middle crack.tips.0.growth)" 
 between "beam, notch farther out: in the middle" "$(f middle crack.tips.1.origin_x)" -0.01 0.01
 between "disc: along the diameter" "$(f brazilian_disc crack.angle_deg)" 80 100
 between "disc: both jaws bear the same" "$(compute "$(f brazilian_disc rigid.0.force_max) / $(f brazilian_disc rigid.1.force_max)")" 0.999 1.001
-# across the middle, 2 P/(pi D t) of a disc of 50 mm, 10 mm thick, in the sample before the first break
+# Stress across the middle, 2 P/(pi D t) for a disc of 50 mm, 10 mm thick, in the sample before the first break.
 ratio=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); at[$k] = k } }
     NR > 1 && $at["fracture"] == 0 { r = $at["centre.stress_xx"] * 3.14159265 * 0.05 * 0.01 / 2 / $at["upper_force_y"] }
     END { print r }' "$work/brazilian_disc/history.csv")
 between "disc: stress across its middle" "$ratio" 0.97 1.03
-# 2 pi R/S = 33 (Grady & Kipp); nothing is lost: pi (51.5^2 - 48.5^2) mm^2 x 3 mm, as the lattice fills it, within 1 %
+# 2 pi R/S = 33 (Grady & Kipp); no mass is lost: pi (51.5^2 - 48.5^2) mm^2 x 3 mm, within 1 % of the lattice.
 between "ring: fragments" "$(awk -F, 'NR > 1 && $2 > 20' "$work/ring/fragments.csv" | wc -l)" 26 46
 mass=$(awk -F, 'NR > 1 { sum += $3 } END { print sum }' "$work/ring/fragments.csv")
 between "ring: its mass in fragments" "$(compute "($mass + $(f ring fragments.mass_alone)) / 7.6341e-3")" 0.99 1.01
@@ -52,9 +52,9 @@ for run in ball_3 ball_4; do
     between "$run: no energy from nowhere" "$most" 0 1e-3
 done
 
-# ---- bits ------------------------------------------------------------------------------------------------------------
+# ---- bitwise equality ------------------------------------------------------------------------------------------------
 
-# A ball turns as it flies at a plate with a crack; frames, samples, checkpoints.
+# A rotating ball hits a plate with a crack; frames, samples, checkpoints.
 cat >"$work/hit.yaml" <<'E'
 space: plane stress
 thickness: 10 mm
@@ -93,10 +93,10 @@ for friction in 0.3 10; do               # sliding and sticking
     rm -r "$work/stopped" "$work/rub1"
 done
 
-# ---- notches have a width ----------------------------------------------------------------------------------------------
+# ---- width of notches --------------------------------------------------------------------------------------------------
 
-# Two halves of a bar come towards each other at 2 x 1 m/s: a cut without width pushes at once, a notch of 0.2 mm after
-# 0.1 ms, when its faces have come so much nearer (waves from the ends have not come yet).
+# Two halves of a bar approach at 2 x 1 m/s: a cut of zero width has contact at once, a notch of 0.2 mm after 0.1 ms (waves from the ends
+# have not arrived yet).
 cat >"$work/notch.yaml" <<'E'
 space: plane stress
 thickness: 10 mm
@@ -117,7 +117,7 @@ for law in surface pair; do
     if cmp "$work/notch/history.csv" "$work/notch_echo/history.csv"; then pass; else fail "scene.yaml has another notch"; fi
 done
 
-# ---- what is refused, and what stops -----------------------------------------------------------------------------------
+# ---- refusals and stops ------------------------------------------------------------------------------------------------
 
 refused "a mass without rigid" "$work/no" "only rigid bodies have it" "$work/hit.yaml" \
     -s "bodies=[{name: a, mass: 1 kg, shape: {box: {from: [0, 0], to: [9 mm, 9 mm]}}}]"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Contact at its limits: light and heavy rigid bodies, weights, interfaces; what is refused, what warns, what stops.
+# Contact in extreme cases: light and heavy rigid bodies, weights, interfaces; refusals, warnings, stops.
 test_name=test_contact_limits
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -22,8 +22,8 @@ alone="bodies=[{name: a, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}]"
 
 # ---- rigid bodies ------------------------------------------------------------------------------------------------------
 
-# The lighter it is the faster contact shakes it: its mass counts in the step. Without, 0.02 g gained 10 %, 1 mg 78 %; what the
-# step gives at the ends of contact is below 0.4 %.
+# A lighter body oscillates faster in contact: its mass counts in the time step. Otherwise 0.02 g would gain 10 % of energy, 1 mg 78 %; the
+# gain at the ends of contact is below 0.4 %.
 for mass in 0.1 0.02 0.001; do
     calm "$work/light" "$work/plate.yaml" --overwrite -s bodies.1.mass="$mass g"
     most=$(awk -F, 'NR > 1 && $8 > most { most = $8 } END { print most + 0 }' "$work/light/history.csv")
@@ -31,13 +31,13 @@ for mass in 0.1 0.02 0.001; do
     between "a body of $mass g: momentum" "$(figure "$work/light" momentum_error)" 0 1e-12
 done
 
-# A weight falls by F t^2/(2 m), which the leap-frog scheme hits exactly; 1/2 m v- . v+ is smaller than 1/2 m v^2 by the share
-# dt^2/(4 t^2) of it, 1.3e-6.
+# A weight falls by F t^2/(2 m), exactly in the leap-frog scheme; 1/2 m v- . v+ is smaller than 1/2 m v^2 by a fraction dt^2/(4 t^2),
+# 1.3e-6.
 calm "$work/fall" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, mass: 2 g, force: [0, 400 N], shape: {box: {from: [0, 30 mm], to: [9 mm, 40 mm]}}}')"
 between "a weight falls" "$(compute "($(last fall p_y) - 0.035) / (0.5 * 400 / 2e-3 * 60e-6 * 60e-6)")" 0.999999 1.000001
 between "a weight: energy" "$(figure "$work/fall" energy.balance_error)" -2e-6 2e-6
-# It rests on a held block: what contact bears is, over some periods, the weight.
+# A weight rests on a fixed block: the mean contact force over some periods is the weight.
 calm "$work/rest" "$work/plate.yaml" -s duration=600us \
     -s "boundary=[{fixed: all, region: {box: {from: [0, 0], to: [20 mm, 3 mm]}}}]" \
     -s "$(bodies '{name: p, rigid: true, mass: 0.1 g, force: [0, -400 N], shape: {box: {from: [-5 mm, 10 mm], to: [25 mm, 12 mm]}}}')"
@@ -71,7 +71,7 @@ wait
 between "slope: momentum, over m g (sin - mu cos) t" "$(compute "$(f slide probes.block.x) / 0.03932")" 0.95 1.05
 between "slope: what the floor bears" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == "floor_force_y") at = k } }
     $1 > 3e-4 { sum -= $at; n++ } END { print sum / n }' "$work/slide/history.csv")" 181 213
-# half of the patch less sqrt(4 F R/(pi t E)), over the spacing
+# Half of the contact patch minus sqrt(4 F R/(pi t E)), over the spacing.
 force=$(last squeezed lower_force_y)
 between "a disc between planes: half width" "$(awk -v f="$force" -v w="$(f squeezed rigid.0.patch)" 'BEGIN { f = f < 0 ? -f : f
     print (w / 2 - sqrt(4 * f * 20e-3 / (3.14159265 * 1e-3 * 200e9))) / 0.5e-3 }')" -1 1
@@ -93,15 +93,15 @@ refused "joined bodies that are apart" "$work/no" "farther apart than the horizo
 refused "two interfaces of two bodies" "$work/no" "have an interface already" "$work/plate.yaml" -s "$(pair 10)" \
     -s "interfaces=[{bodies: [a, b]}, {bodies: [b, a], joined: false}]"
 refused "a rigid body that is joined" "$work/no" "is rigid" "$work/plate.yaml" -s "interfaces=[{bodies: [a, p]}]"
-# Bodies that are joined have faces all the same: an arm beats on the other, beyond the horizon.
+# Joined bodies have contact faces too: one arm hits the other, beyond the horizon.
 calm "$work/arms" "$work/plate.yaml" -s duration=100us -s "boundary=[{fixed: all, region: {box: {from: [0, 0], to: [24 mm, 4 mm]}}}]" \
     -s "interfaces=[{bodies: [a, b]}, {bodies: [b, c]}]" \
     -s "bodies=[{name: a, shape: {box: {from: [0, 0], to: [20 mm, 4 mm]}}}, {name: b, shape: {box: {from: [20 mm, 0], to: [24 mm, 10 mm]}}}, {name: c, velocity: [0, -200 m/s], shape: {box: {from: [0, 8 mm], to: [20 mm, 10 mm]}}}]"
 between "arms of a joined body meet" "$(figure "$work/arms" contact.pairs_max)" 1 1000
 
-# ---- bonds that are squeezed -------------------------------------------------------------------------------------------
+# ---- compressed bonds --------------------------------------------------------------------------------------------------
 
-# A bar of which no bond breaks, to half its length at 0.8 of the critical step: cores are no stiffer than the step bears.
+# A bar without breaking bonds is compressed to half its length at 0.8 of the critical step: the repulsion within bonds is stable.
 cat >"$work/press.yaml" <<'E'
 space: line
 section: 1 mm^2

@@ -1,11 +1,11 @@
 #!/bin/sh
-# `cleave converge`: error bars that hold known answers, a budget that is kept, refusals.
+# `cleave converge`: error bars that contain known answers, budget, refusals.
 test_name=converge
 . tests/support/summary.sh
 inputs=$root/inputs
 cd "$work" || exit 1
 
-# value FIGURE COLUMN: of converge.csv in $folder.
+# value FIGURE COLUMN: prints an entry of converge.csv in $folder.
 value()
 {
     awk -F, -v figure="$1" -v column="$2" '
@@ -13,10 +13,10 @@ value()
         $1 == figure { print $at }' "$folder/converge.csv"
 }
 
-# ---- a bar that is pulled: the time at which its end has moved is known ------------------------------------------------
+# ---- a bar under traction, with known energy ---------------------------------------------------------------------------
 
-# Energy of a bar of plane stress under a step of traction sigma on its end: while the wave is on its way the work is
-# sigma^2 A c t/E with c = sqrt(E/rho) for a bar of Poisson's ratio 0; after 4 us of 20 mm in steel c t is short of the other end.
+# Energy of a bar in plane stress under a step of traction sigma on its end: the work is sigma^2 A c t/E with c = sqrt(E/rho) for Poisson's
+# ratio 0; at 4 us the wave in 20 mm of steel has not reached the other end.
 cat >bar.yaml <<'END'
 space: line
 duration: 3 us
@@ -37,19 +37,19 @@ high=$(compute "$(value energy.external_work value) + $(value energy.external_wo
 between "work of a step, its interval from below" "$low" 0 "$exact"
 between "and from above" "$high" "$exact" 1e9
 between "and not wide" "$(value energy.external_work uncertainty)" 0 "$(compute "0.2 * $exact")"
-is "levels" "$(head -n 1 bar/converge.csv | tr , '\n' | grep -c '^spacing_')" 4    # three, and spacing_moves
+is "levels" "$(head -n 1 bar/converge.csv | tr , '\n' | grep -c '^spacing_')" 4    # three levels, and spacing_moves
 grep -q '^energy.external_work \[J\]$' out && pass || fail "what is printed: $(cat out)"
 holds "a picture" test -s bar/pictures/convergence.png
 is "runs" "$(ls bar | grep -c '^spacing')" 16       # five at each spacing, one with a longer horizon
 is "what the user gave stays" "$(grep -c '^method: pd' bar/spacing*/scene.yaml | grep -c ':1$')" 16
 
-# the same again: nothing runs, the same table
+# Repeated: nothing runs, and the table is equal.
 cp bar/converge.csv before.csv
 "$cleave" converge bar.yaml -o bar >again 2>err
 is "again" $? 0
 holds "the same table" cmp -s bar/converge.csv before.csv
 
-# a budget that leaves room for finer spacings is used for them; the scene's own keeps its interval, which holds the answer
+# A larger budget is used for finer spacings; the scene's own spacing keeps its interval, which contains the answer.
 "$cleave" converge bar.yaml -o finer --budget 60 -q >out
 folder=finer
 grep -q "at the scene's own 0.1996 mm" out && pass || fail "the scene's own: $(cat out)"
@@ -71,7 +71,7 @@ grep -q "scatter not known, by one run" out && pass || fail "one run: $(cat out)
 "$cleave" converge bar.yaml -o limit -s time.safety=1 -q >out
 is "no two runs are equal" "$(cat limit/spacing*/scene.yaml | grep -c '^time')" "$(for run in limit/spacing*; do cksum <"$run/scene.yaml"; done | sort -u | wc -l | tr -d ' ')"
 
-# ---- a run knows of a study beside it --------------------------------------------------------------------------------
+# ---- a run uses a study beside it ------------------------------------------------------------------------------------
 
 "$cleave" converge bar.yaml -o runs/bar_converge --runs 1 -q >out
 "$cleave" run bar.yaml -o runs/bar -q
@@ -80,13 +80,13 @@ near "in its summary" "$(figure runs/bar 'uncertainty.energy.external_work')" "$
 "$cleave" run bar.yaml -o runs/other -q -s particles.horizon=2.015
 absent "not in that of another scene" "$(figure runs/other 'uncertainty.energy.external_work')"
 
-# A scene that is not called as its file: study and run have folders of its own name, where they find each other.
+# A scene whose name differs from its file's: study and run are in folders of the scene's name, where they find each other.
 { echo 'name: rod'; cat bar.yaml; } >named.yaml
 "$cleave" converge named.yaml --runs 1 -q >out
 folder=results/rod_converge
 "$cleave" run named.yaml -q
 near "by the scene's name" "$(figure results/rod 'uncertainty.energy.external_work')" "$(value energy.external_work uncertainty_0)" 5e-3
-# Its folder is no other scene's, unless that replaces it.
+# Its folder refuses another scene, unless that scene replaces it.
 "$cleave" converge bar.yaml -o results/rod_converge -s duration=2us --runs 1 -q >out 2>err
 is "status of another scene" $? 2
 grep -q "results/rod_converge holds a study of another scene" err && pass || fail "another scene: $(cat err)"
@@ -96,14 +96,14 @@ is "replaced" $? 0
 near "work of a shorter time" "$(value energy.external_work value)" "$(compute "$before * 2 / 3")" 0.02
 is "its unit" "$(value energy.external_work unit)" J
 
-# ---- what runs warn of -----------------------------------------------------------------------------------------------
+# ---- warnings of runs ------------------------------------------------------------------------------------------------
 
 "$cleave" converge bar.yaml -o warned -s method=mpm -s mpm.cell=1 --runs 1 -q >out 2>err
 is "warnings in a line" "$(grep -c '^warning: in 3 of 3 runs: one point a cell' err) $(wc -l <err | tr -d ' ')" "1 1"
 
 # ---- paths of tips ---------------------------------------------------------------------------------------------------
 
-# The longest tip of a centre crack is now at one end, now at the other, 10 mm off: each has a line of its own. gnuplot's input is kept.
+# The longest tip of a centre crack alternates between its ends, 10 mm apart: each has a line of its own. gnuplot's input is recorded.
 mkdir bin
 printf '#!/bin/sh\nexec tee -a "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >bin/gnuplot
 chmod +x bin/gnuplot
@@ -112,7 +112,7 @@ is "both ends are drawn, no line between them" "$(awk '/^\$w/ { last = "" } /^(E
     NF == 2 && $1 ~ /^-?[0-9.]+$/ && path { side = $1 < 0; if (last != "" && side != last) jumps++; last = side; seen[side] = 1 }
     /<< EOD/ { path = /^\$w/ } END { print jumps + 0, seen[0] + seen[1] }' drawn)" "0 2"
 
-# of single runs means are the runs; spacings are in millimetres
+# Means of single runs are the runs; spacings are in millimetres.
 points() { awk -v set="\$$1" '$1 == set { at = 1; next } $1 == "EOD" { at = 0 } at { print $1, $2 }' drawn | sort -g; }
 is "means of single runs" "$(points m0)" "$(points r0)"
 spacing=$(sed -n 's/^ *spacing: \([0-9.e-]*\).*/\1/p' "$(ls -d tips/spacing*/ | head -n 1)scene.yaml")
@@ -120,7 +120,8 @@ holds "a spacing in mm: $spacing m" grep -q "^$(compute "1e3 * $spacing" | cut -
 
 # ---- known answers ---------------------------------------------------------------------------------------------------
 
-# 33 figures of bars and plates; single runs of a spacing differ in nothing here, so that chance has no part: 29 or more of them hold.
+# 33 figures of bars and plates; single runs at a spacing do not differ here, so that there is no random error: at least 29 intervals
+# contain the answer.
 "$cleave" bench uncertainty --quick >out
 held=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
     { d = $at["value"] - $at["exact"]; if (d < 0) d = -d; n++; held += d <= $at["uncertainty"] } END { print held / n }' results/bench/uncertainty.csv)
@@ -128,9 +129,9 @@ between "share of known answers held" "$held" 0.87 1
 
 # ---- budget ----------------------------------------------------------------------------------------------------------
 
-# At 0.0005 mm a run takes a second: three seconds leave room for coarser spacings only, which it says.
+# At 0.0005 mm a run takes a second: three seconds suffice only for coarser spacings, which is reported.
 "$cleave" converge bar.yaml -o dear -s particles.spacing=0.0005mm --budget 3 >out 2>err
-case $? in                               # a busy machine may have no time for any
+case $? in                               # a busy machine may have time for none
     0) grep -q "would take longer than the budget" err && pass || fail "coarser: $(cat err)" ;;
     *) grep -q -e "are too little" -e "no figure has a value at every spacing" err && pass || fail "too dear: $(cat err)" ;;
 esac
@@ -156,12 +157,12 @@ refused "cleave sweep varies keys" bar.yaml -s method=pd,mpm -o none
 refused "unknown option" bar.yaml --list -o none
 refused "unknown key" bar.yaml -s nonsense=1 -o none
 holds "nothing is left behind" test ! -e none
-# A wrong figure is refused before anything runs; the nearest is named.
+# A wrong figure is refused before anything runs; the most similar name is stated.
 refused "summary.json has no such figure" bar.yaml --of nonsense -o none
 refused "the nearest is crack.angle_deg" bar.yaml --of crack.angel_deg -o none
 refused "no such figure" bar.yaml --of probes.tip.x -o none
 holds "nothing has run" test ! -e none
-# The names that are known are those that summaries are written with.
+# The known names are those with which summaries are written.
 grep -ho 'json_\(real\|count\|number\)(j, "[a-z_]*"' "$root/src/engine/summary.c" | sed 's/.*"\(.*\)"/\1/' >written
 grep -ho 'probes_figures_put(e, "[a-z_]*"' "$root/src/probes/probes_figures.c" | sed 's/.*"\(.*\)"/\1/' >>written
 cat "$root"/src/probes/*.c | tr '\n' ' ' | grep -o 'struct column \(sif\|rigid\)_figure\[[^;]*;' | grep -o '{"[A-Za-z_0-9]*"' | tr -d '{"' >>written

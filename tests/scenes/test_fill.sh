@@ -1,5 +1,5 @@
 #!/bin/sh
-# Particles only where they are needed (mpm.fill): the same run as with all of them, on any number of threads, after interruptions.
+# Particles only where they are needed (mpm.fill): results equal to those with all particles, on any number of threads, after interruptions.
 test_name=test_fill
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -8,8 +8,8 @@ test_name=test_fill
 
 alike() { between "$1" "$(awk -v a="$2" -v b="$3" 'BEGIN { print (a - b) / a }')" "-$4" "$4"; }
 
-# The struck plate at 0.5 mm: cracks run into cells that had no particles. Forces are the same; sums over particles are taken in other
-# groups, which changes round-off.
+# Kalthoff's plate at 0.5 mm: cracks run into cells that had no particles. Forces are equal; sums over particles have another grouping,
+# which changes round-off.
 plate="inputs/kalthoff_winkler.yaml -s particles.spacing=0.5mm -s time.step=0.05us -s duration=40us -s mpm.levels=3 -s output.frames=4"
 calm "$work/all" $plate -s mpm.fill=all
 calm "$work/needed" $plate -s mpm.fill=needed -t 1
@@ -25,7 +25,7 @@ twice_interrupted "$work/stopped" 30 60 $plate -s mpm.fill=needed
 calm "$work/stopped" -t 2 --resume $plate -s mpm.fill=needed
 same "on 2 threads, interrupted after 30 and 60 lines" "$work/needed" "$work/stopped"
 
-# Contact of faces that have broken goes on where particles are added, and its forces are in frames after that.
+# Contact of broken faces continues where particles are added, and its forces are in frames afterwards.
 rubs="inputs/kalthoff_winkler.yaml -s particles.spacing=1mm -s duration=44us -s mpm.levels=2 -s conversion.criteria=[bond,stress] -s output.frames=2"
 for fill in all needed; do calm "$work/rubs_$fill" $rubs -s mpm.fill=$fill; done
 between "rubs: particles made" "$(f rubs_needed particles_made)" 15000 19000         # of 20150
@@ -35,7 +35,8 @@ for figure in contact.began contact.ended contact.overlap_max energy.kinetic; do
 done
 holds "rubs: contact forces in the last frame" grep -q contact_force "$work/rubs_needed/frames/000002.hdf"
 
-# Tractions on faces, a family of states, a mirror between nodes of coarse cells: what loads and mirrors need is made.
+# Tractions on faces, a state-based family, a mirror midway between nodes of coarse cells: the particles that loads and mirrors need are
+# created.
 cat >"$work/pulled.yaml" <<EOF2
 space: plane strain
 thickness: 1 mm
@@ -59,7 +60,7 @@ for figure in energy.kinetic energy.strain energy.external_work conversion.pd_sh
     alike "pulled, $figure" "$(f pulled $figure)" "$(f pulled_needed $figure)" 1e-9
 done
 
-# Half of the struck plate behind a mirror: images of particles that are made later, and states of families.
+# Half of Kalthoff's plate behind a mirror: images of particles that are created later, and states of families.
 cat >"$work/half.yaml" <<EOF2
 space: plane stress
 thickness: 10 mm
@@ -86,7 +87,7 @@ for figure in crack.length_end energy.kinetic energy.strain energy.fracture; do
     alike "half: $figure" "$(f half $figure)" "$(f half_needed $figure)" 1e-9
 done
 
-# A ring of sif in cells of eight spacings, which a plane pulse crosses: its particles are made, and stay when cells change.
+# A sif ring in cells of eight spacings, crossed by a plane pulse: its particles are created, and stay when cells change.
 cat >"$work/field.yaml" <<EOF2
 space: plane strain
 thickness: 1 mm
@@ -112,8 +113,8 @@ done
 calm "$work/ring_moves" "$work/field.yaml" -s material.energy_release_rate=1e9 -s mpm.fill=needed -s output.samples=2
 between "a ring that may move: all are made" "$(f ring_moves particles_made)" 20000 20000
 
-# A slit across the lattice whose flanks convert before cells change, and a driven band that becomes coarse and breaks: what
-# slits divide and what is driven are those of the start, and cells that bonds have taken stay.
+# A slit oblique to the lattice whose flanks convert before cells change, and a driven band that becomes coarse and breaks: points divided
+# by slits and driven points are those of the start, and cells taken by bonds stay.
 cat >"$work/slanted.yaml" <<EOF2
 space: plane stress
 thickness: 1 mm

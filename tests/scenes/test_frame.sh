@@ -1,6 +1,6 @@
 #!/bin/sh
-# Bodies in the reference frame (mpm.frame): beside peridynamics and closed forms, on any number of threads, after any
-# interruption; and what cannot be there is refused.
+# Bodies in the reference frame (mpm.frame): compared with peridynamics and closed forms, on any number of threads, after any interruption;
+# refusals.
 test_name=test_frame
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -9,9 +9,9 @@ test_name=test_frame
 seed=${SEED:-$(date +%s)}
 mesh="-s mpm.frame=reference"
 
-# ---- the same bits ---------------------------------------------------------------------------------------------------
+# ---- bitwise equality ------------------------------------------------------------------------------------------------
 
-# (weights of surfaces, half of the time of a solid: test_trust.sh)
+# (Weights of surfaces, half of the time of a solid: test_trust.sh.)
 for scene in flat solid; do
     surface=$([ $scene = solid ] && echo "-s pd.surface=none")
     eval "arguments=\"\$$scene $mesh $surface\""
@@ -24,10 +24,10 @@ twice_interrupted "$work/stopped" 12 60 $flat $mesh
 calm "$work/stopped" -t 3 --resume $flat $mesh
 same "on 2 threads, interrupted after 12 and 60 lines" "$work/flat1" "$work/stopped"
 
-# ---- large stretch -----------------------------------------------------------------------------------------------------
+# ---- large extension ---------------------------------------------------------------------------------------------------
 
-# A soft strip is drawn out to twice its length, slowly: the force is that of the law at every stretch, E (stretch - 1) A but for the
-# grips, that hold the width (1.5 to 3 %). Points in the current frame come apart from 10 % on: it is said before.
+# A soft strip is slowly extended to twice its length: the force is that of the law, E (stretch - 1) A, up to the effect of the grips on the
+# width (1.5 to 3 %). Points in the current frame separate from 10 % on, which is reported before.
 cat >"$work/strip.yaml" <<'END'
 space: plane stress
 thickness: 0.7 mm
@@ -53,8 +53,8 @@ holds "strip: stretch in the current frame is said" grep -q 'points in mpm.frame
 
 # ---- the last sample ---------------------------------------------------------------------------------------------------
 
-# Rough motion at the end of a run: kinetic energy there is that of the kick to come, as in all samples before; carried on from the two
-# velocities before it was 3 to 12 % off.
+# Irregular motion at the end of a run: the kinetic energy there is that of the next velocity update, as in all samples before;
+# extrapolation from the two previous velocities would be 3 to 12 % off.
 cat >"$work/rough.yaml" <<'END'
 space: plane strain
 thickness: 1 mm
@@ -75,13 +75,13 @@ for method in pd adaptive; do
     between "rough $method: balance at the end" "$(figure "$work/rough_$method" energy.balance_error)" -2e-3 2e-3
 done
 
-# ---- a pulse over an interface ---------------------------------------------------------------------------------------
+# ---- a pulse through an interface ------------------------------------------------------------------------------------
 
-# Published for none. Any symmetric coupling that keeps uniform strain and the masses reflects, of long waves, by the wave number k
-# [1/D] and with h_PD^2 = 6 D^2, h = 2 D,
+# There is no published value. A symmetric coupling that preserves uniform strain and masses reflects long waves of wave number k [1/D],
+# with h_PD^2 = 6 D^2, h = 2 D, by
 #     R = k^2 ((h_PD^2 - h^2)/16 - h_PD^2/12 - 1/24) = -5/12 k^2:
-# a little by two dispersions, which alone give 0.29 and 0.10 %, and most as bonds end between particles, cells on a node. Of the
-# pulses here 0.97 and 0.32 % come back, as a chain joined to cells does by matched plane waves; nothing is lost.
+# a small part due to the two dispersions, which alone cause 0.29 and 0.10 %, and most because bonds end between particles and cells on a
+# node. The pulses here reflect 0.97 and 0.32 %, equal to a chain joined to cells with matched plane waves; no energy is lost.
 for width in 32 64; do
     calm "$work/pulse$width" inputs/bar_pulse.yaml $mesh -s "initial[0].pulse.width=$width mm"
 done
@@ -89,9 +89,9 @@ between "pulse of 32 spacings: reflected" "$(figure "$work/pulse32" probes.pulse
 between "pulse of 64 spacings: reflected" "$(figure "$work/pulse64" probes.pulse.reflected)" 0.001 0.004
 between "pulse of 32 spacings: energy" "$(figure "$work/pulse32" probes.pulse.energy_change)" -1e-6 1e-6
 
-# Pulses that come out of the bonds, at 1.2 spacings over the wave's speed a step: 1.7, 0.93, 0.31, 0.08 % by a
-# prototype of nodal states, 1.69, 0.93, 0.31, 0.09 here; bounds are what the prototype leaves room for. Smaller steps disperse the
-# shortest pulse before it is there (2.1 % at 0.2), larger ones the cells (2.1 % at 1.6).
+# Pulses from the bonds, with steps of 1.2 spacings over the wave speed: 1.7, 0.93, 0.31, 0.08 % in a prototype of nodal states, 1.69, 0.93,
+# 0.31, 0.09 here; limits follow the prototype. Smaller steps disperse the shortest pulse before it arrives (2.1 % at 0.2), larger ones the
+# cells (2.1 % at 1.6).
 bonds="-s initial[0].pulse.at=[0.768] -s initial[0].pulse.direction=[-1] -s probes[0].pulse.direction=[-1]"
 for row in 16:0.019 32:0.010 64:0.0035 128:0.001; do
     width=${row%:*}
@@ -99,10 +99,10 @@ for row in 16:0.019 32:0.010 64:0.0035 128:0.001; do
     between "pulse of $width spacings out of bonds: reflected" "$(figure "$work/back$width" probes.pulse.reflected)" 0.0005 "${row#*:}"
 done
 
-# ---- a mirror half-way between two nodes -----------------------------------------------------------------------------
+# ---- a mirror midway between two nodes -------------------------------------------------------------------------------
 
-# An odd number of particles and cells of two: errors of second order, as on a node: 2.4e-9 and 5.7e-10 m measured, 3.7 and 0.9 %
-# of the motion. A plane that is not felt leaves 1.5e-8 m on any mesh.
+# An odd number of particles with cells of two: second-order errors, as on a node: 2.4e-9 and 5.7e-10 m measured, 3.7 and 0.9 % of the
+# motion. Without the plane the error is 1.5e-8 m on any mesh.
 for n in 25 51; do
     calm "$work/odd$n" inputs/bar_converge.yaml $mesh -s particles.spacing=1/$n -s time.step=auto
 done
@@ -112,8 +112,8 @@ between "51 particles between mirrors: momentum" "$(figure "$work/odd51" momentu
 
 # ---- uniform strain across an interface ------------------------------------------------------------------------------
 
-# With the constants of the lattice what bonds carry and what cells carry is the same but for squares of the strain, 1e-6 here.
-# With isotropic ones and uniform weights the difference of both shows (C11 +1.1 %, C12 -3.4 %).
+# With lattice constants the stresses of bonds and cells agree up to squares of the strain, 1e-6 here. With isotropic constants and uniform
+# weights their difference is visible (C11 +1.1 %, C12 -3.4 %).
 scene patch <<'END'
 space: plane stress
 thickness: 1 mm
@@ -135,12 +135,11 @@ landed
 between "patch, constants of the lattice" "$(f patch_lattice probes.patch.residual_max)" 0 1e-6
 between "patch, isotropic constants" "$(f patch_isotropic probes.patch.residual_max)" 1e-3 0.04
 
-# ---- a spinning square -----------------------------------------------------------------------------------------------
+# ---- a rotating square -----------------------------------------------------------------------------------------------
 
-# A tenth of a turn at 10 m/s (see test_physics.sh), here with the edge node's bias of current-frame grids gone: centrifugal stress of
-# rho v^2/2 = 0.4 MPa and nothing beside it; the body grows by some rho v^2/E = 4e-6 and falls behind as much. Angular momentum is
-# that of the nodes; summed over points it follows what happens within cells, (h/L)^2 of that. At small strain points go straight
-# on: tan(angle) = 0.628.
+# A tenth of a revolution at 10 m/s (see test_physics.sh), without the error of edge nodes in current-frame grids: only the centrifugal
+# stress rho v^2/2 = 0.4 MPa; the body expands by about rho v^2/E = 4e-6 and lags by the same. Angular momentum is that of the nodes; summed
+# over points it includes motion within cells, a fraction (h/L)^2. At small strain points move on straight lines: tan(angle) = 0.628.
 scene spin <<'END'
 space: plane stress
 thickness: 1 mm
@@ -162,11 +161,11 @@ between "spin: angular momentum" "$(f spin probes.rigid.angular_momentum_error)"
 between "spin: kinetic energy" "$(f spin probes.rigid.kinetic_energy_error)" -1e-4 1e-4
 near "spin at small strain must fail: angle" "$(f spin_small probes.rigid.angle)" 0.560982 1e-3
 
-# The plate with a crack, beside full peridynamics: test_scenes.sh.
+# The plate with a crack is compared with full peridynamics in test_scenes.sh.
 
 # ---- models with rotations -------------------------------------------------------------------------------------------
 
-# Bonds off their line leave skew stress, which appears with the first conversion: a plate that starts without bonds.
+# Bonds with forces off their line leave antisymmetric stress, which appears with the first conversion: a plate that starts without bonds.
 calm "$work/hole" inputs/plate_hole.yaml $mesh -s model=mospd -s pd.surface=none -s particles.spacing=1mm -s duration=20us
 between "a hole, model with rotations: converted" "$(figure "$work/hole" conversion.pd_share_max)" 0.01 0.2
 between "a hole, model with rotations: momentum" "$(figure "$work/hole" momentum_error)" 0 1e-12
@@ -187,16 +186,16 @@ refuses "one unified grid" inputs/plate_crack.yaml $mesh -s coupling=pmg
 refuses "yielding" inputs/bar_plastic.yaml $mesh -s method=mpm -s mpm.cell=2
 refuses "two bodies that touch" inputs/hopkinson_bar.yaml $mesh
 
-# ---- left to auto ----------------------------------------------------------------------------------------------------
+# ---- choice by auto --------------------------------------------------------------------------------------------------
 
-# chooses FRAME REASON SCENE [ARGUMENT...]: what check says of it.
+# chooses FRAME REASON SCENE [ARGUMENT...]: checks the choice that check reports.
 chooses()
 {
     what="auto: $1, $2" frame="^frame .*: $1, as .*$2"; shift 2
     "$cleave" check --no-trial "$@" >"$work/out" 2>"$work/err" || fail "$what: $(cat "$work/err")"
     holds "$what" grep -q "$frame" "$work/out"
 }
-# The default is auto. What means nothing in the reference frame asks for the other.
+# The default is auto. Keys without meaning in the reference frame select the current frame.
 crack=inputs/plate_crack.yaml
 few="-s particles.spacing=1mm -s duration=1us"
 chooses reference "keeps its neighbours" $crack $few
@@ -214,8 +213,8 @@ chooses current "bodies meet" inputs/hopkinson_bar.yaml
 chooses reference "the scene says so" $crack $few -s mpm.frame=reference -s mpm.transfer=flip
 "$cleave" check --no-trial $crack $few -s method=pd >"$work/out"
 holds "auto: nothing to choose in peridynamics" sh -c "! grep -q '^frame' '$work/out'"
-# Halves of one body that fly at each other: where they share no node they would pass through each other. A narrower gap is bridged by the
-# cells of either frame.
+# Halves of one body that collide: without common nodes they would pass through each other. A narrower gap is bridged by the cells of either
+# frame.
 scene halves <<'END'
 space: plane stress
 thickness: 1 mm
@@ -234,7 +233,7 @@ printf 'x,y,volume\n0.5e-3,0.5e-3,1e-9\n1.5e-3,0.5e-3,1e-9\n' >"$work/list.csv"
 sed 's/^body: .*/bodies: [{particles: list.csv}]/' "$work/halves.yaml" >"$work/list.yaml"
 chooses current "list" "$work/list.yaml"
 
-# The scene as run, run again, is in the same frame: what only one of them knows is written out where it was chosen.
+# The scene as run, run again, is in the same frame: keys that only one frame has are written only when it was chosen.
 for keys in "" "-s mpm.transfer=apic"; do
     rm -rf "$work/once" "$work/again"
     calm "$work/once" $crack -s particles.spacing=1mm -s output.frames=2 $keys

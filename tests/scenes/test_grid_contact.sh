@@ -1,17 +1,17 @@
 #!/bin/sh
-# Bodies of material points that meet: each has its grid, they bounce, rub and part; the same bits on any number of threads.
+# Contact of bodies of material points: each has its own grid; they rebound, rub and separate; bitwise equality on any number of threads.
 test_name=test_grid_contact
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 points="-s method=mpm -s mpm.frame=current"
 
-# grows RUN: largest energy above that of the start, over the largest sum.
+# grows RUN: prints the largest energy above the initial one, over the largest sum.
 grows() { awk -F, 'NR > 1 && $8 > most { most = $8 } END { print most + 0 }' "$work/$1/history.csv"; }
 
-# ---- against closed forms ----------------------------------------------------------------------------------------------
+# ---- closed forms ------------------------------------------------------------------------------------------------------
 
-# Equal bars at +-5 m/s, 8e-4 kg/m: they exchange their speeds in 2 L/c = 40 us (contact of a first cell: 0 to 5 % more).
+# Equal bars at +-5 m/s, 8e-4 kg/m: they exchange their speeds in 2 L/c = 40 us (0 to 5 % longer because of the first cell).
 for transfer in flip apic; do start bars_$transfer bars_collide $points -s mpm.transfer=$transfer; done
 wait
 for transfer in flip apic; do
@@ -21,8 +21,8 @@ for transfer in flip apic; do
     between "bars, $transfer: no energy from nowhere" "$(grows bars_$transfer)" 0 1e-3
 done
 
-# Discs of 20 spacings, 10 cells, meet aslant: b = R. Without friction they keep their tangential speeds (6 % more: the line of
-# centres turns by 1.6 degrees meanwhile) and exchange the normal ones; rough ones that roll keep 2/3 of the tangential speed.
+# Discs of 20 spacings, 10 cells, collide obliquely: b = R. Without friction they keep their tangential speeds (6 % more: the line of
+# centres rotates by 1.6 degrees meanwhile) and exchange the normal ones; rough discs that roll keep 2/3 of the tangential speed.
 disc="probes=[{momentum: {name: left, region: {disc: {centre: [-17.45 mm, -10.075 mm], radius: 20.1 mm}}}}]"
 for friction in 0 10; do start discs_$friction discs_collide $points -s "$disc" -s contact.friction=$friction; done
 wait
@@ -39,7 +39,7 @@ for friction in 0 10; do
     between "discs, friction $friction: balance" "$(f discs_$friction energy.balance_error)" -0.005 0.005
 done
 
-# A striker of L on a bar of 2 L at rest: it stops, the bar has half its speed.
+# A striker of length L hits a bar of 2 L at rest: it stops, and the bar has half its speed.
 cat >"$work/striker.yaml" <<'E'
 space: line
 section: 1 mm^2
@@ -56,7 +56,7 @@ E
 calm "$work/striker" "$work/striker.yaml"
 between "striker: what it keeps" "$(compute "$(f striker probes.striker.x) / 8e-3")" -0.02 0.05
 
-# ---- three bodies, bits ------------------------------------------------------------------------------------------------
+# ---- three bodies, bitwise equality ------------------------------------------------------------------------------------
 
 cat >"$work/three.yaml" <<'E'
 space: plane stress
@@ -82,17 +82,17 @@ between "three bodies: they part" "$(f bits1 contact.ended)" 20e-6 60e-6
 interrupted "$work/stopped" 40 "$work/three.yaml"
 calm "$work/stopped" -t 3 --resume "$work/three.yaml"
 same "after an interruption" "$work/bits1" "$work/stopped"
-# A held plate: walls of one body are none of another's. Walls of FLIP alone lose 3 % here (contact.between: none).
+# A fixed plate: walls of one body do not act on others. Walls of FLIP alone dissipate 3 % here (contact.between: none).
 calm "$work/held" "$work/three.yaml" -s "boundary=[{fixed: all, body: plate, region: {box: {from: [20 mm, -50 mm], to: [30 mm, 50 mm]}}}]"
 between "a held plate: balance" "$(f held energy.balance_error)" -0.03 0.002
 
-# A region holds the grids of bodies with particles in it: one that flies off beside it keeps its momentum.
+# A region fixes the grids of bodies with particles in it: a body that passes beside it keeps its momentum.
 calm "$work/away" "$work/three.yaml" -s contact.friction=0 -s "boundary=[{fixed: all, region: {box: {from: [-inf, -inf], to: [8.2 mm, inf]}}}]" \
     -s "bodies=[{name: w, shape: {box: {from: [0, 0], to: [8 mm, 10 mm]}}}, {name: m, velocity: [20 m/s, 0], shape: {box: {from: [8 mm, 0], to: [20 mm, 10 mm]}}}]"
 between "a body beside a held one" "$(compute "$(last away momentum_x) / (20 * 12e-3 * 10e-3 * 10e-3 * 7800)")" 0.999999 1.000001
 
-# Five rattles of a disc in a ring: contact gives no more than it has taken, but for what it gives within one of them (0.1 to
-# 0.3 % of the energy) and what the balance is off in 6,000 steps (0.4 to 0.7 %); without its account: 900 times the energy in ten.
+# Five oscillations of a disc in a ring: contact returns no more energy than it has stored, except within one contact (0.1 to 0.3 %) and the
+# error of the balance over 6,000 steps (0.4 to 0.7 %); without its account the energy would grow 900-fold in ten.
 cat >"$work/rattle.yaml" <<'E'
 space: plane stress
 thickness: 1 mm
@@ -109,7 +109,7 @@ calm "$work/rattle" "$work/rattle.yaml"
 between "a disc in a ring: kinetic and strain energy over that of the start" "$(awk -F, 'NR == 2 { start = $3 }
     NR > 2 && $3 + $4 > most { most = $3 + $4 } END { print most / start }' "$work/rattle/history.csv")" 0.5 1.01
 
-# ---- adaptive: what comes near another body becomes particles -----------------------------------------------------------
+# ---- adaptive: points near another body become particles ----------------------------------------------------------------
 
 near="-s method=adaptive"
 calm "$work/near1" "$work/three.yaml" $near -t 1
@@ -117,11 +117,11 @@ between "adaptive: momentum" "$(f near1 momentum_error)" 0 1e-12
 between "adaptive: balance" "$(f near1 energy.balance_error)" -0.005 0.001
 between "adaptive: pairs met" "$(f near1 contact.pairs_max)" 5 100
 between "adaptive: points near others, and no more" "$(last near1 pd_share)" 0.02 0.2
-# on 2 threads, then on 3
+# On 2 threads, then on 3.
 interrupted "$work/stopped_near" 40 "$work/three.yaml" $near
 calm "$work/stopped_near" -t 3 --resume "$work/three.yaml" $near
 same "adaptive, after an interruption" "$work/near1" "$work/stopped_near"
-# They return once what they met has left.
+# Points revert when the other body has left.
 calm "$work/returns" "$work/three.yaml" $near -s conversion.reversion=true -s conversion.hold_time=3 -s duration=150us
 between "adaptive: points return" "$(compute "$(last returns pd_share) < $(last near1 pd_share)")" 1 1
 between "adaptive, returning: momentum" "$(f returns momentum_error)" 0 1e-12
@@ -132,7 +132,7 @@ done
 between "a rigid ball: its rebound" "$(compute "$(f ball_adaptive rigid.0.velocity_x) / $(f ball_pd rigid.0.velocity_x)")" 0.94 1.06
 between "a rigid ball: balance" "$(f ball_adaptive energy.balance_error)" -0.005 0.002
 
-# Once no point is left nothing damps what lay beside bonds: the same after an interruption as without.
+# When no point is left, particles beside bonds are no longer damped: equal results with and without an interruption.
 cat >"$work/all.yaml" <<'E'
 space: plane stress
 thickness: 1 mm
@@ -155,12 +155,12 @@ interrupted "$work/all_stopped" 210 "$work/all.yaml"
 calm "$work/all_stopped" -t 2 --resume "$work/all.yaml"
 same "peridynamic as a whole, after an interruption" "$work/all" "$work/all_stopped"
 
-# ---- joined, or as one -------------------------------------------------------------------------------------------------
+# ---- joined, or as one body --------------------------------------------------------------------------------------------
 
 two="bodies=[{name: a, velocity: [9 m/s, 0], shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}, {name: b, shape: {box: {from: [20 mm, 0], to: [40 mm, 10 mm]}}}]"
 calm "$work/one" "$work/three.yaml" -s contact.friction=0 -s "$two" -s contact.between=none
 calm "$work/joined" "$work/three.yaml" -s contact.friction=0 -s "$two" -s "interfaces=[{bodies: [a, b]}]"
-for run in one joined; do cut -d , -f 1-24 "$work/$run/history.csv" >"$work/$run.csv"; done     # the last is 0 but for round-off
+for run in one joined; do cut -d , -f 1-24 "$work/$run/history.csv" >"$work/$run.csv"; done     # the last is round-off
 if cmp "$work/one.csv" "$work/joined.csv"; then pass; else fail "joined bodies are not one on the grid"; fi
 refused "a toughness of the grid" "$work/no" "the grid does not break" "$work/three.yaml" -s "$two" \
     -s "interfaces=[{bodies: [a, b], energy_release_rate: 5}]"

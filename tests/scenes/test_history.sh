@@ -1,18 +1,18 @@
 #!/bin/sh
-# Columns of history.csv and figures of summary.json hold what their names say: in runs each of which has one kind of energy
-# and not the others, with sums over the bodies worked out here.
+# Columns of history.csv and figures of summary.json agree with their names: runs with one kind of energy each and none of the others,
+# compared with sums over the bodies computed here.
 test_name=test_history
 . tests/support/summary.sh
 
-# most FOLDER COLUMN, least FOLDER COLUMN: of all samples.
+# most FOLDER COLUMN, least FOLDER COLUMN: print the extremes over all samples.
 most() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
     NR == 2 || $at + 0 > m { m = $at + 0 } END { print m }' "$1/history.csv"; }
 least() { awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
     NR == 2 || $at + 0 < m { m = $at + 0 } END { print m }' "$1/history.csv"; }
-# none FOLDER COLUMN...: these are 0 throughout.
+# none FOLDER COLUMN...: checks that these are 0 in all samples.
 none() { folder=$1; shift; for name in "$@"; do is "$folder: $name" "$(least "$folder" "$name") $(most "$folder" "$name")" "0 0"; done; }
 
-# Two blocks that meet and rub: 10 x 4 particles of 1180 kg/m^3 x 0.37 m x 1 mm^2 at (5, -2) m/s on a block at rest.
+# Two blocks in frictional contact: 10 x 4 particles of 1180 kg/m^3 x 0.37 m x 1 mm^2 at (5, -2) m/s on a block at rest.
 cat >"$work/rub.yaml" <<'END'
 space: plane strain
 thickness: 0.37 m
@@ -39,7 +39,7 @@ none "$work/rub" absorbed plastic fracture external_work mpm_share
 is "all particles are peridynamic" "$(least "$work/rub" particles_pd) $(least "$work/rub" pd_share)" "140 1"
 between "balance" "$(column "$work/rub" balance_error 1)" -0.01 0.01
 
-# The share that rests while a wave enters a bar: of each sample that of the steps since the last one, over all of them the summary's.
+# The share at rest while a wave enters a bar: each sample has that of the steps since the last one; the mean over all is in the summary.
 cat >"$work/rest.yaml" <<'END'
 space: line
 section: 0.37 cm^2
@@ -57,7 +57,7 @@ mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "rest_share") at =
 between "share at rest" "$mean" 0.3 0.95
 near "share at rest, of all steps" "$mean" "$(figure "$work/rest" rest_share)" 0.02
 
-# A bar of points that flies against an absorbing face, which takes rho c (v/2)^2 A t: half of the energy in a transit.
+# A bar of points that moves against an absorbing face, which absorbs rho c (v/2)^2 A t: half of the energy in a transit time.
 cat >"$work/ring.yaml" <<'END'
 space: line
 section: 0.37 m^2
@@ -77,7 +77,7 @@ between "absorbed energy" "$(column "$work/ring" absorbed 1)" "$(compute "0.48 *
 none "$work/ring" contact damped plastic fracture external_work particles_pd pd_share bonds
 is "share of points" "$(least "$work/ring" mpm_share)" 1
 
-# A quarter of a plate is peridynamic; bulk damping takes exp(-2 c t) of its energy.
+# A quarter of a plate is peridynamic; bulk damping reduces its energy by exp(-2 c t).
 cat >"$work/part.yaml" <<'END'
 space: plane stress
 thickness: 0.37 m
@@ -99,9 +99,9 @@ near "their share" "$(most "$work/part" pd_share)" 0.25 1e-9
 near "that of points" "$(least "$work/part" mpm_share)" 0.75 1e-9
 none "$work/part" contact absorbed plastic fracture external_work
 
-# ---- every column at its own time -----------------------------------------------------------------------------------------
+# ---- each column at its own time ------------------------------------------------------------------------------------------
 
-# off FOLDER COLUMN FORMULA: the largest difference of a column from a formula of the time t, over all samples.
+# off FOLDER COLUMN FORMULA: prints the largest difference of a column from a formula of the time t, over all samples.
 off()
 {
     awk -F, -v name="$2" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k } next }
@@ -109,8 +109,8 @@ off()
         END { if (at) print n < 15 ? "too few samples" : most + 0 }' "$1/history.csv"
 }
 
-# Bodies that fall, a rigid one that is pushed as well, one that is driven up to a ramp. What is half a step late is off by
-# 1e5 m/s^2 times 5e-8 s, 5e-3 m/s, a place that is one step ahead by 3e-7 m; figures have nine digits.
+# Falling bodies, a rigid one with an additional force, one driven with a ramp. A lag of half a step would be an error of 1e5 m/s^2 times
+# 5e-8 s, 5e-3 m/s, a position one step ahead one of 3e-7 m; figures have nine digits.
 cat >"$work/fall.yaml" <<'END'
 space: plane stress
 thickness: 0.37 mm
@@ -146,17 +146,17 @@ between "its velocity" "$(off "$what" r_velocity_y "3 - 2e5 * t")" 0 1e-7
 near "its velocity at the end" "$(figure "$what" rigid.0.velocity_y)" -17 1e-8
 near "that of the driven one" "$(figure "$what" rigid.1.velocity_y)" 2 1e-12
 between "its force" "$(off "$what" r_force_y 0)" 0 0
-# the velocity in the middle of the step that has the ramp's end: half a step by the share of the ramp that it holds
+# The velocity in the middle of the step that contains the ramp's end: half a step times the fraction of the ramp in it.
 between "rigid body that is driven: place" "$(off "$what" d_y "t < 6e-5 ? t * t / 6e-5 : 2 * t - 6e-5")" 0 1e-10
 between "its velocity" "$(off "$what" d_velocity_y "t < 6e-5 ? t / 3e-5 : 2")" 0 1e-8
 
-# Bulk damping: v' = -g - c v; the last line continues velocities by 3/8 (c dt)^2 (v + g/c), 1.6e-6 m/s with dt = 1.4e-7 s.
+# Bulk damping: v' = -g - c v; the last line extrapolates velocities with an error of 3/8 (c dt)^2 (v + g/c), 1.6e-6 m/s with dt = 1.4e-7 s.
 holds "run" "$cleave" run "$work/alone.yaml" -t 1 -q -s method=pd -s damping=2000 -o "$work/slowed" >"$work/said" 2>&1
 between "damped: velocity of a point" "$(off "$work/slowed" p.velocity_y "(3 + 50) * exp(-2000 * t) - 50")" 0 1.6e-6
 between "damped: momentum" "$(off "$work/slowed" momentum_y "$mass * ((3 + 50) * exp(-2000 * t) - 50)")" 0 1.6e-10
 
-# A bar that is pulled as t^3, in 250 of its transits: the force is that of a spring, but for 6/(omega T)^2 of its inertia. A force that is
-# one step late is off by 3 dt (1/t - 1/T), 9e-4 at 0.4 ms.
+# A bar loaded as t^3 over 250 of its transit times: the force is that of a spring, up to 6/(omega T)^2 due to inertia. A force that lags by
+# one step would be off by 3 dt (1/t - 1/T), 9e-4 at 0.4 ms.
 cat >"$work/pull.yaml" <<'END'
 space: line
 section: 0.37 cm^2
@@ -179,9 +179,9 @@ for run in pd:auto mpm:reference mpm:current; do
     between "$run: displacement" "$(off "$what" reaction.displacement_x "1e-6 * (t / 1e-3) ^ 3")" 0 1e-14
 done
 
-# ---- places of tips and breaks, grips that tear ---------------------------------------------------------------------------
+# ---- positions of tips and breaks, grips that tear off --------------------------------------------------------------------
 
-# Two notches whose roots, at 9.1 mm on either side, break at once; a crack that meets a stiff disc and goes round it on both sides.
+# Two notches whose roots, at 9.1 mm on either side, break at once; a crack that meets a stiff disc and passes it on both sides.
 cat >"$work/notches.yaml" <<'END'
 space: plane stress
 thickness: 0.37 mm
@@ -227,7 +227,8 @@ holds "again, with a probe there" "$cleave" run "$work/fork.yaml" -t 1 -q -s "pr
     -o "$work/there" >"$work/said" 2>&1
 between "what is there is damaged" "$(figure "$work/there" probes.there.damage)" 0.35 1
 
-# Bonds between neighbours alone: a grip that goes more than s_c h in the first step tears the one bond off that holds it. s_c c = 54 m/s.
+# Bonds between nearest neighbours only: a grip that moves by more than s_c h in the first step breaks the only bond that holds it. s_c c =
+# 54 m/s.
 cat >"$work/grip.yaml" <<'END'
 space: line
 section: 0.37 cm^2
@@ -258,10 +259,10 @@ holds "slow" "$cleave" run "$work/grip.yaml" -t 1 -q -s "$still" -s duration=2us
 is "slow: nothing is said" "$(cat "$work/err")$(figure "$work/slow" crack.driven_bonds)" ""
 holds "flying" "$cleave" run "$work/grip.yaml" -t 1 -q -s "$moving" -s 'initial=[{velocity: [200 m/s]}]' -o "$work/fly" 2>"$work/err"
 is "flying with its grips: nothing is said" "$(cat "$work/err")$(figure "$work/fly" crack.driven_bonds)" ""
-# ---- the last line of what is driven ---------------------------------------------------------------------------------------
+# ---- the last line with driven nodes ---------------------------------------------------------------------------------------
 
-# No step follows the last sample: half a step's work at the driven nodes of a mesh (27 N, 0.4 m/s, 0.8 us) is as much as half of the
-# kinetic energy, and belongs to the work. Without it the probe, which extrapolates velocities, was 46 % apart; with it 2e-5.
+# No step follows the last sample: half a step's work at the driven nodes of a mesh (27 N, 0.4 m/s, 0.8 us) equals half of the kinetic
+# energy, and is part of the work. Without it the probe, which extrapolates velocities, would differ by 46 %; with it 2e-5.
 cat >"$work/ending.yaml" <<'END'
 space: plane stress
 thickness: 2 mm
@@ -285,9 +286,9 @@ between "ending: external work of the last line" \
 
 # ---- angular momentum ------------------------------------------------------------------------------------------------------
 
-# Two blocks that nothing holds hit each other aside: what one gets of spin the other loses. Bonds and contact keep it to round-off,
-# points in groups (data/turning.h) to 1e-3, of which positions that move with nodal velocities take most (flip as it was lost 43 %).
-# A support takes the figure away.
+# Two free blocks in an eccentric collision exchange angular momentum. Bonds and contact conserve it to round-off, points in groups
+# (data/turning.h) to 1e-3, mostly because positions move with nodal velocities (plain flip loses 43 %). With a support there is no such
+# figure.
 cat >"$work/aside.yaml" <<'END'
 space: plane stress
 thickness: 0.7 mm
@@ -304,11 +305,11 @@ for method in pd adaptive mpm; do
     "$cleave" run "$work/aside.yaml" -q -o "$work/aside.$method" -s method=$method 2>"$work/aside.$method.err"
     between "$method: balance" "$(figure "$work/aside.$method" energy.balance_error)" -5e-3 5e-3
 done
-# mu (r_b - r_a) x (v_b - v_a), mu = m_a m_b/(m_a + m_b) = 0.336 g, 6 mm apart along y, 120 m/s
+# mu (r_b - r_a) x (v_b - v_a), mu = m_a m_b/(m_a + m_b) = 0.336 g, 6 mm apart along y, 120 m/s.
 near "angular momentum at the start" "$(column "$work/aside.pd" angular_momentum_z 0)" 2.4192e-4 1e-6
 near "the column of it at the end" "$(column "$work/aside.pd" angular_momentum_z 1)" "$(column "$work/aside.pd" angular_momentum_z 0)" 1e-8
 between "bonds keep the spin" "$(figure "$work/aside.pd" angular_momentum_error)" 0 1e-12
-# Friction keeps it, in the plane and in space (drag shared out by weights alone: 0.020, 0.021, 0.023, 0.027 lost).
+# Friction conserves it in 2D and 3D (distribution of the friction force by weights alone would lose 0.020, 0.021, 0.023, 0.027).
 cat >"$work/balls.yaml" <<'END'
 space: solid
 duration: 60 us
@@ -330,8 +331,8 @@ for scene in aside balls; do
         is "$scene, friction $friction: nothing is said of it" "$(grep -c 'angular momentum' "$run.err")" 0
     done
 done
-# Rubble: particles that feel another one closely and a third one from far keep momentum to round-off, too; a single particle feels no
-# moment (1e-3 of the angular momentum here).
+# Fragments: particles in contact with one particle nearby and a third one far away also conserve momentum to round-off; a single particle
+# has no moment (1e-3 of the angular momentum here).
 cat >"$work/rubble.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -359,8 +360,9 @@ holds "and it is said" grep -q 'of the angular momentum of the bodies is lost' "
 "$cleave" run "$work/aside.yaml" -q -o "$work/aside.held" -s duration=10us -s 'boundary=[{fixed: all, face: x-, body: a}]' 2>/dev/null
 is "with a support there is no such figure" "$(figure "$work/aside.held" angular_momentum_error)" ""
 
-# Points in the current frame turn for long: a square three times round, a bar of one row, a block in space about no axis of its own. What
-# is left is of the second order of a step, 0.02 rad at 10000 1/s (a step that knows no chord: 1 % in ten turns, a bar torn in one).
+# Long rotation of points in the current frame: a square over three revolutions, a bar of one row, a block in 3D about an arbitrary axis.
+# The error is of second order in the step, 0.02 rad at 10000 1/s (without the chord of the step: 1 % in ten revolutions, a bar torn in
+# one).
 cat >"$work/spin.yaml" <<'END'
 space: plane stress
 thickness: 0.7 mm
@@ -379,20 +381,20 @@ about='initial=[{rotation: {centre: [0, 0, 0], axis: [1, 0.3, -0.2], rate: 10000
 "$cleave" run "$work/spin.yaml" -q -o "$work/spin" 2>"$work/spin.err"
 "$cleave" run "$work/spin.yaml" -q -o "$work/row" -s "$row" 2>"$work/row.err"
 "$cleave" run "$work/spin.yaml" -q -o "$work/block" -s space=solid -s thickness= -s "$block" -s "$about" -s duration=300us 2>"$work/block.err"
-# About no axis of its own groups of points turn a little otherwise than the body: 3e-3, whatever the step (apic 0.1).
+# About an arbitrary axis groups of points rotate slightly differently from the body: 3e-3 for any step (apic 0.1).
 for run in spin row block; do
     is "$run: nothing is said" "$(cat "$work/$run.err")" ""
     between "$run: angular momentum" "$(figure "$work/$run" angular_momentum_error)" 0 $([ $run = block ] && echo 5e-3 || echo 2e-4)
     between "$run: balance" "$(figure "$work/$run" energy.balance_error)" -1e-3 1e-3
 done
 
-# What the interface zone takes of the vibrations of small bodies is said.
+# Dissipation of vibrations of small bodies by the interface zone is reported.
 "$cleave" run "$work/aside.yaml" -q -o "$work/small" -s method=adaptive -s duration=400us \
     -s "bodies=[{name: a, shape: {disc: {centre: [0, 0], radius: 6 mm}}, velocity: [60 m/s, 0]}, {name: b, shape: {ring: {centre: [14 mm, 3 mm], radius: 7 mm, inner: 4 mm}}}]" 2>"$work/small.err"
 holds "what is damped beside bonds is said: $(cat "$work/small.err")" grep -q '% of the energy was damped beside bonds (energy.damped)' "$work/small.err"
 
-# A body whose particles are all driven feels no force, however they are sped up: a reaction leaves out the inertia of what is driven
-# (grid nodes that a region and its points both hold were counted twice: -8.1 N, the mass times the acceleration).
+# A body with all particles driven has no reaction for any acceleration: a reaction excludes the inertia of driven particles (counting grid
+# nodes both by region and by point would give -8.1 N, mass times acceleration).
 cat >"$work/driven.yaml" <<'END'
 space: plane stress
 thickness: 1.3 mm

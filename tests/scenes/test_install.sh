@@ -1,6 +1,6 @@
 #!/bin/sh
-# What `make install` lays down and `make uninstall` takes away; completion as bash has it; the tarball of `make dist`; help behind
-# every command. Runs alone: the folder of the build, into which `make install` writes, is that of all tests.
+# Files installed by `make install` and removed by `make uninstall`; completion in bash; the tarball of `make dist`; help of every command.
+# Runs alone: the folder of the build, into which `make install` writes, is shared by all tests.
 test_name=install
 . tests/support/summary.sh
 build=${BUILD:-build}
@@ -14,7 +14,7 @@ holds "and every command" test "$(grep -c '^.B cleave [a-z]' "$prefix/share/man/
 
 # ---- completion ------------------------------------------------------------------------------------------------------
 
-# complete WORDS...: what bash offers for the last of these words
+# complete WORDS...: prints what bash offers for the last of these words.
 complete()
 {
     bash -c '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _cleave 2>/dev/null; printf "%s\n" "${COMPREPLY[@]}"' \

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Joined bodies: a wave through two materials, halves that make a whole, a weak joint, refusals.
+# Joined bodies: a wave through two materials, halves equivalent to a whole, a weak joint, refusals.
 test_name=test_interfaces
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# A pulse from steel into a material of a quarter of its impedance: 2 Z1/(Z1 + Z2) = 1.6 goes on, 0.6 comes back.
+# A pulse from steel into a material with a quarter of its impedance: 2 Z1/(Z1 + Z2) = 1.6 is transmitted, 0.6 reflected.
 cat >"$work/layers.yaml" <<'END'
 space: line
 section: 1 mm^2
@@ -23,7 +23,7 @@ initial: [{pulse: {at: [-30 mm], direction: [1], width: 40 mm, velocity: 1}}]
 probes: [{point: {name: a, at: [-20.1 mm]}}, {point: {name: b, at: [20.1 mm]}}]
 output: {frames: 1, samples: 400}
 END
-# A notched plate, whole, of two halves, and of two halves badly glued, which part at half the load.
+# A notched plate, intact, of two halves, and of two weakly joined halves, which separate at half the load.
 cat >"$work/whole.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -52,12 +52,12 @@ start strong "$work/strong.yaml"
 start glued_again "$work/glued/scene.yaml"
 wait
 
-# most FOLDER COLUMN FROM: its largest value from that time on [s].
+# most FOLDER COLUMN FROM: prints its largest value from that time on [s].
 most() { awk -F, -v name="$2" -v from="$3" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } }
     NR > 1 && $1 >= from + 0 && $at > most { most = $at } END { print most + 0 }' "$work/$1/history.csv"; }
 between "layers: goes on" "$(most layers b.velocity_x 0)" 1.592 1.608
 between "layers: comes back" "$(most layers a.velocity_x 8e-6)" 0.597 0.603
-for figure in energy.strain energy.fracture crack.length_end; do        # but for round-off
+for figure in energy.strain energy.fracture crack.length_end; do        # up to round-off
     between "halves: $figure" "$(compute "$(f halves $figure) / $(f whole $figure)")" 0.999999 1.000001
 done
 between "glued: parts" "$(f glued fragments.count)" 2 2

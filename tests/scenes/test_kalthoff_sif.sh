@@ -1,7 +1,6 @@
 #!/bin/sh
-# A crack led by stress-intensity factors: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and
-# irregular particles, with factors known at every step, and seldom. Threads and such cracks: test_running_crack.sh and
-# test_state_adaptive.sh.
+# SIF-driven cracks: the plate with two notches of inputs/kalthoff_sif.yaml, on regular and irregular particles, with factors evaluated at
+# every step, and rarely. Threads with such cracks: test_running_crack.sh and test_state_adaptive.sh.
 test_name=test_kalthoff_sif
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -12,7 +11,7 @@ wait
 start irregular kalthoff_sif -s particles.irregularity=0.6 -s output.samples=200 -s output.frames=0
 wait
 
-# worst FOLDER: the largest |K_II|/K_I while the crack grows, after its first 2 mm; nothing with fewer than 30 samples.
+# worst FOLDER: prints the largest |K_II|/K_I while the crack grows, after its first 2 mm; nothing for fewer than 30 samples.
 worst()
 {
     awk -F, '
@@ -25,18 +24,18 @@ worst()
         END { if (n >= 30) print most + 0 }' "$work/$1/history.csv"
 }
 
-# Measured: 73.9, 72.1 degrees and at most 0.09 (Imachi et al. 2019: 73.6; experiments: about 70).
+# Measured: 73.9 and 72.1 degrees, and at most 0.09 (Imachi et al. 2019: 73.6; experiments: about 70).
 for run in regular irregular sparse; do
     sound $run 0.02
     between "$run: angle" "$(f $run probes.growth.angle_deg)" 70 76
     between "$run: growth" "$(f $run probes.growth.length_end)" 0.035 0.0405
     apart "$run: angle beside regular" "$(f $run probes.growth.angle_deg)" "$(f regular probes.growth.angle_deg)" 3
 done
-# Without the mean over the last growth K_II swings to 1.9 of K_I; turned again at every step by what the last sample found,
-# to 0.29 in the run that knows it seldom.
+# Without the mean over the last growth K_II would oscillate up to 1.9 K_I; with a turn at every step by the direction of the last sample up
+# to 0.29 with rare evaluations.
 for run in regular irregular sparse; do between "$run: K_II" "$(worst $run)" 0 0.15; done
 
-# The tip that damage shows is where the growing one says: within the horizon.
+# The tip determined from damage agrees with the growing tip within the horizon.
 between "tip of damage" "$(f regular crack.angle_deg)" 68 78
 
 if command -v gnuplot >/dev/null; then

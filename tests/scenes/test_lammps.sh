@@ -1,7 +1,7 @@
 #!/bin/sh
-# `cleave export lammps` beside LAMMPS itself, particle by particle: after 200 steps no position may be off by more than 1e-9 of the
-# largest displacement, and the same bonds have broken. Bonds and families in plane stress, plane strain and space; cracks in any
-# direction; driven and displaced regions, tractions, body forces and their functions of time; initial velocities and displacements; two ranks.
+# `cleave export lammps` compared with LAMMPS itself, particle by particle: after 200 steps no position differs by more than 1e-9 of the
+# largest displacement, and the same bonds are broken. Bonds and families in plane stress, plane strain and 3D; cracks in any direction;
+# driven and displaced regions, tractions, body forces and their functions of time; initial velocities and displacements; two ranks.
 # Skipped where LAMMPS is missing.
 test_name=lammps
 . tests/support/summary.sh
@@ -9,7 +9,7 @@ command -v lmp >/dev/null || { echo "test_lammps: lmp (LAMMPS with its package P
 lmp -h | grep -q "peri/pmb" || { echo "test_lammps: this lmp was built without its package PERI"; exit 77; }
 cd "$work"
 
-# plate NAME MODEL-AND-MATERIAL PD CONTACT: all kinds of loads on a plate with an inclined crack
+# plate NAME MODEL-AND-MATERIAL PD CONTACT: writes a plate with an inclined crack and all kinds of loads.
 plate()
 {
     cat >$1.yaml <<END
@@ -34,7 +34,7 @@ boundary:
 output: {frames: 3, samples: 1}
 END
 }
-# agrees NAME RANKS [OPTION...]: exports NAME.yaml, runs LAMMPS, compares
+# agrees NAME RANKS [OPTION...]: exports NAME.yaml, runs LAMMPS, compares.
 agrees()
 {
     name=$1 ranks=$2; shift 2
@@ -64,7 +64,7 @@ plate bonds "plane stress" "$bonds" "$exact"
 agrees bonds 1
 between "bonds: damage by then" "$(broken)" 10 1000
 
-# To the end, over frames: pieces fly and meet. Frames are in single precision.
+# To the end, over frames: fragments move and collide. Frames are in single precision.
 "$cleave" run there/scene.yaml -o here -q || fail "the exported scene does not run"
 "$cleave" compare here there >compared || fail "compare: $(cat compared)"
 between "displacement at the end [m]" "$(sed -n 's/^  displacement \[m\] *\([0-9.e+-]*\).*/\1/p' compared)" 0 1e-9
@@ -97,7 +97,7 @@ sed "s/critical_stretch: 0.003/poisson: 0.3, critical_stretch: inf/; s/^method: 
     s/^pd: .*/pd: {volume: whole, surface: none, weights: uniform, normalisation: local}/; s/^contact: .*/contact: {between: none}/" block.yaml >block-families.yaml
 agrees block-families 1
 
-# Shaken particles, two materials that are joined, other rules than LAMMPS': laid over by --allow-different, and then the same.
+# Irregular particles, two joined materials, rules that differ from LAMMPS': replaced with --allow-different, then equal.
 cat >joined.yaml <<END
 space: plane stress
 thickness: 1 mm
@@ -118,7 +118,7 @@ END
 agrees joined 1 --allow-different
 holds "what differs is said" grep -q "^pd.last_force: whole" there/README.txt
 
-# A folder that holds an export stays.
+# A folder that holds an export is not overwritten.
 "$cleave" export lammps bonds.yaml -o there 2>log; is "an older export: status" $? 2
 cd "$root"
 finish

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Levels of coarse cells in runs (mpm.levels): beside cells of two spacings everywhere, on any number of threads, after interruptions,
-# with long waves and with mirrors; what is refused.
+# Levels of coarse cells (mpm.levels): compared with cells of two spacings everywhere, on any number of threads, after interruptions, with
+# long waves and with mirrors; refusals.
 test_name=test_levels
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -12,8 +12,8 @@ close() { between "$1" "$(awk -v a="$2" -v b="$3" 'BEGIN { print a - b }')" "-$4
 
 # ---- cracks ------------------------------------------------------------------------------------------------------------
 
-# The struck plate: means over nine time steps start within 0.1 % of each other with one level, at angles 0.9 degrees apart; single runs
-# scatter by 0.2 % and 1.3 degrees (1 mm).
+# Kalthoff's plate: with one level, means over nine time steps of the start differ by less than 0.1 %, of the angle by 0.9 degrees; single
+# runs scatter by 0.2 % and 1.3 degrees (1 mm).
 start fine kalthoff_winkler -s mpm.levels=0 -s output.frames=0
 start coarse kalthoff_winkler -s mpm.levels=1 -s output.frames=0
 wait
@@ -23,7 +23,7 @@ close "first break" "$(f coarse crack.start_time)" "$(f fine crack.start_time)" 
 close "length" "$(f coarse crack.length_end)" "$(f fine crack.length_end)" 1e-3
 close "angle" "$(f coarse crack.angle_deg)" "$(f fine crack.angle_deg)" 4
 
-# ---- the same bits -----------------------------------------------------------------------------------------------------
+# ---- bitwise equality --------------------------------------------------------------------------------------------------
 
 plate="inputs/kalthoff_winkler.yaml -s mpm.levels=2 -s output.frames=4 -s output.samples=100 -s duration=35us"
 calm "$work/levels1" $plate -t 1
@@ -33,8 +33,8 @@ same "on 2 threads, interrupted after 9 and 80 lines" "$work/levels1" "$work/sto
 
 # ---- waves -------------------------------------------------------------------------------------------------------------
 
-# A plate that rings for 1300 steps of 0.7 of the critical one: its balance closes to the square of the steps of its largest cells
-# (0.2 % at the end, a quarter of it at half the step; 0.8 % with a third level); half of it behind a mirror rings as the whole does, but for
+# A plate that vibrates for 1300 steps at 0.7 of the critical one: its balance closes to the square of the step of its largest cells (0.2 %
+# at the end, a quarter of it at half the step; 0.8 % with a third level); half of it behind a mirror vibrates as the whole does, except for
 # cells beside the mirror, whose inertia is not matched.
 cat >"$work/ring.yaml" <<EOF
 space: plane stress
@@ -59,10 +59,10 @@ between "cells of 8 spacings" "$(f ring levels.cells.2)" 100 200
 between "external work, beside cells of two spacings" "$(ratio "$(f ring energy.external_work)" "$(f even energy.external_work)")" 0.99 1.01
 between "half a plate" "$(ratio "$(f half energy.external_work)" "$(f ring energy.external_work)")" 0.4995 0.5005
 
-# ---- much converts at once -----------------------------------------------------------------------------------------------
+# ---- conversion of many points at once -----------------------------------------------------------------------------------
 
-# A plate squeezed until all of it is past its limit: points near coarse cells wait until these are finer, and momentum is exact. Short
-# waves of the breaking plate take 1.2 % of the energy without coarse cells, 1.7 % with them. The same bits after an interruption.
+# A plate compressed until all of it exceeds its limit: points near coarse cells wait until these are refined, and momentum is exact. Short
+# waves of the breaking plate dissipate 1.2 % of the energy without coarse cells, 1.7 % with them. Bitwise equality after an interruption.
 cat >"$work/crush.yaml" <<EOF
 space: plane stress
 thickness: 1 mm
@@ -88,7 +88,7 @@ interrupted "$work/crushed" 20 $finer
 calm "$work/crushed" --resume $finer
 same "crushed, interrupted after 20 lines" "$work/whole" "$work/crushed"
 
-# State-based plates torn apart, 80 to 100 % of which convert, beside a mirror that bonds break across: momentum along it is exact.
+# State-based plates torn apart, 80 to 100 % of which convert, beside a mirror across which bonds break: momentum along it is exact.
 for model in ospd mospd; do
     cat >"$work/tear.yaml" <<EOF
 space: plane strain
@@ -110,9 +110,9 @@ EOF
     sound tear_$model 0.001
 done
 
-# A ring of sif in material points round a gap that sudden waves meet: its cells stay of two spacings, as coarse ones have no acceleration in
-# most steps. K_I beside that of cells of two spacings everywhere, 3 %: the front of the
-# waves is a step, of which coarse cells make another ripple (2.6 % at 5.5 us); with the ring in coarse cells it was 30 to 90 %.
+# A sif ring in material points around a gap that is hit by sudden waves: its cells stay at two spacings, because coarse ones have no
+# acceleration in most steps. K_I within 3 % of that with cells of two spacings everywhere: the front of the waves is a step, in which
+# coarse cells cause another oscillation (2.6 % at 5.5 us); with the ring in coarse cells the error was 30 to 90 %.
 cat >"$work/gap.yaml" <<EOF
 space: plane strain
 thickness: 1 mm
@@ -139,7 +139,7 @@ for levels in 1 2; do
     done
 done
 
-# The same of a crack that runs, interrupted on its way.
+# A running crack with levels, interrupted during the run.
 running="inputs/semi_infinite_crack.yaml -s method=adaptive -s model=bond -s material.poisson=1/4 -s particles.horizon=3.015 -s mpm.levels=2"
 running="$running -s particles.spacing=0.4mm -s time.step=0.04us"
 calm "$work/runs" $running
@@ -147,9 +147,9 @@ interrupted "$work/ran" 45 $running
 calm "$work/ran" --resume $running
 same "a ring that runs, interrupted after 45 lines" "$work/runs" "$work/ran"
 
-# ---- two slits whose faces meet ----------------------------------------------------------------------------------------
+# ---- two slits with contact --------------------------------------------------------------------------------------------
 
-# Gained half of its energy with coarse cells a few spacings from the slits.
+# Without the refinement near slits, half of the energy was gained with coarse cells a few spacings away.
 cat >"$work/slits.yaml" <<EOF
 space: plane stress
 thickness: 1 mm

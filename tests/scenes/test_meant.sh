@@ -1,18 +1,18 @@
 #!/bin/sh
-# What `cleave check` says where a scene may not be what its author meant: numbers of another unit, particles that lie alone, curves of
-# meshes, values of images. Each case has a control that says nothing.
+# Advice of `cleave check` where a scene may differ from its author's intention: numbers in another unit, isolated particles, curves of
+# meshes, values of images. Each case has a control without advice.
 test_name=test_meant
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# says WHAT PATTERN SCENE [ARGUMENT...]: the pattern is in what check prints of the scene. silent: it is not.
+# says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not.
 checked() { "$cleave" check "$@" --no-trial >"$work/said" 2>&1; }
 says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" grep -q "$pattern" "$work/said"; }
 silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "grep -q 'is sound' '$work/said' && ! grep -q '$pattern' '$work/said'"; }
 
 # ---- units -------------------------------------------------------------------------------------------------------------
 
-# The README's glass: with lengths in mm, the modulus in MPa, the density in g/cm^3, a stretch in percent.
+# The glass of the README: with lengths in mm, the modulus in MPa, the density in g/cm^3, a stretch in percent.
 cat >"$work/glass.yaml" <<'END'
 variables: {a: 1 mm, E: 72 GPa, rho: 2440, limit: 0.1 %}
 space: plane stress
@@ -32,7 +32,7 @@ says "a modulus in MPa" '^unlikely: boundary boundary0: 1.2e+07 Pa is 167 of You
 says "a stretch in percent" '^unlikely: material material: its bonds break at a stretch of 0.1, 7.2e+09 Pa' "$glass" -s variables.limit=0.1
 says "a density in g/cm^3" '^unlikely: material material: waves at 1.82e+05 m/s' "$glass" -s 'variables.rho=2.44 kg/m^3'
 
-# ---- particles alone ---------------------------------------------------------------------------------------------------
+# ---- isolated particles ------------------------------------------------------------------------------------------------
 
 # 10 x 4 particles, and one 20 spacings away from them.
 awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 10; i++) for (j = 0; j < 4; j++) print i + 0.5 ", " j + 0.5; print "30.5, 0.5" }' \
@@ -64,8 +64,8 @@ silent "none alone" 'no neighbour\|^pieces' "$work/lone.yaml"
 
 # ---- curves ------------------------------------------------------------------------------------------------------------
 
-# A quarter ring of one element of 8 nodes, 1 m to 2 m: parabolas through 0, 45 and 90 degrees bound 2.356 m^2 less 0.9 %: of arc and
-# parabola over a chord of 2 r sin 45 with a sagitta of r (1 - cos 45), (pi/4 - 1/2) r^2 and 2/3 of their product, 3 (0.2854 - 0.2761).
+# A quarter ring of one element with 8 nodes, 1 m to 2 m: parabolas through 0, 45 and 90 degrees bound 2.356 m^2 minus 0.9 %: circle and
+# parabola over a chord of 2 r sin 45 with a sagitta of r (1 - cos 45) enclose (pi/4 - 1/2) r^2 and 2/3 of the product, 3 (0.2854 - 0.2761).
 awk 'BEGIN { pi = atan2(0, -1); print "*NODE"; n = 0
     split("1 2 2 1 1.5 2 1.5 1", r); split("0 0 90 90 0 45 90 45", a)
     for (k = 1; k <= 8; k++) printf "%d, %.12f, %.12f\n", k, r[k] * cos(a[k] * pi / 180), r[k] * sin(a[k] * pi / 180)
@@ -84,8 +84,8 @@ between "its particles" "$(awk '/^filled/ { print $7 }' "$work/said")" 0.2316 0.
 
 # ---- faces -------------------------------------------------------------------------------------------------------------
 
-# Cook's membrane: its left side, 44 mm long, and behind it the upper side, which rises 16 mm over 48 mm, all show along x; its right side,
-# 16 mm long, and the lower one, which rises 44 mm. The same as a list of the particles.
+# Cook's membrane: its left side, 44 mm long, and behind it the upper side, which rises by 16 mm over 48 mm, are completely visible along x;
+# so are its right side, 16 mm long, and the lower one, which rises by 44 mm. Also as a list of particles.
 cat >"$work/cook.yaml" <<'END'
 space: plane strain
 thickness: 5 mm
@@ -114,8 +114,9 @@ silent "a box" elsewhere "$cook" -s 'body={box: {from: [0, 0], to: [48 mm, 20 mm
 
 # ---- lists ---------------------------------------------------------------------------------------------------------------
 
-# A bar of 30 x 5 x 5 particles, written out with all digits and with six, a third of a spacing along x, is the box: moments, the same
-# stiffness. Shaken by a thousandth of a spacing it is no lattice, and check says by how much thin parts are off.
+# A bar of 30 x 5 x 5 particles, written with all digits and with six, shifted by a third of a spacing along x, is equivalent to the box:
+# moments, equal stiffness. With an irregularity of a thousandth of a spacing it is not a lattice, and check reports the error of thin
+# parts.
 awk -v work="$work" 'BEGIN { srand(1); print "x [mm], y [mm], z [mm], volume [mm^3]" >work "/bar.csv"; print "x y z" >work "/decimals.csv"
     for (k = 0; k < 5; k++) for (j = 0; j < 5; j++) for (i = 0; i < 30; i++) {
         print i + 0.5 "," j + 0.5 "," k + 0.5 ",1" >work "/bar.csv"
@@ -144,8 +145,8 @@ says "a list that is none" '^unresolved: body p: parts of its list are 5 layers 
 
 # ---- sections ------------------------------------------------------------------------------------------------------------
 
-# A frame whose ribs are 2.5 spacings wide has three rows in the lower and the upper one, 20 % too many: sections of 1024 places each are
-# known to 1 %. A spacing that check offers divides them. What slants or is round has as much as its sections in the mean.
+# A frame whose ribs are 2.5 spacings wide has three rows in the lower and the upper rib, 20 % too many: sections of 1024 positions each
+# have an accuracy of 1 %. A spacing offered by check divides them. Oblique or round parts agree with the mean of their sections.
 cat >"$work/frame.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -158,8 +159,8 @@ body:
 particles: {spacing: 1 mm}
 END
 frame=$work/frame.yaml solid="-s space=solid -s thickness="
-# ribs WHAT WIDTH AXIS OFF [ARGUMENT...]: check names a part of this width [m] along the axis that is off by so many percent, and at both
-# spacings that it offers it does not.
+# ribs WHAT WIDTH AXIS OFF [ARGUMENT...]: checks that check reports a part of this width [m] along the axis with this error in percent, and
+# at both spacings that it offers does not.
 ribs()
 {
     what=$1 width=$2 axis=$3 off=$4; shift 4
@@ -197,8 +198,8 @@ done
 
 # ---- bonds that yield ----------------------------------------------------------------------------------------------------
 
-# Bonds of all directions that yield one by one, pulled: those within the angle a are stretched, the others shortened, so that the sides are
-# free; each carries 3/pi of the yield stress per angle in the plane, 6 times the mean over a half sphere in space. Integrated here by sums.
+# Bonds of all directions that yield one by one under tension: those within the angle a are stretched, the others shortened, such that the
+# sides are free; each carries 3/pi of the yield stress per angle in 2D, 6 times the mean over a half sphere in 3D. Integrated here by sums.
 limit()
 {
     awk -v solid="$1" 'BEGIN { n = 20000; low = 0; high = pi = atan2(0, -1); high = pi / 2
@@ -228,7 +229,7 @@ END
 yield=$work/yield.yaml
 set -- $(limit 0)
 says "plates of bonds that yield" "warning: material material: bonds yield one by one, so that a plate .* $(printf %.2f "$1") times .* across by $(printf %.2f "$2") of" "$yield"
-# At 0.8 % of strain: hardening adds up to 2 GPa times 0.65 %, 4 %; a horizon of three spacings is no circle, 3 %.
+# At 0.8 % of strain: hardening adds up to 2 GPa times 0.65 %, 4 %; a horizon of three spacings is not a circle, 3 %.
 "$cleave" run "$yield" -q -o "$work/yield" >/dev/null 2>&1
 near "a plate of bonds that yield" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^reaction.force_x/) c = k; next }
     { f = $c < 0 ? -$c : $c } END { print f / 12e-6 / 300e6 }' "$work/yield/history.csv")" "$(compute "$1 + 0.04 / 2")" 0.04
@@ -244,14 +245,14 @@ silent "points that yield" 'one by one' "$yield" -s method=mpm
 silent "a bar of bonds that yield" "one by one" inputs/bar_plastic.yaml -s method=pd
 # ---- lists without volumes ---------------------------------------------------------------------------------------------
 
-# 20 x 10 particles of a list without volumes, which have that of the spacing.
+# 20 x 10 particles of a list without volumes, which get the volume of the spacing.
 awk 'BEGIN { print "x [mm], y [mm]"; for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) print 2 * i ", " 2 * j }' >"$work/lone.csv"
 apart='lone.csv has no volumes: each particle has that of the spacing of 0.001 m, and nearest neighbours are 0.002 m apart.*particles.spacing 0.002 m,'
 says "a list wider than its spacing" "warning: .*$apart" "$work/lone.yaml"
 says "a list denser than its spacing" 'the spacing of 0.004 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=4mm
 says "a lattice a little wider" 'the spacing of 0.0018 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=1.8mm
 says "a lattice a little denser" 'the spacing of 0.0021 m, and nearest neighbours are 0.002 m apart' "$work/lone.yaml" -s particles.spacing=2.1mm
-# equilateral triangles of the same area are 1.0746 spacings apart
+# Equilateral triangles of the same area have sides of 1.0746 spacings.
 awk 'BEGIN { print "x [mm], y [mm]"; a = 2 * 1.0745699
     for (i = 0; i < 20; i++) for (j = 0; j < 10; j++) printf "%.7f, %.7f\n", a * (i + 0.5 * (j % 2)), a * j * sqrt(0.75) }' >"$work/hexagons.csv"
 silent "triangles of the same area" 'apart, so that' "$work/lone.yaml" -s bodies.p.particles=hexagons.csv -s particles.spacing=2mm
@@ -263,8 +264,8 @@ silent "a wide list with volumes" 'apart, so that' "$work/lone.yaml" -s bodies.p
 
 # ---- speeds ------------------------------------------------------------------------------------------------------------
 
-# Bonds break at 5.4 m/s; a wave crosses the body in 2.1 us. What nothing holds follows a velocity that grows to 20 m/s in 1 ms, but not
-# one that grows in 1 us; what is held does not follow.
+# Bonds break at 5.4 m/s; a wave crosses the body in 2.1 us. A free body follows a velocity that increases to 20 m/s in 1 ms, but not one
+# that does so in 1 us; a fixed one does not follow.
 cat >"$work/free.yaml" <<'END'
 space: plane stress
 thickness: 1 mm

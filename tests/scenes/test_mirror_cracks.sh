@@ -1,14 +1,14 @@
 #!/bin/sh
-# Cracks near a plane of symmetry: half a body with a mirror is the whole body with each crack and its image, by bonds and adaptive,
-# in the plane and in space; momentum is kept to round-off.
+# Cracks near a plane of symmetry: half a body with a mirror is equivalent to the whole body with each crack and its image, with bonds and
+# adaptive, in 2D and 3D; momentum is conserved to round-off.
 test_name=test_mirror_cracks
 . tests/support/summary.sh
 . tests/support/trust.sh
 . tests/support/scenes.sh
 . tests/support/physics.sh
 
-# alike NAME SCALE WITHIN COLUMN...: these columns of the half's history times SCALE are those of the whole: to 2e-9 of their largest
-# value, which is what nine digits hold, or WITHIN.
+# alike NAME SCALE WITHIN COLUMN...: checks that these columns of the half's history times SCALE equal those of the whole: to 2e-9 of their
+# largest value, the precision of nine digits, or to WITHIN.
 alike()
 {
     folder=$1 scale=$2 within=$3; shift 3
@@ -23,9 +23,9 @@ alike()
     done
 }
 
-# energies NAME ENERGY...: those at the end are half as large, to $round_off. Weights of bonds near faces are fitted until 1e-12 of the
-# gradient is left: half and whole were 2e-10 apart with some kernels. Without weights the same bonds are summed in another order over some
-# hundred steps: 1e-12 was measured.
+# energies NAME ENERGY...: checks that those at the end are half as large, to $round_off. Weights of bonds near faces are fitted to a
+# relative gradient of 1e-12: half and whole differ by 2e-10 with some kernels. Without weights the same bonds are summed in another order
+# over some hundred steps: 1e-12 measured.
 round_off=1e-9
 energies()
 {
@@ -37,7 +37,7 @@ energies()
     done
 }
 
-# both NAME HALF_BODY WHOLE_BODY CRACKS ALL_CRACKS [ARGUMENT...]: runs of the scene `all`: half the body with the mirror, and the whole.
+# both NAME HALF_BODY WHOLE_BODY CRACKS ALL_CRACKS [ARGUMENT...]: runs the scene `all`: half the body with the mirror, and the whole.
 both()
 {
     folder=$1 part="body=$2" all="body=$3" cracks="cracks=[$4]" twice="cracks=[$5]"; shift 5
@@ -52,7 +52,7 @@ both()
     between "$folder: bonds break" "$(f half_$folder energy.fracture)" 1e-9 1e9
 }
 
-# ---- in the plane -----------------------------------------------------------------------------------------------------------
+# ---- 2D ---------------------------------------------------------------------------------------------------------------------
 
 cat >"$work/all.yaml" <<END
 space: plane stress
@@ -80,12 +80,12 @@ slant="{from: [14.6 mm, 0.4 mm], to: [21.4 mm, 8.1 mm]}"
 for method in pd adaptive; do
     both along_$method "$half" "$whole" "$along" "$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}" -s method=$method
     both slant_$method "$half" "$whole" "$slant" "$slant, {from: [21.4 mm, -8.1 mm], to: [14.6 mm, -0.4 mm]}" -s method=$method
-    # what lies beyond the mirror does not count
+    # Parts beyond the mirror are ignored.
     both into_$method "$half" "$whole" "{from: [20.1 mm, -3 mm], to: [20.1 mm, 8.1 mm]}" \
         "{from: [20.1 mm, -8.1 mm], to: [20.1 mm, 8.1 mm]}" -s method=$method
 done
 
-# A crack in the mirror, whose end is its end.
+# A crack in the mirror that ends in it.
 for method in pd adaptive; do
     in="{from: [-1 mm, 0], to: [17.1 mm, 0]}"
     both within_$method "$half" "$whole" "$in" "$in" -s method=$method
@@ -96,21 +96,21 @@ both unweighted_along "$half" "$whole" "$along" "$along, {from: [25.1 mm, -0.7 m
 round_off=1e-9
 is "a slit in the mirror" "$(f half_within_adaptive conversion.notches.0)" "slit of the mesh, bonds within 8 spacings of its ends"
 
-# What else keeps momentum, though the whole has other pairs that are damped, or other coarse cells.
+# Other settings that conserve momentum, although the whole has other damped pairs, or other coarse cells.
 for other in mpm.frame=current mpm.levels=1; do
     calm "$work/half_other" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s $other
     between "$other: momentum of the half" "$(f half_other momentum_error)" 0 1e-12
     rm -r "$work/half_other"
 done
 
-# Families: what an image's own lacks counts in partial stresses. (What is booked as fracture agrees to 6e-5.)
+# Families: the deficit of an image's own family counts in partial stresses. (The recorded fracture energy agrees to 6e-5.)
 calm "$work/half_families" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s model=ospd
 calm "$work/whole_families" "$work/whole.yaml" -s "body=$whole" -s model=ospd \
     -s "cracks=[$along, {from: [25.1 mm, -0.7 mm], to: [10.1 mm, -0.7 mm]}]"
 between "families: momentum of the half" "$(f half_families momentum_error)" 0 1e-12
 energies families kinetic strain external_work
 
-# Cracks that are told how to grow, a spacing and a half from the mirror. (What is booked as fracture agrees to 1e-6.)
+# Cracks with prescribed growth, a spacing and a half from the mirror. (The recorded fracture energy agrees to 1e-6.)
 grows="growth=[{at: [25.1 mm, 0.7 mm], direction: [1, 0.02], speed: 1000 m/s}"
 for method in pd adaptive; do
     calm "$work/half_grows_$method" "$work/half.yaml" -s "body=$half" -s "cracks=[$along]" -s "$grows]" -s method=$method
@@ -121,7 +121,7 @@ for method in pd adaptive; do
     energies grows_$method kinetic strain external_work
 done
 
-# ---- in space, two mirrors --------------------------------------------------------------------------------------------------
+# ---- 3D, two mirrors --------------------------------------------------------------------------------------------------------
 
 cat >"$work/all.yaml" <<END
 space: solid
@@ -147,10 +147,10 @@ up="{polygon: [[2.2 mm, 1.2 mm, -1 mm], [8.3 mm, 0.7 mm, -1 mm], [8.3 mm, 0.7 mm
 down="{polygon: [[2.2 mm, -1.2 mm, 5.3 mm], [8.3 mm, -0.7 mm, 5.3 mm], [8.3 mm, -0.7 mm, -1 mm], [2.2 mm, -1.2 mm, -1 mm]]}"
 for method in pd adaptive; do both solid_$method "$half" "$whole" "$up" "$up, $down" -s method=$method; done
 
-# ---- advances in equilibrium ------------------------------------------------------------------------------------------------
+# ---- crack increments in equilibrium ----------------------------------------------------------------------------------------
 
-# A quarter of a penny at an edge in space: an advance of the half has half the area, at the same load. Behind its peak the whole finds no
-# further equilibrium, so that only the peaks are compared.
+# A quarter of a penny crack at an edge in 3D: an increment of the half has half the area, at the same load. Beyond its peak the whole has
+# no further equilibrium, so that only the peaks are compared.
 cat >"$work/quarter.yaml" <<END
 space: solid
 duration: 1 s

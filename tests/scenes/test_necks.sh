@@ -1,6 +1,7 @@
 #!/bin/sh
-# What `cleave check` says of narrow places whose width is no multiple of the spacing: ligaments beside holes, notches and slots, layers of a
-# material, pieces of a line. Widths are those of the drawing; the error is the rows of particles, counted by hand, over the width.
+# Advice of `cleave check` on narrow sections whose width is not a multiple of the spacing: ligaments beside holes, notches and slots,
+# layers of a material, pieces of a line. Widths are those of the drawing; the error is the number of rows of particles, counted by hand,
+# over the width.
 test_name=test_necks
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -14,10 +15,11 @@ material: {young: 70 GPa, density: 2700}
 body: {box: {from: [0, 0], to: [40 mm, 10 mm]}}
 particles: {spacing: 1 mm}
 END
-# checked [ARGUMENT...]: what check prints of the plate with these settings.
+# checked [ARGUMENT...]: stores the output of check for the plate with these settings.
 checked() { "$cleave" check "$work/plate.yaml" --no-trial "$@" >"$work/said" 2>&1; }
 
-# named WHAT PART [ARGUMENT...]: check names the part (width, axis, place, rows, error), and no such width at the spacings that it offers.
+# named WHAT PART [ARGUMENT...]: checks that check reports the part (width, axis, position, rows, error), and no such width at the spacings
+# that it offers.
 named()
 {
     what=$1 part=$2; shift 2
@@ -29,7 +31,7 @@ named()
         holds "$what at $spacing m" sh -c "grep -q 'is sound' '$work/said' && ! grep -q '$width ' '$work/said'"
     done
 }
-# silent WHAT [ARGUMENT...]: check names no part.
+# silent WHAT [ARGUMENT...]: checks that check reports no part.
 silent()
 {
     what=$1; shift
@@ -59,7 +61,7 @@ named "below a hole through a block" 'a part 0.0014 m wide along y, at (0.02, 0.
     $solid -s 'body=[{box: {from: [0, 0, 0], to: [40 mm, 10 mm, 8 mm]}},
         {subtract: {cylinder: {from: [20 mm, 10 mm, -1 mm], to: [20 mm, 10 mm, 9 mm], radius: 8.6 mm}}}]'
 
-# Ligaments that the rows fit, wide plates, and strips that are bent or slanted but nowhere narrower.
+# Ligaments that the rows fit, wide plates, and bent or oblique strips of constant width.
 silent "a ligament of two spacings" -s "$(cut 'disc: {centre: [10 mm, 10 mm], radius: 8 mm}')"
 silent "a wide plate with a hole" \
     -s "$(cut 'disc: {centre: [50 mm, 30 mm], radius: 7.3 mm}' '{box: {from: [0, 0], to: [100 mm, 60 mm]}}')"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Scenes of `cleave new`: each kind is sound, has no advice to follow, and runs; nothing is overwritten.
+# Scenes of `cleave new`: each kind is valid, causes no advice, and runs; nothing is overwritten.
 test_name=new
 . tests/support/summary.sh
 
@@ -19,7 +19,7 @@ done
 holds "a kind is a name, too" "$cleave" new bar >/dev/null
 is "of a scene of that kind" "$(grep -c '^space: line' bar.yaml)" 1
 
-# refused WHAT MESSAGE WORDS...: status 2, one line, no file more
+# refused WHAT MESSAGE WORDS...: checks for status 2, one line, and no additional file.
 refused()
 {
     what=$1 message=$2; shift 2

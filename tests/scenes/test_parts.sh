@@ -1,12 +1,12 @@
 #!/bin/sh
-# Bodies of several materials by regions: waves at an interface, laminates, what becomes peridynamic first.
+# Bodies with several materials by regions: waves at an interface, laminates, order of conversion.
 test_name=test_parts
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# A pulse from steel into a material of a quarter of its impedance: 2 Z1/(Z1 + Z2) = 1.6 goes on, 0.6 comes back. The
-# interface divides a cell.
+# A pulse from steel into a material with a quarter of its impedance: 2 Z1/(Z1 + Z2) = 1.6 is transmitted, 0.6 reflected. The interface
+# divides a cell.
 cat >"$work/layers.yaml" <<'END'
 space: line
 section: 1 mm^2
@@ -21,7 +21,7 @@ initial: [{pulse: {at: [-30 mm], direction: [1], width: 40 mm, velocity: 1}}]
 probes: [{point: {name: a, at: [-20.1 mm]}}, {point: {name: b, at: [20.1 mm]}}]
 output: {frames: 1, samples: 400}
 END
-# A stack under tension, in series; a laminate pulled along its layers, in parallel.
+# A stack under tension, in series; a laminate loaded along its layers, in parallel.
 cat >"$work/series.yaml" <<'END'
 space: line
 duration: 1 ms
@@ -57,7 +57,7 @@ boundary:
   - {region: {box: {from: [18 mm, -inf], to: [inf, inf]}}, velocity: [20 mm/s, free]}
 output: {frames: 1, samples: 1}
 END
-# Two halves of one modulus, of which the left one is ten times as strong: the right one becomes peridynamic and parts.
+# Two halves of equal modulus, of which the left one is ten times as strong: the right one becomes peridynamic and breaks.
 cat >"$work/weak.yaml" <<'END'
 space: line
 section: 1 mm^2
@@ -86,22 +86,22 @@ done
 start weak "$work/weak.yaml"; wait
 start weak_again "$work/weak/scene.yaml"; wait
 
-# most FOLDER COLUMN FROM: its largest value from that time on [s].
+# most FOLDER COLUMN FROM: prints its largest value from that time on [s].
 most() { awk -F, -v name="$2" -v from="$3" 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k == name) at = k } }
     NR > 1 && $1 >= from + 0 && $at > most { most = $at } END { print most + 0 }' "$work/$1/history.csv"; }
-for run in pd mpm adaptive both; do      # 0.5 %: what 160 spacings disperse
+for run in pd mpm adaptive both; do      # 0.5 %: dispersion over 160 spacings
     between "$run: goes on" "$(most $run b.velocity_x 0)" 1.592 1.608
     between "$run: comes back" "$(most $run a.velocity_x 8e-6)" 0.597 0.603
 done
 
-# Reuss: the end moves by sum of t_k sigma/E_k, of one material by L sigma/E. Each of three interfaces has springs in series of the
-# lengths of bonds, not of the parts in them: 0.6 % too stiff at 20 spacings a layer.
+# Reuss: the end moves by the sum of t_k sigma/E_k; for one material by L sigma/E. At each of three interfaces bonds are springs in series
+# with equal parts, instead of the parts in each layer: 0.6 % too stiff with 20 spacings per layer.
 end() { compute "$(last $1 b.displacement_x) - $(last $1 a.displacement_x)"; }
 between "series" "$(compute "$(end series) / (1e6 * (0.0155/1e11 + 0.02/25e9 + 0.02/1e11 + 0.0145/25e9))")" 0.99 1.0001
 between "series: one material" "$(compute "$(end series_all) / (1e6 * 0.07 / 25e9)")" 0.9999 1.0001
 
-# Voigt: half of each modulus; materials of one Poisson's ratio shrink across alike. Bonds across the interface in series are softer
-# than both materials side by side, 1.1 % at ten spacings a layer; families of ospd are not.
+# Voigt: half of each modulus; materials with equal Poisson's ratios contract equally. Bonds across the interface, in series, are softer
+# than both materials in parallel, 1.1 % with ten spacings per layer; families of ospd are not.
 voigt() { compute "$(f parallel_$1 energy.strain) / (2.5 * $(f parallel_all_$1 energy.strain))"; }
 between "parallel: bonds" "$(voigt bond)" 0.98 1
 between "parallel: families" "$(voigt ospd)" 0.998 1.002
@@ -111,8 +111,8 @@ between "weak: peridynamic" "$(f weak conversion.x)" 0 0.1
 sound weak 0.05
 if cmp "$work/weak/history.csv" "$work/weak_again/history.csv"; then pass; else fail "weak: scene.yaml is another scene"; fi
 
-# A list of two materials by name, as another program writes it: the body's is not asked for, what is not read is said, and a
-# checkpoint goes on to the same end.
+# A list of two materials by name, as written by another program: the body's material is not required, ignored columns are reported, and a
+# checkpoint continues to the same result.
 awk 'BEGIN { print "id; x [mm]; y [mm]; z; vx [m/s]; weight [g]; material"
     for (j = 0; j < 8; j++) for (i = 0; i < 20; i++) printf "%d; %g; %g; 0; %g; 2.5e-3; %s\n", 20 * j + i, i, j, i < 10 ? 1 : -1, i < 10 ? "left" : "right" }' \
     >"$work/grains.csv"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Pictures of fields, slices, films and of scenes before they run: what gnuplot is told, by a copy of its input.
+# Pictures of fields, slices, films and of scenes before they run, checked by a copy of gnuplot's input.
 test_name=test_pictures
 . tests/support/summary.sh
 command -v gnuplot >/dev/null || { echo "gnuplot is missing: files not tested"; exit 77; }
@@ -12,7 +12,7 @@ cd "$work" || exit 1
 
 drawn() { holds "$1" grep -a -q -e "$2" drawn; }
 made() { holds "$1 is made" test -s "$1"; }
-# refused WORD ARGUMENTS: exit 2 with one line that has WORD.
+# refused WORD ARGUMENTS: checks for exit status 2 with one line that contains WORD.
 refused()
 {
     word=$1
@@ -171,7 +171,7 @@ mkfifo pipe.png
 refused "no regular file" results/strip --field speed -o pipe.png
 "$cleave" plot results/strip --field speed -o full.png >out 2>err
 cp full.png before.png
-# a limit of a file's length acts as a full disk: gnuplot's picture is cut short
+# A limit on the file length acts as a full disk: gnuplot's picture is truncated.
 (ulimit -f $(($(wc -c <full.png) / 1024)) && exec "$cleave" plot results/strip --field speed -o full.png) >out 2>err
 is "a picture that is cut short: exit status" $? 1
 is "a picture that is cut short: lines" "$(wc -l <err)" 1
@@ -195,7 +195,7 @@ for line in "2 4.2 5.5" "2 5.2 9.9" "23 1.3" "57 0.9"; do holds "numbers of a cu
 holds "their sum leaves work out" grep -a -q 'using 1:(0+$2) with' all
 for label in "crack length \[mm\]" "force \[kN\]" "displacement \[µm\]" "energy \[mJ\]"; do holds "an axis: $label" grep -a -q "$label" all; done
 
-# ffmpeg as far as it matters here: it reads pictures, writes a film of one box, and can fail or wait.
+# A stand-in for ffmpeg: it reads pictures, writes a film of one box, and can fail or wait.
 cat >bin/ffmpeg <<'END'
 #!/bin/sh
 [ "$1" = -version ] && exit 0

@@ -1,6 +1,6 @@
 #!/bin/sh
-# `method: auto`: pilot runs choose, within their budget, what reaches the accuracy that is asked for; the choice is kept and the scene as run
-# says it without auto; what cannot be done is said.
+# `method: auto`: pilot runs choose, within their budget, a method and spacing that reach the requested accuracy; the choice is stored, and
+# the scene as run states it without auto; impossible requests are reported.
 test_name=test_pilot
 . tests/support/summary.sh
 case $cleave in /*) ;; *) cleave=$(pwd)/$cleave ;; esac
@@ -8,8 +8,8 @@ cd "$work" || exit 1
 
 # ---- scenes with known answers ---------------------------------------------------------------------------------------
 
-# Two bars of 20 mm meet at 10 m/s: until the waves come back, at 8 us, strain energy grows by rho A v^2 c per second, v = 5 m/s: at 4 us
-# half of what was kinetic, 4000 J, and what is left moves: 3000 J and 1000 J, as waves have gone through 20 of the 20 mm.
+# Two bars of 20 mm collide at 10 m/s: until the waves return, at 8 us, the strain energy increases by rho A v^2 c per second, v = 5 m/s: at
+# 4 us half of the kinetic energy of 4000 J, plus the part that stopped: 3000 J and 1000 J, as waves have crossed 20 of the 20 mm.
 cat >collide.yaml <<'END'
 space: line
 duration: 4 us
@@ -33,12 +33,12 @@ holds "says what is chosen" grep -q "^pilot .*, spacing .* mm: energy.kinetic wi
 holds "error bar: $(grep -A2 uncertainty collide/summary.json)" grep -q '"energy.kinetic"' collide/summary.json
 is "no request is left in the scene" "$(grep -c '^accuracy\|^method: auto' collide/scene.yaml)" 0
 
-# the scene as run says the same without auto
+# The scene as run states the same without auto.
 "$cleave" run -q collide/scene.yaml -o whole 2>err >out
 is "the scene as run" $? 0
 holds "the same samples" cmp -s collide/history.csv whole/history.csv
 
-# the same question has the same answer, at once; another one is asked anew
+# A repeated request has the same answer at once; a changed one is computed.
 cp collide/scene.yaml before.yaml
 "$cleave" run collide.yaml -o collide --resume 2>err >out
 is "again" $? 0
@@ -51,8 +51,8 @@ for words in "they judge energy.kinetic, within 5 %$" "they vary the method (poi
     holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
 done
 
-# A plate of Poisson's ratio 0.2 pulled at both ends: sigma^2 V/(2 E), by state-based peridynamics or points, whichever is cheaper; without a
-# name the larger energy is judged.
+# A plate with Poisson's ratio 0.2 under tension: sigma^2 V/(2 E), with state-based peridynamics or points, whichever is cheaper; without a
+# name the larger energy is evaluated.
 cat >plate.yaml <<'END'
 space: plane stress
 thickness: 1 mm
@@ -71,7 +71,7 @@ near "its energy" "$(figure results/plate energy.strain)" 5e-7 0.02
 holds "figure chosen: $(cat err)" grep -q "energy.strain within" err
 holds "a static solver" grep -q '^solver: \(cg\|relaxation\)' results/plate/scene.yaml
 
-# a spacing of the user stays
+# A spacing set by the user is kept.
 "$cleave" run plate.yaml -s particles.spacing=0.2mm -o own 2>err >out
 is "own spacing" $? 0
 holds "it stays" grep -q '^  spacing: 0.0002 ' own/scene.yaml
@@ -82,7 +82,7 @@ holds "it is the finest: $(cat out)" grep -q "the method (states), the spacing (
 holds "an energy is judged: $(cat out)" grep -q "they judge the largest of its energies, within 2 %" out
 
 # An edge crack of 8 mm in 16 mm of aluminium, a/W = 0.5, H = W: K_I = 3.009 sigma sqrt(pi a) by boundary collocation. Without a name the
-# first probe is judged.
+# first probe is evaluated.
 cat >crack.yaml <<'END'
 space: plane stress
 thickness: 1 mm
@@ -102,7 +102,7 @@ is "edge crack" $? 0
 near "edge crack" "$(figure results/crack probes.sif.K_I)" "$(compute "3.009e6*sqrt(3.14159265*8e-3)")" 0.03
 holds "its first probe is judged: $(cat err)" grep -q "for the first figure of its probes that is not zero within 3 %" err
 
-# A pulse in steel 0.1 m wide, exp(-(x/r)^2), goes 0.3 m: its crest is at 0.7 m.
+# A pulse in steel 0.1 m wide, exp(-(x/r)^2), travels 0.3 m: its crest is at 0.7 m.
 cat >pulse.yaml <<'END'
 space: line
 duration: 0.05943 ms
@@ -127,9 +127,9 @@ if command -v gnuplot >/dev/null; then
     holds "picture" test -s crack.png
 fi
 
-# ---- what cannot be done ---------------------------------------------------------------------------------------------
+# ---- impossible requests ---------------------------------------------------------------------------------------------
 
-# refused WORDS ARGUMENTS: exit status 2, a line with these words, no run.
+# refused WORDS ARGUMENTS: checks for exit status 2, a line with these words, and no run.
 refused()
 {
     words=$1; shift
@@ -152,7 +152,7 @@ refused "no method for the scene with its model, solver and pd.region" plate.yam
 printf 'x, y\n0, 0\n0.001, 0\n0, 0.001\n0.001, 0.001\n' >list.csv
 refused "particles come from a list" plate.yaml -s body= -s "bodies=[{name: a, particles: list.csv}]"
 
-# Other commands take a scene without a method no further than its line.
+# Other commands refuse a scene without a method at its line.
 for command in "converge" "sweep -s time.safety=0.5,0.8" "export lammps"; do
     "$cleave" ${command%% -s*} collide.yaml $(echo "$command" | grep -o -- '-s.*') -o none >out 2>err
     is "$command" $? 2

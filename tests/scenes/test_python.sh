@@ -1,6 +1,6 @@
 #!/bin/sh
-# The Python module (src/python/cleave.py): it runs scenes with overrides, keeps the program's one line and exit status, and reads
-# what `cleave` itself writes: history, summary, frames in the order of ids, probes, fragments, tables of studies, a run in progress.
+# The Python module (src/python/cleave.py): runs scenes with overrides, passes on the program's message and exit status, and reads the files
+# of `cleave`: history, summary, frames by id, probes, fragments, tables of studies, a run in progress.
 # Skipped where numpy or h5py is missing.
 test_name=python
 . tests/support/summary.sh
@@ -152,7 +152,7 @@ END
 told=$(CLEAVE=$cleave PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=src/python "$python" "$work/test.py" "$work") || exit 1
 checks=$((checks + told))
 
-# Installed, it finds the program that was installed with it.
+# Once installed, it finds the program that was installed with it.
 holds "make install" make -s install BUILD="${BUILD:-build}" PREFIX="$work/prefix" -o all >"$work/installed"
 PYTHONPATH=$(sed -n 's/.*PYTHONPATH=\([^ :]*\).*/\1/p' "$work/installed")
 is "where it is" "$PYTHONPATH" "$work/prefix/lib/python3/dist-packages"

@@ -1,7 +1,6 @@
 #!/bin/sh
-# Back to material points (conversion.reversion) in whole runs: the share of peridynamics falls again behind a wave, without
-# flutter, at no cost in momentum and little in energy; the same bits on any number of threads and after any interruption;
-# and what cannot return is refused.
+# Reversion to material points (conversion.reversion) in whole runs: the share of peridynamics decreases behind a wave, without oscillation,
+# without change of momentum and with little of energy; bitwise equality on any number of threads and after any interruption; refusals.
 test_name=test_reversion
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -10,9 +9,9 @@ test_name=test_reversion
 
 # ---- a pulse through a bar -------------------------------------------------------------------------------------------
 
-# 80 spacings long; converted over half of its peak and a horizon to either side, returned five horizons' time later: about 60
-# particles. What bonds smear of a whole pulse is 0.09 %, and it returns where the stress is low; the fit of the mesh's nodes costs as
-# little. Balance: 0.7 % without return, from conversion in the first step; APIC damps 1.7 %.
+# A pulse 80 spacings long; converted over half of its peak and a horizon on either side, reverted after the time of five horizons: about 60
+# particles. The smoothing of bonds costs 0.09 % for a whole pulse, and reversion is at low stress; the fit of the mesh's nodes costs as
+# little. Balance: 0.7 % without reversion, from conversion in the first step; APIC dissipates 1.7 %.
 start current bar_return -s mpm.frame=current
 start reference bar_return
 wait
@@ -34,8 +33,8 @@ absent "never: returned" "$(f never conversion.returned)"
 
 # ---- a plate ---------------------------------------------------------------------------------------------------------
 
-# The same in the plane, with free edges; the wave passes, is sent back as pressure, and again as tension: nothing is peridynamic in
-# between. Momentum 0.
+# A pulse in a plate with free edges: the wave is reflected as pressure, and again as tension; nothing is peridynamic in between. Momentum
+# 0.
 scene plate <<'END'
 space: plane stress
 thickness: 1 mm
@@ -53,7 +52,7 @@ for frame in current reference; do
     twice_interrupted "$work/stopped" 30 70 $arguments
     calm "$work/stopped" -t 3 --resume $arguments
     same "$frame on 2 and 3 threads, interrupted after 30 and 70 lines" "$work/${frame}1" "$work/stopped"
-    # points in the current frame lose 4.2 to 6.5 % by becoming bonds and points again, by shape and step
+    # Points in the current frame lose 4.2 to 6.5 % by conversion to bonds and back, depending on shape and step.
     sound ${frame}1 $([ $frame = current ] && echo 0.07 || echo 0.05)
     between "$frame: share half-way" "$(column "$work/${frame}1" pd_share 16e-6)" 0.3 0.45
     between "$frame: most at any time" "$(f ${frame}1 conversion.pd_share_max)" "$(column "$work/${frame}1" pd_share 16e-6)" 0.6
@@ -62,20 +61,19 @@ for frame in current reference; do
     between "$frame: a few times at the most" "$(f ${frame}1 conversion.returns_most)" 1 3
 done
 
-# ---- beside cracks nobody returns ------------------------------------------------------------------------------------
+# ---- no reversion beside cracks --------------------------------------------------------------------------------------
 
-# The plate with a hole: what converts lies within two horizons of bonds that break. The result is that without return.
+# The plate with a hole: all converted points are within two horizons of breaking bonds. The result equals that without reversion.
 start hole plate_hole -s conversion.stress=3000MPa -s duration=20us -s conversion.reversion=true
 start hole_never plate_hole -s conversion.stress=3000MPa -s duration=20us
 wait
 is "hole: returned" "$(f hole conversion.returned)" 0
 holds "hole: the same history" cmp "$work/hole/history.csv" "$work/hole_never/history.csv"
 
-# ---- peridynamic from the start round the ends of notches --------------------------------------------------------------
+# ---- peridynamic from the start at the ends of notches -----------------------------------------------------------------
 
-# Two horizons of 3.015 mm round each, as a region says it; ends outside the body do not count. The first bond then breaks when it
-# does in peridynamics of the same kind (no correction of surfaces), 1.4 % later; without 11 %, whatever the criterion. It stays:
-# nobody returns there.
+# Two horizons of 3.015 mm around each, equivalent to a region; ends outside the body do not count. The first bond breaks 1.4 % later than
+# in the corresponding peridynamics (no surface correction), without the zones 11 % later for any criterion. These particles never revert.
 kalthoff="kalthoff_winkler -s time.step=0.1us -s duration=24us -s output.frames=1 -s conversion.notch=bonds"
 tip() { echo "{ball: {centre: [50 mm, $1 mm], radius: 6.03 mm}}"; }
 start pd $kalthoff -s method=pd -s pd.surface=none
@@ -91,7 +89,7 @@ between "tips: share at the start" "$(f tips conversion.pd_share_start)" 0.035 0
 
 # ---- refused ---------------------------------------------------------------------------------------------------------
 
-# refused WHAT PART ARGUMENT...: status 2 and one line that holds PART.
+# refused WHAT PART ARGUMENT...: checks for status 2 and one line that contains PART.
 refused()
 {
     what=$1 part=$2; shift 2

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Cracks whose speed follows their toughness: a semi-infinite one that plane waves load, beside the crack-tip equation
-# of motion k(v) K_still(t) = K_Ic (Freund 1990); two tips at once, each ruled by its own factors; threads and restarts; the
-# energy that cracks of given and of following speed release, beside A_I(v) K^2 (1 - nu^2)/E.
+# Cracks whose speed follows from their toughness: a semi-infinite one loaded by plane waves, compared with the crack-tip equation of motion
+# k(v) K_still(t) = K_Ic (Freund 1990); two tips at once, each controlled by its own factors; threads and restarts; energy released by
+# cracks of prescribed and of computed speed, compared with A_I(v) K^2 (1 - nu^2)/E.
 test_name=test_running_crack
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -9,9 +9,9 @@ test_name=test_running_crack
 
 # ---- the closed form ----------------------------------------------------------------------------------------------
 
-# motion FOLDER SPEED TOUGHNESS FROM: glass under 2 MPa from tbar on, beside its exact motion: means of v - v_exact and of its
-# square, root, 1 us after the start to 9 us, over v_exact's mean; length over the exact one at 9 us; mean of K_eq/K_Ic from 6 to
-# 9 us; energy released from FROM us to 9 us over that of A_I K^2, K = K_Ic, or with SPEED > 0, a given speed, k K_still.
+# motion FOLDER SPEED TOUGHNESS FROM: compares glass under 2 MPa with its exact motion. Prints the mean of v - v_exact and its root mean
+# square, from 1 us after the start to 9 us, over the mean of v_exact; length over the exact one at 9 us; mean of K_eq/K_Ic from 6 to 9 us;
+# energy released from FROM us to 9 us over that of A_I K^2, K = K_Ic, or with SPEED > 0, a prescribed speed, k K_still.
 motion()
 {
     awk -F, -v speed="$2" -v toughness="$3" -v from="$4" '
@@ -24,7 +24,7 @@ motion()
             d = sqrt(1 - v * v / cd / cd); s = sqrt(1 - v * v / cs / cs)
             return d * (1 - s * s) / (1 - nu) / rayleigh_function(v)
         }
-        function factor(v, i, z, z2, sum) {          # Freund 1990, eq. 6.4.26, by midpoints
+        function factor(v, i, z, z2, sum) {          # Freund 1990, eq. 6.4.26, by the midpoint rule
             for (i = 0; i < 48; i++) {
                 z = 0.5 * (1 / cd + 1 / cs) - 0.5 * (1 / cs - 1 / cd) * cos((i + 0.5) * pi / 48); z2 = z * z
                 sum += atan2(4 * z2 * sqrt((z2 - 1 / cd / cd) * (1 / cs / cs - z2)), (1 / cs / cs - 2 * z2) ^ 2) * v / \
@@ -67,8 +67,9 @@ motion()
 }
 part() { echo "$1" | cut -d ' ' -f "$2"; }
 
-# narrow SPACING STEP: the scene with this spacing [mm] and step [ns] in a plate of some 48 mm in place of 60 mm. What the tip sends out at
-# 3.16 us, when waves arrive, comes back from the lateral mirrors to the ring of 8 mm round the moved tip at 9.1 us, after the last sample.
+# narrow SPACING STEP: writes the scene with this spacing [mm] and step [ns] in a plate of about 48 mm instead of 60 mm. The wave emitted by
+# the tip at 3.16 us, when the load arrives, returns from the lateral mirrors to the ring of 8 mm around the moved tip at 9.1 us, after the
+# last sample.
 narrow()
 {
     low=$(compute "30 - $1 * int(23.5 / $1 + 0.01)") high=$(compute "30 + $1 * int(25 / $1 + 0.01)")
@@ -81,12 +82,13 @@ narrow 0.5 50
 start follow "$work/narrow_0.4.yaml" -s growth[0].damping=1.6mm
 start mospd "$work/narrow_0.5.yaml" -s growth[0].damping=2mm -s model=mospd
 wait
-# The released energy of a given speed of 1000 m/s is in test_growth.sh.
+# The released energy at a prescribed speed of 1000 m/s is in test_growth.sh.
 start fast "$work/narrow_0.5.yaml" -s "growth=[{at: [30 mm, 0], direction: [1, 0], speed: 1500 m/s, start: 4.4 us, damping: 2 mm}]"
 wait
-# Measured at 0.4 mm, and by mospd at 0.5 mm (horizons of 1.6 and 2 mm): mean speed 4 and 5 % high, 7 % rms both, length 1.01 and
-# 1.02, energy 0.97 and 1.00 (ospd at 0.5 mm: 0.94). K is measured a process zone late and rises all the time: 10 and 13 % above K_Ic,
-# 6 % at 0.25 mm, 2 % at 0.125 mm. A law that takes the speed of now for that of its factors swings by 25 % rms.
+# Measured at 0.4 mm, and with mospd at 0.5 mm (horizons of 1.6 and 2 mm): mean speed 4 and 5 % too large, 7 % root mean square for both,
+# length 1.01 and 1.02, energy 0.97 and 1.00 (ospd at 0.5 mm: 0.94). K is measured with the delay of a process zone and increases all the
+# time: 10 and 13 % above K_Ic, 6 % at 0.25 mm, 2 % at 0.125 mm. A law that associates the current speed with the measured factors
+# oscillates by 25 % root mean square.
 for run in follow mospd; do
     found=$(motion $run 0 0.25e6 7)
     between "$run: mean speed" "$(part "$found" 1)" -0.08 0.08
@@ -97,7 +99,7 @@ for run in follow mospd; do
     between "$run: first growth" "$(f $run probes.growth.start_time)" 5.3e-6 5.8e-6      # exact: 5.478 us
     sound $run 0.005
 done
-# Bonds that fade over a horizon; over half of one the faster crack sheds a seventh of its energy as waves.
+# Bonds that are released over a horizon; over half of one the faster crack radiates a seventh of its energy as waves.
 between "released at 1500 m/s" "$(part "$(motion fast 1500 0.25e6 6)" 5)" 0.95 1.05
 
 # ---- threads, restarts ------------------------------------------------------------------------------------------------
@@ -107,7 +109,7 @@ small="inputs/running_crack.yaml -s particles.spacing=0.8mm -s time.step=50ns -s
 calm "$work/once" -t 1 $small
 calm "$work/threads" -t 2 $small
 same "follows: threads" "$work/once" "$work/threads"
-# stopped at 7.5 us or later, on its way
+# Stopped at 7.5 us or later, during growth.
 interrupted "$work/stop" 76 $small
 calm "$work/stop" -t 1 --resume $small
 same "follows: in the middle of its way" "$work/once" "$work/stop"
@@ -115,8 +117,8 @@ between "it moves there" "$(column "$work/once" growth.speed 7.5e-6)" 200 2000
 
 # ---- two tips at once ------------------------------------------------------------------------------------------------
 
-# The step it chooses, 0.37 us, moves a tip of 2000 m/s by a third of the length over which bonds fade: 2 % of the energy is
-# lost to the scheme, 0.15 % in these. Spacings of 5/3 mm put the notches between rows; rings of 5 to 10 mm are three of them wide.
+# The automatic step, 0.37 us, would move a tip of 2000 m/s by a third of the length over which bonds are released: an energy error of 2 %,
+# 0.15 % with these steps. Spacings of 5/3 mm place the notches between rows; rings of 5 to 10 mm are three spacings wide.
 short="-s duration=50us -s time.step=0.25us -s output.samples=200 -s output.frames=3 -s particles.spacing=5/3mm -s particles.horizon=3"
 short="$short -s probes[0].sif.outer=10mm -s probes[0].sif.contours=[10mm]"
 whole="inputs/kalthoff_sif_whole.yaml $short -s probes[1].sif.outer=10mm -s probes[1].sif.contours=[10mm]"
@@ -129,7 +131,7 @@ interrupted "$work/pair_stop" 128 $whole $follow
 calm "$work/pair_stop" -t 1 --resume $whole $follow
 same "two tips" "$work/pair" "$work/pair_stop"
 
-# mirrored FOLDER: how far the two tips, and their lengths, are from mirror images of each other at any time [m].
+# mirrored FOLDER: prints the largest deviation of the two tips, and of their lengths, from mirror symmetry at any time [m].
 mirrored()
 {
     awk -F, '
@@ -141,13 +143,13 @@ mirrored()
         }
         END { if (n > 20) print most + 0 }' "$work/$1/history.csv"
 }
-# history.csv shows ten digits
+# history.csv has ten digits.
 for run in pair_given pair; do
     between "$run: symmetry" "$(mirrored $run)" 0 1e-9
     between "$run: sides" "$(compute "$(f $run probes.upper_growth.y) + $(f $run probes.lower_growth.y)")" -1e-9 1e-9
     sound $run 0.01
 done
-# the same plate cut along its line of symmetry, where a layer of images stands for the other half
+# The plate cut along its line of symmetry, with a layer of images as the other half.
 for axis in x y; do
     apart "beside half a plate, $axis" "$(f pair_given probes.upper_growth.$axis)" "$(f half probes.growth.$axis)" 5e-4
 done

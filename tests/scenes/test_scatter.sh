@@ -1,12 +1,12 @@
 #!/bin/sh
-# Strength that scatters, as a user runs it: other seeds break elsewhere, the same one to the same bits on any number of threads,
-# after a checkpoint, in its own echo and in another spacing; what is refused.
+# Scatter of strength from the command line: other seeds break elsewhere; equal seeds are bitwise equal on any number of threads, after a
+# checkpoint and from the echo, and agree at another spacing; refusals.
 test_name=test_scatter
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# A ring that flies apart.
+# An expanding ring.
 cat >"$work/ring.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -20,7 +20,7 @@ initial: [{velocity_gradient: [[2e3, 0], [0, 2e3]]}]
 probes: [break]
 output: {frames: 2, samples: 10, checkpoint: 0}
 END
-# A bar that stretches evenly breaks where it is weakest.
+# A uniformly stretched bar breaks at its weakest position.
 cat >"$work/bar.yaml" <<'END'
 space: line
 duration: 20 us
@@ -54,7 +54,8 @@ sound one 0.005
 is "adaptive: status" "$(f adaptive status)" done
 between "adaptive: momentum" "$(f adaptive momentum_error)" 0 1e-12
 
-# The field is one of places: the bar breaks where it is weakest, at any spacing, when that is due: sooner than the mean.
+# The field depends on the position: the bar breaks at its weakest position for any spacing, at the time given by its strength: earlier than
+# for the mean.
 apart "the weakest place" "$(f fine probes.break.x)" "$(f coarse probes.break.x)" 2e-3
 between "first break" "$(compute "$(f coarse probes.break.first_time) / 10e-6")" 0.4 0.9
 between "first break, finer" "$(compute "$(f fine probes.break.first_time) / $(f coarse probes.break.first_time)")" 0.95 1.03

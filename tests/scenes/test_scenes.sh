@@ -1,11 +1,11 @@
 #!/bin/sh
-# The scenes of inputs/ do what they promise, by the figures of summary.json.
-# Takes some 20 s: 22 runs, of which the three plates in space, two with a fit of surface weights, are half of the time.
+# Results stated in the scenes of inputs/, checked by the figures of summary.json.
+# Takes some 20 s: 22 runs, of which three plates in 3D, two with a fit of surface weights, are half of the time.
 test_name=test_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# ---- hopkinson_bar: a bar struck at its end -----------------------------------------------------------------------
+# ---- hopkinson_bar: a bar hit at its end --------------------------------------------------------------------------
 
 start bar hopkinson_bar
 start bar_printed hopkinson_bar -s material.critical_stretch=0.3
@@ -18,10 +18,10 @@ between "bar: first break" "$(f bar crack.start_time)" 1.00e-3 1.07e-3
 between "bar: its place" "$(f bar probes.break.x)" 0.038 0.042
 between "bar: spall" "$(f bar probes.spall.position)" 0.038 0.042
 between "bar: spall speed" "$(f bar probes.spall.speed)" 26 30
-# 0 where nothing is lost; contact on the grid takes 3 % of the energy, short waves of the first cells.
+# 0 without dissipation; contact on the grid takes 3 % of the energy, short waves of the first cells.
 between "bar: the rest" "$(f bar probes.spall.speed_rest)" -2.5 2.5
-# Half of 30 m/s times the impedance makes 1500 Pa: the printed strength of 3000 Pa is out of reach. Linear shapes break the bar
-# all the same, by the noise of particles that cross cells.
+# Half of 30 m/s times the impedance is 1500 Pa, below the printed strength of 3000 Pa. Linear shapes break the bar nevertheless, by the
+# noise of cell crossing.
 sound bar_printed 0.05
 absent "bar as printed breaks" "$(f bar_printed crack.start_time)"
 between "bar as printed: nothing converts" "$(f bar_printed conversion.pd_share_max)" 0 0
@@ -58,7 +58,7 @@ done
 for method in pd adaptive; do
     run=crack_${method}_0.5
     between "$run: start" "$(f $run crack.start_time)" 5.7e-6 6.4e-6
-    # full peridynamics stops at 9.82-9.84 us with any step, adaptively at 10.3; half last forces had 10.2
+    # Full peridynamics stops at 9.82-9.84 us for any step, adaptive runs at 10.3; with half last forces at 10.2.
     between "$run: arrest" "$(f $run crack.arrest_time)" 9.6e-6 11.5e-6
     between "$run: length" "$(compute "$(f $run crack.length_end) + 5e-3")" 8.5e-3 9.75e-3
 done
@@ -77,7 +77,7 @@ for method in pd adaptive; do
     between "$run: start" "$(f $run crack.start_time)" 16e-6 17.8e-6
     between "$run: at the hole's end" "$(f $run probes.break.x)" 4.5e-3 6.5e-3
     between "$run: on the axis" "$(f $run probes.break.y)" -1.5e-3 1.5e-3
-    # adaptively each crack may split, 2.75 mm to either side of the axis, with steps of 0.05 to 0.3 of the critical one
+    # In adaptive runs each crack may branch, 2.75 mm to either side of the axis, for steps of 0.05 to 0.3 of the critical one.
     for tip in 0 1; do between "$run: horizontal, tip $tip" "$(f $run crack.tips.$tip.y)" -3e-3 3e-3; done
     between "$run: right and left" "$(compute "$(f $run crack.tips.0.x) * $(f $run crack.tips.1.x)")" -1 -1e-4
     between "$run: speed" "$(f $run crack.tip_speed_max)" 1400 2100
@@ -87,10 +87,10 @@ between "plate_hole: all material points at the start" "$(f hole_adaptive conver
 
 # ---- kalthoff_winkler ---------------------------------------------------------------------------------------------------
 
-# with a look at the mid-line above the notches' ends
+# With probes on the mid-line above the notches' ends.
 sed 's/^probes: .*/probes: [tip, {point: {name: middle, at: [50.5 mm, 0.5 mm]}}, {point: {name: edge, at: [99.5 mm, 0.5 mm]}}]/' \
     inputs/kalthoff_winkler.yaml >"$work/kalthoff.yaml"
-# twice the step of the scene but for its own method: long_scenes.sh tries the angle with steps of 0.03 to 0.15 us
+# Twice the step of the scene except for its own method: long_scenes.sh tests the angle with steps of 0.03 to 0.15 us.
 plate="$work/kalthoff.yaml -s time.step=0.1us" often="-s output.samples=500"
 start kalthoff_adaptive "$work/kalthoff.yaml" $often
 start kalthoff_pd $plate $often -s method=pd
@@ -110,12 +110,12 @@ for method in pd adaptive handshake; do
     between "$run: speed below 0.75 of 2779 m/s" "$(f $run crack.tip_speed_max)" 800 2084
 done
 apart "kalthoff: pd and adaptive" "$(f kalthoff_pd crack.angle_deg)" "$(f kalthoff_adaptive crack.angle_deg)" 3
-# 67.3 and 62.1-62.8 with any step down to 0.05 of the critical one: what is left is the coupling's
+# 67.3 and 62.1-62.8 for any step down to 0.05 of the critical one: the difference is due to the coupling.
 apart "kalthoff: pd and handshake" "$(f kalthoff_pd crack.angle_deg)" "$(f kalthoff_handshake crack.angle_deg)" 6
 between "kalthoff: share at the start" "$(f kalthoff_adaptive conversion.pd_share_start)" 0.004 0.007
-# Material points alone carry the wave and break nothing until 25 us, when all others have broken bonds.
-# Half of the 22 m/s is there when the plane wave of
-# c = sqrt(E/(rho (1 - nu^2))) = 5235 m/s has come from the driven layer at -0.5 mm: 9.74 us, 5 % for its rounded front.
+# Material points alone transmit the wave and break nothing until 25 us, when all other methods have broken bonds. Half of the 22 m/s is
+# reached when the plane wave of c = sqrt(E/(rho (1 - nu^2))) = 5235 m/s arrives from the driven layer at -0.5 mm: 9.74 us, tolerance 5 %
+# for its rounded front.
 absent "kalthoff, mpm: a crack" "$(f kalthoff_mpm crack.start_time)"
 for method in mpm pd adaptive; do
     between "kalthoff_$method: wave" "$(passes "$work/kalthoff_$method" middle.velocity_x 11)" 9.25e-6 10.25e-6
@@ -123,12 +123,11 @@ done
 apart "kalthoff: the same wave" "$(passes "$work/kalthoff_mpm" middle.velocity_x 11)" \
     "$(passes "$work/kalthoff_pd" middle.velocity_x 11)" 0.25e-6
 
-# Conversion away from the crack: the far edge x = 100 mm carries tension along itself that passes 1140 MPa (0.95 x 1200 MPa)
-# near 40 us and 1600 MPa at 50 us, and never the trigger 0.95 E s_c = 2340 MPa. So the default converts along the cracks
-# only, and the share of a lower trigger takes off after about 42 us.
-# That share was measured with GIMP and APIC (7.8 % at the end).
+# Conversion away from the crack: the far edge x = 100 mm has tension along itself that exceeds 1140 MPa (0.95 x 1200 MPa) near 40 us and
+# 1600 MPa at 50 us, but never the trigger 0.95 E s_c = 2340 MPa. The default thus converts only along the cracks, and the share with a
+# lower trigger rises after about 42 us. That share was measured with GIMP and APIC (7.8 % at the end).
 start kalthoff_early $plate -s mpm.frame=current -s mpm.transfer=apic -s conversion.stress=1200MPa
-# the bar of plate_impact_3d.yaml with half its width and height: all cross-sections are alike
+# The bar of plate_impact_3d.yaml with half its width and height: all cross sections are equivalent.
 sed 's/8 mm, 8 mm\]/4 mm, 4 mm]/; s/at: 8 mm/at: 4 mm/' inputs/plate_impact_3d.yaml >"$work/impact.yaml"
 start impact_pd "$work/impact.yaml" -s method=pd
 wait
@@ -145,15 +144,15 @@ is "kalthoff: what converts late is not broken" "$(column "$work/kalthoff_early"
 
 # ---- plate_impact_3d --------------------------------------------------------------------------------------------------
 
-# Elasticity: c = sqrt(1.2 E/rho) = 109.5 m/s, (0.07/c)(10/7) = 0.913 ms at 40 mm. The waves of short length that make the front
-# of a peridynamic shock are late by the horizon's dispersion: +7 % here, +5 % at half the spacing (long_scenes.sh).
+# Elasticity: c = sqrt(1.2 E/rho) = 109.5 m/s, (0.07/c)(10/7) = 0.913 ms at 40 mm. The short waves in the front of a peridynamic shock are
+# delayed by the horizon's dispersion: +7 % here, +5 % at half the spacing (long_scenes.sh).
 step="-s time.step=0.2us"
 start impact_adaptive "$work/impact.yaml"
 start solid_pd kalthoff_winkler_3d $step -s method=pd
 wait
 sound impact_pd $pd_balance
 sound impact_adaptive $adaptive_balance
-# planes lie between particles, 2 mm apart: 38 and 42 mm are meant to hold, whatever their last bits
+# Planes are between particles, 2 mm apart: 38 and 42 mm are included, whatever their last bits.
 for method in pd adaptive; do between "impact_$method: spall" "$(f impact_$method probes.spall.position)" 0.0379999 0.0420001; done
 between "impact_adaptive: time" "$(f impact_adaptive crack.start_time)" "$(compute 0.913e-3*0.94)" "$(compute 0.913e-3*1.06)"
 between "impact_pd: time" "$(f impact_pd crack.start_time)" "$(compute 0.913e-3*0.94)" "$(compute 0.913e-3*1.08)"
@@ -169,7 +168,7 @@ for method in pd adaptive; do
     run=solid_$method
     between "$run: start" "$(f $run crack.start_time)" 15e-6 18.5e-6
     between "$run: tip moves" "$(f $run crack.tip_start_time)" 28e-6 30.5e-6
-    # 59.6 with steps of the path of 2 mm; 66.3 and 65.4 at half the spacing
+    # 59.6 with steps of the path of 2 mm; 66.3 and 65.4 at half the spacing.
     between "$run: angle" "$(f $run crack.angle_deg)" 58 75
     between "$run: break at the notch" "$(f $run probes.break_at_notch.first_time)" 15e-6 18.5e-6
     between "$run: speed" "$(f $run crack.tip_speed_max)" 800 2084
@@ -177,8 +176,8 @@ done
 apart "solid: angles" "$(f solid_pd crack.angle_deg)" "$(f solid_adaptive crack.angle_deg)" 4
 apart "solid: tips, x" "$(f solid_pd crack.tips.0.x)" "$(f solid_adaptive crack.tips.0.x)" 4.001e-3
 apart "solid: tips, y" "$(f solid_pd crack.tips.0.y)" "$(f solid_adaptive crack.tips.0.y)" 4.001e-3
-# No family is whole in a plate of 10 mm with a horizon of 6 mm: without weights for that the plate is softer and breaking
-# costs less, 20.8 J where it is 26.0 J.
+# No family is complete in a plate of 10 mm with a horizon of 6 mm: without surface weights the plate is softer and its fracture energy is
+# smaller, 20.8 J instead of 26.0 J.
 between "solid: fracture energy without surface correction over that with it" \
     "$(compute "$(f solid_plain energy.fracture) / $(f solid_pd energy.fracture)")" 0.6 0.85
 between "solid_plain: angle" "$(f solid_plain crack.angle_deg)" 55 75

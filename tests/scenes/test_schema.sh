@@ -1,5 +1,5 @@
 #!/bin/sh
-# The schema that editors read: named by every shipped scene, which it accepts; it refuses what people mistype.
+# The schema for editors: every shipped scene refers to it and conforms to it; it rejects typical typing errors.
 test_name=schema
 . tests/support/summary.sh
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Bodies from files as a user has them: the three scenes of inputs/bodies.md, their volumes, materials, echoes; files that change.
+# Bodies from files, from the command line: the three scenes of inputs/bodies.md, their volumes, materials, echoes; files that change.
 test_name=test_shapes
 . tests/support/summary.sh
 
@@ -9,7 +9,7 @@ awk -v work="$work" '/^```yaml/ { getline; if ($2 ~ /^(blade|gear|fibres)\.yaml:
     /^```$/ { file = "" } file { print > file }' inputs/bodies.md
 cd "$work" || exit 1
 
-# said NAME PATTERN ARGUMENTS: what check says of a scene.
+# said NAME PATTERN ARGUMENTS: checks the output of check for a scene.
 said()
 {
     name=$1 pattern=$2; shift 2
@@ -25,7 +25,7 @@ refused()
     case $said in *"$wanted"*) pass ;; *) fail "$*: '$said' has no '$wanted'" ;; esac
 }
 
-# The gear: 2 rings of 48 chords and 12 teeth enclose 7.9018e-4 m^2; cracks begin, and the echo runs alike from another folder.
+# The gear: 2 rings of 48 chords and 12 teeth enclose 7.9018e-4 m^2; cracks start, and the echo gives equal results from another folder.
 said gear.yaml "144 edges, 2 shells, closed, encloses 0.0007902 m^2; sets wheel, teeth, bore" -s duration=1us
 "$cleave" run gear.yaml -q -s duration=15us -s output.frames=1 >/dev/null 2>&1 || fail "gear.yaml does not run"
 [ -n "$(sed -n 's/.*"start_time": *\([0-9.e-]*\).*/\1/p' results/gear/summary.json)" ] && pass || fail "the gear does not crack"
@@ -46,7 +46,7 @@ refused "have no material; void leaves them out" check fibres.yaml -s body='{ima
 refused "is in two ranges" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 128-255: fibre}}}'
 refused "there is no material glass" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 129-255: glass}}}'
 
-# The blade: a sound surface; half of it is none.
+# The blade: a closed surface; half of it is refused.
 said blade.yaml "248 triangles, 1 shell, closed" -s particles.spacing=2mm -s duration=1us
 head -c 6084 blade.stl >half.stl
 refused "is cut off" check blade.yaml -s bodies='[{shape: {stl: {file: half.stl, unit: mm}}}]'

@@ -1,11 +1,11 @@
 #!/bin/sh
-# What `cleave check` holds against a shipped scene is answered in it: each line of advice (unneeded, unresolved) by a comment
+# Advice of `cleave check` on a shipped scene is answered in the scene: each line of advice (unneeded, unresolved) by a comment
 #     # check: WORDS: REASON
-# whose words stand in that line. One comment may answer several lines; one that answers none is out of date.
+# whose words are in that line. One comment may answer several lines; a comment that answers none is an error.
 test_name=test_shipped_scenes
 . tests/support/summary.sh
 
-# unanswered SCENE SAID: what is left of the lines of advice and of the comments.
+# unanswered SCENE SAID: prints the lines of advice and the comments that remain.
 unanswered()
 {
     awk '
@@ -21,7 +21,7 @@ unanswered()
         END { for (k = 1; k <= lines; k++) if (!answered[k]) print "unanswered: " advice[k] }' "$2" "$1"
 }
 
-# Two at a time. The largest scene takes as long as all others: at a wider spacing, at which the same is unneeded.
+# Two at a time. The largest scene takes as long as all others: it is checked at a larger spacing, with the same advice.
 cat >"$work/say" <<'END'
 said=$2/$(basename "$3" .yaml)
 case $3 in *kalthoff_3d_fine*) set -- "$1" "$2" "$3" -s particles.spacing=10/14mm ;; esac
@@ -37,7 +37,7 @@ for scene in inputs/*.yaml; do
     is "$scene" "$(unanswered "$scene" "$said")" ""
 done
 
-# The comparison itself finds what is missing and what is too much.
+# The comparison itself detects missing and superfluous comments.
 printf 'unneeded: half of it: own mirror image at x = 0\nunneeded: half of it: own mirror image at y = 0\n' >"$work/said"
 printf '# check: own mirror image: both halves are shown\n' >"$work/scene"
 is "one comment for two lines" "$(unanswered "$work/scene" "$work/said")" ""

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Stress-intensity factors of inputs/: an edge crack against the closed form, by all models, both solvers and in
-# adaptive coupling, and an inclined crack in both modes.
+# Stress-intensity factors of inputs/: an edge crack compared with the closed form, for all models, both solvers and adaptive coupling, and
+# an inclined crack in both modes.
 test_name=test_sif_scenes
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# The edge crack with more ways to measure it.
+# The edge crack with additional probes.
 {
     cat inputs/edge_crack_k1.yaml
     echo '  - sif: {name: pddo, gradient: pddo}'
@@ -14,7 +14,7 @@ test_name=test_sif_scenes
     echo '  - sif: {name: far, outer: 3 mm}'
 } >"$work/edge.yaml"
 
-# inclined PHI: the inclined crack at another angle [degrees].
+# inclined PHI: writes the inclined crack with another angle [degrees].
 inclined()
 {
     awk -v phi="$1" '
@@ -48,45 +48,46 @@ wait
 
 # ---- the edge crack: 11.93 MPa mm^0.5 (3.009 sigma sqrt(pi a), boundary collocation) --------------------------------------
 
-# off RUN PROBE: relative error of K_I.
+# off RUN PROBE: prints the relative error of K_I.
 off() { compute "$(f "$1" "probes.$2.K_I") / (11.93e6 * sqrt(1e-3)) - 1"; }
-# With faces that bend as they should what is left is the end of the crack: as if it were longer by half a horizon, twice
-# as much with twice the spacing (2.08 measured; 1.5 if K were 2 % too large at both).
+# With surface correction the remaining error is at the end of the crack: as if it were longer by half a horizon; twice as much with twice
+# the spacing (ratio 2.08 measured; it would be 1.5 if K were 2 % too large in both).
 between "mospd: K_I" "$(off mospd sif)" -0.01 0.003
 between "ospd: K_I" "$(off ospd sif)" 0.012 0.022
 between "ospd, 50 particles: K_I, twice as far off" "$(compute "$(off ospd_coarse sif) / $(off ospd sif)")" 1.8 2.3
-# what families cut short by faces cost: 2.3 % with constants of their own, and bonds soft at surfaces 1.6 %
+# Error of families that are incomplete at faces: 2.3 % with their own constants, and 1.6 % for bonds that are soft at surfaces.
 between "mospd local: K_I" "$(off local sif)" -0.03 -0.015
 between "bonds: K_I" "$(off bond sif)" 0.012 0.022
 for run in mospd ospd; do
     between "$run: contours" "$(f $run probes.sif.contour_spread)" 0 0.003
 done
-# K_II is zero by symmetry; bonds on the crack's line count as above it
+# K_II is zero by symmetry; bonds on the crack's line count as above it.
 between "mospd: K_II" "$(compute "$(f mospd probes.sif.K_II) / $(f mospd probes.sif.K_I)")" -0.005 0.005
 for run in mospd ospd; do
-    # rings of 1.5 and 3 mm, the latter 2 mm off the edges
+    # Rings of 1.5 and 3 mm, the latter 2 mm from the edges.
     apart "$run: radius" "$(off $run near)" "$(off $run far)" 0.003
     apart "$run: mls and pddo" "$(off $run sif)" "$(off $run pddo)" 0.003
 done
-# J of the same ring: K_I^2/E in plane stress
+# J of the same ring: K_I^2/E in plane stress.
 between "mospd: J" "$(compute "$(f mospd probes.sif.J) * 200e9 / $(f mospd probes.sif.K_I)^2")" 0.997 1.003
-# The linear ramp has kinks where rings begin and end: particles sample them badly.
+# The linear ramp has kinks at both ends of rings, which particles sample inaccurately.
 between "linear weight: contours" \
     "$(compute "$(f mospd probes.linear.contour_spread) / $(f mospd probes.sif.contour_spread)")" 1.5 1000
 apart "cg and relaxation" "$(off alone sif)" "$(off relaxation sif)" 1e-3
-# material points from 1.6 mm off the crack's ends to the edges
+# Material points from 1.6 mm from the crack's ends to the edges.
 apart "adaptive and pd" "$(off coupled sif)" "$(off alone sif)" 0.01
 
 # ---- the inclined crack, at half the resolution of the scene ----------------------------------------------------------
 
-# deviation RUN PROBE MODE F_I F_II: of |K| from collocation, over the root of the sum of squares.
+# deviation RUN PROBE MODE F_I F_II: prints the deviation from collocation over the root of the sum of squares of both factors.
 deviation()
 {
     wanted=$4
     [ "$3" = II ] && wanted=$5
     compute "(sqrt(($(f "$1" "probes.$2.K_$3"))^2) / (1e6 * sqrt(3.14159265358979 * 3e-3)) - $wanted) / sqrt($4^2 + $5^2)"
 }
-# Mode I alone and mode II alone are in test_sif_handbook.sh. Measured: at most 1.3 and 1.4 %; with the scene's own 400 x 200 particles 0.9 and 0.9 %.
+# Pure mode I and pure mode II are in test_sif_handbook.sh. Measured: at most 1.3 and 1.4 %; with the scene's own 400 x 200 particles 0.9
+# and 0.9 %.
 for probe in sif lower; do
     for mode in I II; do
         between "45 $probe $mode" "$(deviation inclined_45 $probe $mode 0.6612 0.5674)" -0.02 0.02

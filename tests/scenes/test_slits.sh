@@ -1,16 +1,16 @@
 #!/bin/sh
-# Pre-cracks as slits of the mesh (conversion.notch): beside cut bonds, on any number of threads, after an interruption, with what
-# rests left out; in half a body with a mirror; faces that meet; what cannot be a slit.
+# Pre-cracks as slits of the mesh (conversion.notch): compared with cut bonds, on any number of threads, after an interruption, with the
+# active set; in half a body with a mirror; contact of faces; cracks that cannot be slits.
 test_name=test_slits
 . tests/support/summary.sh
 . tests/support/trust.sh
 . tests/support/scenes.sh
 . tests/support/physics.sh
 
-# ---- beside cut bonds, and the same bits ---------------------------------------------------------------------------------
+# ---- comparison with cut bonds, and bitwise equality ---------------------------------------------------------------------
 
-# Slits and bonds differ by 0.6 % in the time to the first break and by half a spacing in the length of the crack; its angle is that of
-# its farthest particle, and moves by 4 degrees from one to the next.
+# Slits and bonds differ by 0.6 % in the time of the first break and by half a spacing in the crack length; the angle is that of the
+# farthest particle, and changes by 4 degrees between neighbours.
 plate=inputs/kalthoff_winkler.yaml
 start slit $plate -s output.frames=0
 start bonds $plate -s output.frames=0 -s conversion.notch=bonds
@@ -37,7 +37,7 @@ for lines in 12 60; do
     calm "$work/stopped" -t 2 --resume $plate
     same "interrupted after $lines lines" "$work/slit1" "$work/stopped"
 done
-# All columns of the history but that of what rests.
+# All columns of the history but that of the share at rest.
 columns() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^rest_share/) at = k } { $at = ""; print }' "$work/$1/history.csv"; }
 calm "$work/awake" $plate -s time.active_set=false
 columns slit1 >"$work/rests"
@@ -56,8 +56,8 @@ close "half a plate: length" "$(f half crack.length_end)" "$(f slit crack.length
 
 # ---- a crack that opens slowly --------------------------------------------------------------------------------------------
 
-# Opening of a centre crack under tension that grows in 8 travel times and stays: 0.2 % less than with bonds at a spacing of 1 mm, where
-# a plate four times as long is 2.3 % above the closed form (bonds: 2.4 %; Tada, Paris & Irwin).
+# Opening of a centre crack under tension that increases over 8 transit times and stays constant: 0.2 % less than with bonds at a spacing of
+# 1 mm; a plate four times as long is 2.3 % above the closed form (bonds: 2.4 %; Tada, Paris & Irwin).
 scene centre <<'END'
 space: plane stress
 thickness: 1 mm
@@ -79,7 +79,7 @@ for notch in slit bonds; do calm "$work/opens_$notch" "$work/centre.yaml" -s con
 opens() { compute "$(mean "$1" up.displacement_y 5e-5 2.5e-4) - $(mean "$1" low.displacement_y 5e-5 2.5e-4)"; }
 between "opening, beside bonds" "$(compute "$(opens opens_slit) / $(opens opens_bonds)")" 0.99 1.01
 
-# ---- faces that meet ------------------------------------------------------------------------------------------------------
+# ---- contact of faces -----------------------------------------------------------------------------------------------------
 
 scene squeeze <<'END'
 space: plane stress
@@ -107,9 +107,9 @@ between "faces meet and stop: a hundredth of a spacing, and what a cell of 1 mm 
 between "without contact they pass" "$(closing through)" 2e-4 1
 is "faces that pass stay material points" "$(f through conversion.pd_share_start)" "$(f through conversion.pd_share_end)"
 
-# ---- what cannot be a slit ------------------------------------------------------------------------------------------------
+# ---- cracks that cannot be slits ------------------------------------------------------------------------------------------
 
-# stays REASON ARGUMENT...: cut bonds by default, with a reason, and refused as a slit in one line.
+# stays REASON ARGUMENT...: checks that the crack cuts bonds by default, with a reason, and is refused as a slit in one line.
 stays()
 {
     reason=$1; shift

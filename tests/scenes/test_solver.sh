@@ -1,6 +1,6 @@
 #!/bin/sh
-# Static solvers from the command line: the edge crack by both, what the summary says, the same bits on any number of
-# threads and after kills, and what is refused.
+# Static solvers from the command line: the edge crack with both, the summary, bitwise equality on any number of threads and after kills,
+# refusals.
 test_name=test_solver
 . tests/support/summary.sh
 . tests/support/trust.sh
@@ -20,7 +20,7 @@ for solver in cg relaxation; do
     between "$solver: residual" "$(figure "$work/$solver" solver.residual)" 0 1e-5
     is "$solver: lines of history" "$(wc -l <"$work/$solver/history.csv")" 3
     is "$solver: frames" "$(ls "$work/$solver/frames" | wc -l)" 2
-    # linear in the load but for rotations of 1e-5 at the crack
+    # Linear in the load up to rotations of 1e-5 at the crack.
     between "$solver: balance" "$(figure "$work/$solver" energy.balance_error)" -2e-4 2e-4
 done
 between "steps of cg" "$(figure "$work/cg" solver.steps)" 100 200
@@ -31,8 +31,7 @@ between "opening of the mouth" "$(compute "$(opening cg) / ($(opening relaxation
 # ---- a cantilever of points ------------------------------------------------------------------------------------------
 
 # Plane strain, 200 mm by 20 mm, under a weight of 100 kN/m^3: q L^4/(8 E' I) = 0.1125 mm with E' = E/(1 - nu^2), and 0.2 % more by shear.
-# Measured 1.2 % below and above that.
-# Its end sinks by a twentieth of a spacing, so that points reach into new cells. Four cells across it.
+# Measured 1.2 % below and above that. Its end moves by a twentieth of a spacing, so that points enter new cells. Four cells across.
 cat >"$work/cantilever.yaml" <<'END'
 space: plane strain
 thickness: 10 mm
@@ -55,7 +54,7 @@ for shape in gimp quadratic; do
     between "cantilever, $shape: balance" "$(figure "$work/$shape" energy.balance_error)" -1e-4 1e-4
 done
 
-# Velocities at the start and their gradients are left out: the same equilibrium, and none at once without a load.
+# Initial velocities and their gradients are ignored: the same equilibrium, which is reached at once without a load.
 spun="$work/stub.yaml -s solver_tolerance=1e-2"
 sed 's/200 mm/60 mm/g; s/2.5 mm/10 mm/' "$work/cantilever.yaml" >"$work/stub.yaml"
 spin='initial=[{velocity: [0, 100 m/s]}, {rotation: {centre: [30 mm, 10 mm], rate: 1e5 1/s}}]'
@@ -65,7 +64,7 @@ calm "$work/idle" $spun -s "$spin" -s 'boundary=[{mirror: {axis: x, at: 0, tange
 is "with velocities" "$(figure "$work/spun" probes.end.displacement_y)" "$(figure "$work/rested" probes.end.displacement_y)"
 is "with velocities alone" "$(figure "$work/idle" probes.end.displacement_y)" 0
 
-# ---- the same bits ---------------------------------------------------------------------------------------------------
+# ---- bitwise equality ------------------------------------------------------------------------------------------------
 
 plate="$crack -s output.checkpoint=0.02"
 coupled="$plate -s method=adaptive -s solver=relaxation"

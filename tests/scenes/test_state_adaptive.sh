@@ -1,18 +1,18 @@
 #!/bin/sh
-# State-based bonds in adaptive runs: trust, momentum, a pulse across the interface, and cracks that turn.
+# State-based bonds in adaptive runs: reproducibility, momentum, a pulse through the interface, and cracks that turn.
 test_name=test_state_adaptive
 . tests/support/summary.sh
 . tests/support/scenes.sh
 . tests/support/trust.sh
 
-# ---- what they cannot do ---------------------------------------------------------------------------------------------
+# ---- refusals --------------------------------------------------------------------------------------------------------
 
 sed 's/energy_release_rate/yield_stress: 1 GPa, energy_release_rate/' inputs/kalthoff_winkler.yaml >"$work/yields.yaml"
 "$cleave" check "$work/yields.yaml" -s model=ospd >"$work/out" 2>"$work/err"
 is "a state-based material that yields: exit status" $? 2
 holds "a state-based material that yields: the message" grep -q ':19:.*state-based models do not yield' "$work/err"
 
-# ---- trust ---------------------------------------------------------------------------------------------------------
+# ---- reproducibility -----------------------------------------------------------------------------------------------
 
 for model in ospd mospd; do
     calm "$work/${model}1" $flat -s model=$model -t 1
@@ -25,7 +25,7 @@ for model in ospd mospd; do
     rm -r "$work/stopped"
 done
 
-# The same of a crack that stress-intensity factors lead; stopped at 38 us, while it grows and points convert ahead of it.
+# A SIF-driven crack, stopped at 38 us, while it grows and points convert ahead of it.
 led="inputs/kalthoff_sif.yaml -s method=adaptive -s duration=45us -s output.frames=4 -s output.samples=100"
 for model in ospd mospd; do
     calm "$work/led_$model" -t 1 $led -s model=$model
@@ -34,17 +34,17 @@ for model in ospd mospd; do
     same "$model, led, on 2 threads, interrupted" "$work/led_$model" "$work/stopped"
     sound led_$model 0.01
     between "$model, led: grown" "$(f led_$model probes.growth.length_end)" 0.013 0.016
-    between "$model, led: angle" "$(f led_$model probes.growth.angle_deg)" 70.5 74.5    # 72.5 and 72.9; pd turns to 73
+    between "$model, led: angle" "$(f led_$model probes.growth.angle_deg)" 70.5 74.5    # 72.5 and 72.9; pd alone: 73
     early=$(column "$work/led_$model" particles_pd 35e-6) late=$(column "$work/led_$model" particles_pd 44e-6)
     holds "$model, led: nothing converted after the stop" test "$late" -gt "$early"
     rm -r "$work/stopped"
 done
 
-# ---- a plane pulse across the interface --------------------------------------------------------------------------------
+# ---- a plane pulse through the interface -------------------------------------------------------------------------------
 
-# Poisson's ratio 1/3 makes the ordinary model the bond-based one, to the round-off of another form of the same sums. With
-# rotations C11 of the bonds is that of the points, but what symmetry leaves of the patch test comes on top: 0.83 %, and of pulses
-# twice as wide 0.36 % (an interface that was not symmetric, and gained energy, left 0.69 and 0.2).
+# With Poisson's ratio 1/3 the ordinary model equals the bond-based one, to the round-off of another form of the same sums. With rotations
+# C11 of the bonds is that of the points, plus the residual of the patch test: 0.83 %, and 0.36 % for pulses twice as wide (an asymmetric
+# interface, which gains energy, had 0.69 and 0.2).
 sed 's/width: 32 mm/width: 64 mm/' inputs/plate_pulse.yaml >"$work/wide.yaml"
 step="-s time.step=4us -s output.frames=1"                # waves cross 0.4 of a spacing
 start pulse_bond plate_pulse $step
@@ -62,8 +62,8 @@ between "pulse, 64 spacings: with rotations" "$(f wide_mospd probes.pulse.reflec
 
 # ---- cracks ------------------------------------------------------------------------------------------------------------
 
-# Constants of full families keep what bonds cost when others break: the ordinary model is then the bond-based one, up
-# to the correction of surfaces that method pd gives to bonds alone.
+# With constants of full families the stiffness of bonds does not change when others break: the ordinary model then equals the bond-based
+# one, up to the surface correction that method pd applies to bond-based models only.
 for run in "ospd pd.normalisation=bulk" "mospd pd.influence=one"; do
     set -- $run
     for method in pd adaptive; do start kalthoff_$1_$method kalthoff_winkler -s time.step=0.1us -s method=$method -s model=$1 -s $2; done
@@ -74,7 +74,7 @@ for run in "ospd pd.normalisation=bulk" "mospd pd.influence=one"; do
         run=kalthoff_$1_$method
         between "$run: start" "$(f $run crack.start_time)" 17e-6 24e-6
         between "$run: tip moves" "$(f $run crack.tip_start_time)" 26e-6 28.5e-6
-        # mospd: 71.6 to 74.1 by peridynamics alone, 73 to 75.2 adaptively, with steps of 0.05 to 0.5 of the critical one
+        # mospd: 71.6 to 74.1 with peridynamics alone, 73 to 75.2 adaptive, with steps of 0.05 to 0.5 of the critical one.
         between "$run: angle" "$(f $run crack.angle_deg)" 62 77
         apart "$run: a pair, y" "$(f $run crack.tips.0.y)" "$(compute "-($(f $run crack.tips.1.y))")" 1.001e-3
     done
@@ -82,8 +82,8 @@ for run in "ospd pd.normalisation=bulk" "mospd pd.influence=one"; do
         "$(f kalthoff_$1_pd crack.angle_deg)" "$(f kalthoff_$1_adaptive crack.angle_deg)" 4
 done
 
-# A critical stretch that stands for G_c: both models break as much as bonds do per length of crack. Bonds leave some
-# beside the crack: 1.2 G_c at 0.5 mm.
+# A critical stretch derived from G_c: both models have the same fracture energy per crack length as bonds. Bonds also break beside the
+# crack: 1.2 G_c at 0.5 mm.
 for model in bond ospd mospd; do start plate_$model plate_crack -s time.step=0.08us -s method=pd -s model=$model -s pd.normalisation=bulk; done
 wait
 for model in bond ospd mospd; do
@@ -92,8 +92,8 @@ for model in bond ospd mospd; do
         "$(compute "$(f plate_$model energy.fracture) / ($grown * 82907)")" 1 1.3
 done
 
-# Families normalised by what they have left stiffen as bonds break; the ledger has what their rows lose, that gain taken off.
-# Measured 1.3e-4; by the bonds that broke alone, a gain of 2.9e-2.
+# Families normalised by their remaining bonds stiffen as bonds break; the energy balance includes the energy lost by their rows minus that
+# gain. Measured 1.3e-4; with the broken bonds alone an energy gain of 2.9e-2.
 start stiffens kalthoff_winkler -s method=pd -s model=ospd -s pd.normalisation=local -s particles.spacing=2mm \
     -s time.step=0.1us -s output.frames=0
 wait

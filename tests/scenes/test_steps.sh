@@ -1,14 +1,14 @@
 #!/bin/sh
-# Load steps from the command line: what a run leaves, pictures, the same bits on any number of threads and after stops between any
-# two load steps, what `cleave check` says, what is refused, and a run that finds no equilibrium.
-# Takes 25 s: each shipped scene in load steps is run whole and in pieces.
+# Load steps from the command line: output files, pictures, bitwise equality on any number of threads and after stops between any two load
+# steps, `cleave check`, refusals, and a run without equilibrium.
+# Takes 25 s: each shipped scene in load steps is run as a whole and in pieces.
 test_name=test_steps
 . tests/support/summary.sh
 . tests/support/trust.sh
 seed=5
 export OMP_WAIT_POLICY=passive
 
-# A notched plate between grips, of 400 particles.
+# A notched plate between grips, with 400 particles.
 cat >"$work/pulled.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -28,7 +28,7 @@ output: {frames: 3}
 END
 pulled=$work/pulled.yaml
 
-# The same in space, 4 particles thick, with a crack plane that lies askew to the sides.
+# The plate in 3D, 4 particles thick, with a crack plane oblique to the sides.
 sed -e 's/^space: .*/space: solid/; /^thickness/d; s/\(\[[^],]*, [^],]*\)\], to: \(\[[^],]*, [^],]*\)\]/\1, -1 mm], to: \2, 5 mm]/g' \
     -e 's/^body: .*/body: {box: {from: [0, 0, 0], to: [20 mm, 20 mm, 4 mm]}}/; s/poisson: 1.3/poisson: 1\/4/' \
     -e 's/displacement: \[0, 0.05 mm\]/displacement: [0, 0.05 mm, 0]/; s/\[x, y\]/[x, y, z]/; s/at: \[10 mm, 15 mm\]/at: [10 mm, 15 mm, 2 mm]/' \
@@ -36,12 +36,12 @@ sed -e 's/^space: .*/space: solid/; /^thickness/d; s/\(\[[^],]*, [^],]*\)\], to:
 grips='boundary=[{name: top, traction: [0, 100 MPa], face: y+, time: {ramp: {until: 1 s}}},'
 last() { column "$1" "$2" 9; }
 
-# Area of a crack in space: bonds that break on trial, to see what an advance costs, count nothing.
+# Crack area in 3D: bonds that are broken in a trial, to determine the cost of an increment, do not count.
 calm "$work/area" tests/robustness/scenes/steps_solid.yaml
 is "records of an area before a bond has broken" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k ~ /^crack_area/) a = k
     if ($k ~ /^bonds_broken/) b = k }; next } { broken += $b > 0 } $b == 0 && $a != 0 { n++ } END { print n + 0, (broken > 0) }' "$work/area/history.csv")" "0 1"
 
-# ---- what a run leaves ---------------------------------------------------------------------------------------------
+# ---- output files --------------------------------------------------------------------------------------------------
 
 calm "$work/led" $pulled -t 1
 led=$work/led
@@ -60,19 +60,19 @@ near "its displacement is that of the grip" "$(figure "$led" probes.reaction.for
 near "both grips bear the same" "$(last "$led" reaction.force_y)" "$(compute "-($(last "$led" below.force_y))")" 1e-5
 is "five advances of two spacings" "$(last "$led" crack_area)" 1e-05
 is "in the summary, too" "$(compute "$(figure "$led" load_steps.crack_area)")" 1e-05
-# 18 bonds cross each spacing of a line of the lattice: 5 to the next row, 5 to the second, which two spacings' share, 1 to the third
+# 18 bonds cross each spacing of a lattice line: 5 to the next row, 5 to the second, which two spacings share, 1 to the third.
 is "bonds that broke" "$(figure "$led" load_steps.bonds_broken)" 180
-# bonds across a line of the lattice hold 0.987 G_c; the last advance, near the edge, is 1 % off that
+# Bonds across a lattice line have 0.987 G_c; the last increment, near the edge, deviates by 1 %.
 between "release rate" "$(figure "$led" load_steps.release_rate)" 97 101
 between "release rate of the fourth" "$(column "$led" release_rate 0.7)" 98 99.5
 near "released is what bonds held and what was lost" "$(last "$led" released)" "$(compute "$(last "$led" fracture) + $(last "$led" damped)")" 1e-6
-# work of supports by the mean of two equilibria: second order in strains of 1e-3
+# Work of supports by the mean of two equilibria: second order in strains of 1e-3.
 between "balance" "$(figure "$led" energy.balance_error)" -3e-4 3e-4
 is "nothing moves" "$(last "$led" gauge.velocity_y)$(last "$led" kinetic)" 00
 between "equilibria of a step" "$(last "$led" equilibria)" 2 10
 between "directions of a step" "$(last "$led" directions)" 5 200
 
-# the J-integral round a tip that has moved, of another kind, is what was released; 4 % by bonds of a horizon of 3
+# The J-integral around the moved tip, an independent measure, equals the released energy; 4 % for bonds with a horizon of 3.
 calm "$work/sif" $pulled -t 1 -s particles.spacing=0.5mm -s steps.number=5 -s 'probes=[{sif: {outer: 5 mm, contours: [4 mm, 5 mm]}}]'
 between "J of the grown crack" "$(last "$work/sif" sif.J)" 94 103
 near "K_I fits it" "$(last "$work/sif" sif.K_I)" "$(compute "sqrt(200e9 * $(last "$work/sif" sif.J))")" 0.05
@@ -91,9 +91,9 @@ if command -v gnuplot >/dev/null; then
     holds "without growth no R-curve" grep -q 'r_curve.png is not drawn: no crack has grown' "$work/out"
 fi
 
-# ---- the same bits -------------------------------------------------------------------------------------------------
+# ---- bitwise equality ----------------------------------------------------------------------------------------------
 
-# bits WHAT ARGUMENTS: on 1 and 2 threads, and stopped after every load step.
+# bits WHAT ARGUMENTS: checks bitwise equality on 1 and 2 threads, and after stops at every load step.
 bits()
 {
     what=$1; shift
@@ -114,18 +114,19 @@ bits states -s model=ospd -s steps.number=4
 plane=$pulled pulled=$work/space.yaml
 bits space
 pulled=$plane
-# five advances of two spacings, the width along the front 4 mm (1 + (2/6)^2)^1/2; bonds across a plane hold 0.98 G_c
+# Five increments of two spacings, width along the front 4 mm (1 + (2/6)^2)^1/2; bonds across a plane have 0.98 G_c.
 near "space: area" "$(last "$work/space" crack_area)" "$(compute "5*2e-3*4e-3*sqrt(10)/3")" 1e-6
 between "space: release rate" "$(figure "$work/space" load_steps.release_rate)" 97 101
-# grips hold one end more than the other once the crack is askew
+# Grips load one end more than the other when the crack is oblique.
 near "space: the front stays in its plane" "$(last "$work/space" path_y)" 0.01 2e-2
 near "space: and goes on" "$(last "$work/space" path_x)" 0.018 2e-3
 
-# a body that nothing holds; strength that scatters
+# A free body; scatter of strength.
 bits free -s "$grips {name: bottom, traction: [0, -100 MPa], face: y-, time: {ramp: {until: 1 s}}}]"
 bits scattered -s steps.path=bonds -s 'material.scatter={modulus: 6, length: 2 mm}' -s steps.number=4
 
-# every shipped scene in load steps, eight times as coarse, in space twice, whole and stopped after every load step; one on 2 threads, too
+# Every shipped scene in load steps, eight times as coarse, in 3D twice, as a whole and stopped after every load step; one also on 2
+# threads.
 for scene in $(grep -l '^solver: static' inputs/*.yaml inputs/new/*.yaml); do
     name=$(basename "$scene" .yaml) factor=8
     ! grep -q '^space: solid' "$scene" || factor=2
@@ -137,13 +138,13 @@ for scene in $(grep -l '^solver: static' inputs/*.yaml inputs/new/*.yaml); do
     same "$name: in pieces" "$work/$name" "$work/${name}_parts"
 done
 
-# killed, whatever it is at
+# Killed at any stage.
 kills 3 "$led" $pulled
 
 # ---- an interface ------------------------------------------------------------------------------------------------------
 
-# A double cantilever whose arms are joined along its middle: it parts at a load that goes with the root of the toughness of the
-# interface, and on nothing else: 3.33 N was measured with advances of the energy of two spacings of the interface (steps.energy).
+# A double cantilever whose arms are joined along its middle: its failure load is proportional to the root of the toughness of the
+# interface, and depends on nothing else: 3.33 N measured with increments of the energy of two spacings of the interface (steps.energy).
 cat >"$work/arms.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -175,11 +176,11 @@ between "interface: load" "$(peak tough)" 3.30 3.36
 between "interface: whatever the arms" "$(awk -v a="$(peak brittle)" -v b="$(peak tough)" 'BEGIN { print a / b }')" 0.999 1.001
 between "interface: root of its toughness" "$(awk -v a="$(peak tough)" -v b="$(peak weak)" 'BEGIN { print a / b / sqrt(75 / 30) }')" 0.998 1.002
 
-# ---- a crack in space that no front leads ------------------------------------------------------------------------------
+# ---- a crack in 3D without a tracked front -----------------------------------------------------------------------------
 
-# A penny crack in a block, an eighth by mirrors: bonds take it through what is left, at 0.98 of G_c per area all the way (bonds across a
-# plane hold 0.98), and the run ends before nothing is left: area of the section less that of the polygon, half of it for one of two faces,
-# within one advance, 0.17 of it: the last one breaks bonds that still join the faces.
+# A penny crack in a block, an eighth by mirrors: it grows bond by bond through the remaining section, at 0.98 G_c per area throughout
+# (bonds across a plane have 0.98), and the run ends before the section is separated: area of the section minus that of the polygon, half of
+# it for one of two faces, within one increment, 0.17 of it: the last one breaks bonds that still connect the faces.
 cat >"$work/penny.yaml" <<'END'
 variables: {a: 6 mm, L: 16 mm, pull: 40 MPa}
 space: solid
@@ -227,7 +228,7 @@ holds "check: loads that fall" grep -q 'unresolved: loads fall before' "$work/ou
 is "check: nothing holds it: status" $? 1
 holds "check: nothing holds it" grep -q 'nothing holds the body' "$work/err"
 
-# ---- what is refused, what fails -----------------------------------------------------------------------------------
+# ---- refusals and failures -----------------------------------------------------------------------------------------
 
 no() { what=$1 text=$2; shift 2; refused "$what" "$work/no" "$text" $pulled "$@"; holds "$what: no folder" test ! -e "$work/no"; }
 no "a control that is none" 'control' -s steps.control=crack

@@ -1,13 +1,13 @@
 #!/bin/sh
-# Load steps of material points that yield, beside closed forms: the bilinear curve of a bar with its permanent set and reversed flow, the
-# moment of a beam, a thick-walled cylinder; their energies, whatever the number of steps, the same bits on any number of threads and
-# after stops between any two load steps, and what is refused.
+# Load steps of yielding material points, compared with closed forms: bilinear curve of a bar with permanent set and reversed flow, moment
+# of a beam, thick-walled cylinder; their energies for any number of steps, bitwise equality on any number of threads and after stops
+# between any two load steps, refusals.
 test_name=test_steps_yield
 . tests/support/summary.sh
 . tests/support/trust.sh
 export OMP_WAIT_POLICY=passive
 
-# A bar of 20 by 8 mm, pulled evenly to a strain of 0.006, three times that at which it yields, and then pressed.
+# A bar of 20 by 8 mm under uniform extension to a strain of 0.006, three times the yield strain, followed by compression.
 cat >"$work/bar.yaml" <<'END'
 space: plane stress
 thickness: 1 mm
@@ -32,7 +32,7 @@ sed -e 's/^space: .*/space: line/; /^thickness/d; s/poisson: 0.3, //; s/, free\]
 
 # ---- the bilinear curve ----------------------------------------------------------------------------------------------
 
-# curve WHAT SCENE AREA VOLUME: up to 480 MPa, back, and from -480 MPa on with the same slope to -624 MPa.
+# curve WHAT SCENE AREA VOLUME: checks the curve up to 480 MPa, unloading, and from -480 MPa with the same slope to -624 MPa.
 curve()
 {
     to=$work/$1
@@ -40,7 +40,7 @@ curve()
     for point in 0.0833333334,200e6 0.25,420e6 0.333333334,440e6 0.5,480e6 0.583333334,80e6 0.66666667,-320e6 0.75,-504e6 1,-624e6; do
         near "$1: stress at ${point%,*}" "$(column "$to" reaction.force_x "${point%,*}")" "$(compute "${point#*,}*$3")" 1e-5
     done
-    # plastic work sigma_y a + H a^2/2 with H = E E_t/(E - E_t); a = 0.0036 at 480 MPa, 0.01008 at 624 MPa
+    # Plastic work sigma_y a + H a^2/2 with H = E E_t/(E - E_t); a = 0.0036 at 480 MPa, 0.01008 at 624 MPa.
     near "$1: strain energy" "$(column "$to" strain 0.5)" "$(compute "480e6^2/400e9*$4")" 1e-5
     near "$1: plastic work" "$(column "$to" plastic 0.5)" "$(compute "(400e6*0.0036 + 20e9/1.8*0.0036^2)*$4")" 1e-5
     near "$1: plastic work at the end" "$(column "$to" plastic 1)" "$(compute "(400e6*0.01008 + 20e9/1.8*0.01008^2)*$4")" 1e-5
@@ -52,7 +52,7 @@ curve plane "$bar" 8e-6 160e-9
 curve solid "$work/solid.yaml" 48e-6 960e-9
 curve line "$work/line.yaml" 1 0.02
 
-# The same states in any number of steps; with 4 of them the first one ends beyond yield.
+# Equal states for any number of steps; with 4 of them the first one ends beyond yielding.
 for steps in 4 60; do
     calm "$work/bar$steps" "$bar" -t 1 -s steps.number=$steps
     near "$steps steps: stress" "$(column "$work/bar$steps" reaction.force_x 0.5)" 3840 1e-5
@@ -61,7 +61,7 @@ for steps in 4 60; do
     apart "$steps steps: balance" "$(figure "$work/bar$steps" energy.balance_error)" 0 1e-3
 done
 
-# Two materials in series, of which one yields: its end goes by 9.5 mm times 0.0115, the other by 10 mm times that and 7.5 mm times 0.004.
+# Two materials in series, of which one yields: one end moves by 9.5 mm times 0.0115, the other by 10 mm times that and 7.5 mm times 0.004.
 sed -e 's/^material: .*/materials:\n  - {name: soft, young: 200 GPa, density: 7850, yield_stress: 300 MPa, yield_tangent: 10 GPa}\n  - {name: hard, young: 100 GPa, density: 7850}/' \
     -e 's/^body: .*/bodies: [{name: bar, material: soft, shape: {box: {from: [0], to: [20 mm]}}, parts: [{region: {box: {from: [10 mm], to: [30 mm]}}, material: hard}]}]/' \
     -e 's/displacement: .*/traction: [400 MPa], face: x+, time: {ramp: {until: 1 s}}}/; s/^probes.*/probes: [{point: {name: middle, at: [9.5 mm]}}, {point: {name: end, at: [17.5 mm]}}]/; s/number: 12/number: 5/' "$work/line.yaml" >"$work/series.yaml"
@@ -70,7 +70,7 @@ near "series: elastic" "$(column "$work/series" end.displacement_x 0.6)" 3e-5 1e
 near "series: the soft half" "$(column "$work/series" middle.displacement_x 1)" 1.0925e-4 1e-5
 near "series: the whole" "$(column "$work/series" end.displacement_x 1)" 1.45e-4 1e-5
 
-# The permanent set: no stress at a strain of 0.006 - 480 MPa/E.
+# Permanent set: zero stress at a strain of 0.006 - 480 MPa/E.
 calm "$work/set" "$bar" -t 1 -s steps.number=20
 apart "permanent set" "$(column "$work/set" reaction.force_x 0.6)" 0 1e-2
 
@@ -80,16 +80,16 @@ apart "permanent set" "$(column "$work/set" reaction.force_x 0.6)" 0 1e-2
 sed -e 's/, yield_tangent: 20 GPa//; s/to: \[20 mm, 8 mm\]/to: [40 mm, 8 mm]/; s/from: \[0, 0\]/from: [0, -8 mm]/; s/number: 12/number: 40/' \
     -e 's/displacement: .*/displacement: ["-x*y\/(1 m)", free], face: x+, time: {ramp: {until: 1 s}}}/; s/^  - {name: below.*/  - {name: pin, fixed: [y], region: {box: {from: [0, -0.9 mm], to: [1 mm, 0.9 mm]}}}/' "$bar" >"$work/beam.yaml"
 calm "$work/beam" "$work/beam.yaml" -t 1
-# moment: work over the angle; of the curvature in the middle of the step
+# Moment: work over the angle, for the curvature in the middle of the step.
 moment() { compute "($(column "$work/beam" external_work "$2") - $(column "$work/beam" external_work "$1"))/(0.04*($2 - $1))/(400e6*1e-3*0.016^2/6)"; }
 near "beam: elastic moment" "$(moment 0.1 0.125)" 0.45 5e-3
 near "beam: moment" "$(moment 0.475 0.5)" "$(compute "1.5 - 0.5/1.95^2")" 1e-2
 near "beam: towards the plastic moment" "$(moment 0.975 1)" "$(compute "1.5 - 0.5/3.95^2")" 1.2e-2
 apart "beam: balance" "$(figure "$work/beam" energy.balance_error)" 0 1e-3
 
-# A quarter of a cylinder with radii of 20 and 40 mm under pressure, plane strain: elastic up to 173.2 MPa; at 240 and 300 MPa yielded to
+# A quarter of a cylinder with radii of 20 and 40 mm under pressure, plane strain: elastic up to 173.2 MPa; at 240 and 300 MPa yielded up to
 # the radii c = 26.03 and 33.71 mm with p = s/2 (1 - c^2/b^2 + 2 ln(c/a)), s = 2 sigma_y/3^(1/2), u(b) = (1 - nu^2) s c^2/(E b) (Hill 1950).
-# Steps of the lattice take 4 % off its wall at 1 mm, 2 % at 0.5 mm.
+# Steps of the lattice reduce its wall by 4 % at 1 mm, 2 % at 0.5 mm.
 cat >"$work/cylinder.yaml" <<'END'
 space: plane strain
 thickness: 1 mm
@@ -113,15 +113,15 @@ near "cylinder: half through" "$(column "$work/cylinder" outer.displacement_x 0.
 near "cylinder: nearly through" "$(column "$work/cylinder" outer.displacement_x 1)" 5.366e-5 6e-2
 apart "cylinder: balance" "$(figure "$work/cylinder" energy.balance_error)" 0 1e-3
 
-# It bears no more than s ln 2 = 320 MPa. Beyond, it opens until strains are no small ones any more, which a run says.
+# Its limit load is s ln 2 = 320 MPa. Beyond, it expands until strains are not small any more, which a run reports.
 sed -e 's/pressure: 300/pressure: 330/; s/number: 10/number: 11/; s/spacing: 0.5/spacing: 1/' "$work/cylinder.yaml" >"$work/limit.yaml"
 warned "beyond the limit load" "$work/limit" 'have flowed by a plastic strain of' "$work/limit.yaml" -t 1
 between "cylinder: 300 MPa" "$(column "$work/limit" outer.displacement_x 0.91)" 5.3e-5 6.2e-5
 between "cylinder: 330 MPa" "$(column "$work/limit" outer.displacement_x 1)" 1e-3 1e-1
 
-# ---- the same bits -----------------------------------------------------------------------------------------------------
+# ---- bitwise equality --------------------------------------------------------------------------------------------------
 
-# bits WHAT SCENE ARGUMENTS: on 1 and 2 threads, and stopped after every load step.
+# bits WHAT SCENE ARGUMENTS: checks bitwise equality on 1 and 2 threads, and after stops at every load step.
 bits()
 {
     what=$1; shift
@@ -135,7 +135,7 @@ bits bits_plane "$bar"
 bits bits_solid "$work/solid.yaml" -s steps.number=8
 bits bits_cylinder "$work/cylinder.yaml" -s 'particles.spacing=1 mm'
 
-# ---- what is refused ---------------------------------------------------------------------------------------
+# ---- refusals ----------------------------------------------------------------------------------------------
 
 refused "conversion" "$work/no" 'its points yield, which load steps know with method mpm or pd' "$bar" -s method=adaptive -s material.poisson=1/3
 refused "constants of a lattice" "$work/no" 'mpm.constants isotropic' "$bar" -s mpm.constants=lattice -s material.poisson=1/3

@@ -1,5 +1,5 @@
 #!/bin/sh
-# `cleave sweep`: runs, lists, skips, counts failures, excludes a second one; kills in the middle.
+# `cleave sweep`: runs, lists, skips finished runs, counts failures, excludes a second one; kills during runs.
 test_name=sweep
 . tests/support/summary.sh
 cd "$work" || exit 1
@@ -28,12 +28,12 @@ head -n 1 two/sweep.csv | grep -q '^run,state,particles.spacing,boundary.0.tract
 is "cells with commas are in quotes" "$(sed -n 2p two/sweep.csv | cut -d, -f1-6)" '"spacing=1mm,traction=5MPa,0",done,1mm,"[5 MPa'
 is "maps and lines" "$(ls two/pictures | paste -s -d ' ' -)" "boundary.0.traction.png map.png particles.spacing.png"
 grep -q '^6 runs: 6 done; two/sweep.csv$' out && pass || fail "what is printed: $(cat out)"
-# the table says what the runs say, and that a load twice as large does four times the work (a linear body: rounding and large displacements, 1e-3)
+# The table agrees with the runs; twice the load does four times the work (linear body; 1e-3 for rounding and large displacements).
 one=$(figure two/spacing=1mm,traction=5MPa,0 energy.external_work) two=$(figure two/spacing=1mm,traction=10MPa,0 energy.external_work)
 near "work over load squared" "$two" "$(compute "4 * $one")" 1e-3
 grep -q "$(printf '%.12g' "$one" | cut -c 1-10)" two/sweep.csv && pass || fail "the work of the first run, $one, is not in the table"
 
-# ---- what is done stays ----------------------------------------------------------------------------------------------
+# ---- finished runs are kept ------------------------------------------------------------------------------------------
 
 cp two/sweep.csv before.csv
 stamp=$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)
@@ -43,7 +43,7 @@ grep -q '^6 runs: 6 done (6 before)' out && pass || fail "nothing to do: $(cat o
 is "untouched" "$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)" "$stamp"
 holds "the same table" cmp -s two/sweep.csv before.csv
 
-# ---- the list is the interface of schedulers -------------------------------------------------------------------------
+# ---- the list as interface of schedulers -----------------------------------------------------------------------------
 
 keys="-s particles.spacing=1mm,0.5mm -s boundary.0.traction=[5MPa,0],[10MPa,0],[20MPa,0]"
 "$cleave" sweep bar.yaml $keys -o listed --list -t 1 >list
@@ -61,7 +61,7 @@ same=0
 for run in two/spacing*; do cmp -s "$run/history.csv" "listed/$(basename "$run")/history.csv" && same=$((same + 1)); done
 is "the same histories" $same 6
 
-# A job starts elsewhere: the lines name program, scene and folder whole, and say what --overwrite asks for.
+# A job starts in another folder: the lines have absolute paths of program, scene and folder, and the option of --overwrite.
 mkdir -p elsewhere/there
 "$cleave" sweep bar.yaml -s method=pd,mpm -o jobs --list >list
 (cd elsewhere/there && SLURM_ARRAY_TASK_ID=2 && sh -c "$(sed -n "${SLURM_ARRAY_TASK_ID}p" ../../list)" 2>/dev/null)
@@ -73,9 +73,9 @@ is "a list that overwrites" "$(grep -c ' --overwrite ' list) $(grep -c resume li
 (cd elsewhere/there && sh -c "$(sed -n 2p ../../list)")
 is "with the whole name of the program" $? 0
 
-# ---- what is the same ------------------------------------------------------------------------------------------------
+# ---- equal runs ------------------------------------------------------------------------------------------------------
 
-# Keys in another order: the same runs, not one more.
+# Keys in another order: the same runs, none added.
 "$cleave" sweep bar.yaml -s boundary.0.traction='[10 MPa, 0],[5 MPa, 0]' -s particles.spacing=0.5mm,1mm -o two >out 2>err
 is "keys in another order" $? 0
 grep -q '^4 runs: 4 done (4 before)' out && pass || fail "keys in another order: $(cat out err)"
@@ -86,7 +86,7 @@ grep -q '^4 runs: 4 done; ' out && pass || fail "values in other units: $(cat ou
 grep -q '^warning: 2 of 6 combinations are the same scene as others' err && pass || fail "said in a line: $(cat err)"
 is "rows" "$(grep -c '^"*density=2440,spacing=1mm' units/sweep.csv) $(wc -l <units/sweep.csv | tr -d ' ')" "2 7"
 is "lines of the list" "$("$cleave" sweep bar.yaml -s particles.spacing=1mm,0.001,2mm -o units2 --list 2>err | wc -l | tr -d ' ')" 2
-# The folder of a study is that of its scene, which its own name tells.
+# The folder of a study is named after its scene's own name.
 { echo 'name: rod'; sed 's/10 MPa, 0/15 MPa, 0/' bar.yaml; } >other.yaml
 cp two/sweep.csv before.csv
 refused()
@@ -103,7 +103,7 @@ holds "its table stays" cmp -s two/sweep.csv before.csv
 is "replaced" "$? $(wc -l <units/sweep.csv | tr -d ' ')" "0 3"
 "$cleave" sweep other.yaml -s particles.spacing=1mm,2mm -q >out 2>err
 holds "by the scene's name" test -f results/rod_sweep/sweep.csv
-# A scene that is none without what varies.
+# A scene that is incomplete without the varied keys.
 sed '/^particles/d' bar.yaml >part.yaml
 "$cleave" sweep part.yaml -s particles.spacing=1mm,2mm -o part -q >out 2>err
 is "a scene in part" $? 0
@@ -112,7 +112,7 @@ grep -q '^2 runs: 2 done (1 before)' out && pass || fail "more values: $(cat out
 
 # ---- pictures --------------------------------------------------------------------------------------------------------
 
-# What gnuplot is told is kept. Keys of the body have lines of their own; bars are of what is chance alone, and say so.
+# The input of gnuplot is recorded. Keys of the body have separate lines; bars represent random variation only, which is stated.
 printf '#!/bin/sh\nexec tee -a "%s/drawn" | "%s" "$@"\n' "$work" "$(command -v gnuplot)" >bin/gnuplot
 chmod +x bin/gnuplot
 three="-s material.density=2000,3000 -s material.young=60GPa,72GPa"
@@ -129,7 +129,7 @@ near "a point is the mean of its runs" "$(awk '/^\$p0_0/ { at = 1; next } at { p
 apart=$(compute "($(figure seeds/density=2000,seed=1 energy.kinetic) - $(figure seeds/density=2000,seed=2 energy.kinetic)) / sqrt(2)")
 near "its bar is the standard deviation of two" "$(awk '/^\$p0_0/ { at = 1; next } at { print $3; exit }' drawn)" "${apart#-}" 1e-3
 
-# ---- failures are counted, what is wrong is refused before anything runs ------------------------------------------------
+# ---- failures are counted, errors are refused before anything runs ------------------------------------------------------
 
 "$cleave" sweep bar.yaml -s time.safety=0.5,2 -s material.toughness=1e9 -o fails >out 2>err
 is "status of a failure" $? 1
@@ -165,7 +165,7 @@ holds "the first stays done" test "$(figure long/duration=8us status)" = done
 "$cleave" sweep bar.yaml -s duration=8us,4ms,5ms,6ms -s particles.spacing=0.5mm -o long -j 1 >out 2>err &
 first=$!
 sleep 0.5
-kill -KILL $first                        # its runs go with it
+kill -KILL $first                        # its runs are also killed
 wait $first 2>/dev/null
 sleep 0.5
 "$cleave" sweep bar.yaml -s duration=8us,20us -s particles.spacing=0.5mm -o long >out 2>err

@@ -1,11 +1,11 @@
 #!/bin/sh
-# Voids narrower than a bond or a cell: a slot in a shape, doubled nodes of a mesh. They act as pre-cracks of the same place do,
-# in every method and frame, with a mirror, in space; their faces meet; where they stay closed the run says so.
+# Voids narrower than a bond or a cell: a slot in a shape, doubled nodes of a mesh. They are equivalent to pre-cracks at the same position
+# in every method and frame, with a mirror, in 3D; their faces have contact; where they stay closed the run reports it.
 test_name=test_voids
 . tests/support/summary.sh
 . tests/support/scenes.sh
 
-# scene NAME SLOT [LINES]: a glass strip, pulled, its notch as deep as 8 mm.
+# scene NAME SLOT [LINES]: writes a glass strip under tension with a notch 8 mm deep.
 scene()
 {
     cat >"$work/$1.yaml" <<END
@@ -31,8 +31,8 @@ scene thin "$(slot 0.05)"
 scene narrow "$(slot 0.5)"
 scene wide "$(slot 1)"
 
-# A slot a fifth of a spacing wide cuts the bonds that the crack in its middle cuts: the same start, to the last digit. Then the crack
-# branches, at a place that faces which close later move by a spacing or two.
+# A slot a fifth of a spacing wide cuts the same bonds as a crack in its middle: equal start to the last digit. Then the crack branches, at
+# a position that faces which close later change by a spacing or two.
 start crack "$work/crack.yaml"
 start thin "$work/thin.yaml"
 start narrow "$work/narrow.yaml" -s method=adaptive
@@ -41,12 +41,12 @@ wait
 is "thin slot: first break" "$(f thin crack.start_time)" "$(f crack crack.start_time)"
 differ() { awk -v a="$(f $1 $3)" -v b="$(f $2 $3)" 'BEGIN { print a - b }'; }
 between "thin slot: length" "$(differ thin crack crack.length_end)" -1e-3 1e-3
-# In a grid with cells of two spacings a slot of two was closed: nothing broke. Beside one of four its arms are wider by a spacing: 5 %
-# of the start at 5 us. Lengths differ by three rows of crack at the most.
+# In a grid with cells of two spacings a slot of two would be closed: nothing would break. Compared with a slot of four its arms are wider
+# by a spacing: 5 % of the start at 5 us. Lengths differ by at most three rows of crack.
 between "narrow slot beside a wide one: start" "$(differ narrow wide crack.start_time)" -2.5e-7 2.5e-7
 between "narrow slot beside a wide one: length" "$(differ narrow wide crack.length_end)" -1.5e-3 1.5e-3
 
-# Cells of the reference frame, points of the current one, half of the strip: opened by the same load, in equilibrium.
+# Cells of the reference frame, points of the current one, half of the strip: opened by equal loads, in equilibrium.
 end='boundary: [{fixed: all, face: x+, depth: 0.5 mm}, {traction: [0, 1 MPa], face: y+}, {traction: [0, -1 MPa], face: y-}]
 probes: [{point: {name: lip, at: [0.25 mm, 1.75 mm]}}]'
 for name in thin narrow wide; do
@@ -56,8 +56,8 @@ for name in thin narrow wide; do
 done
 wait
 lip() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^lip.displacement_y/) at = k } END { print $at }' "$work/$1/history.csv"; }
-# Arms of 5.5 and 5.95 mm bend less than one of 5 mm: as beams of those heights on an elastic foot, by (5/5.5)^3 and (5/5.95)^3, up to
-# the shear and the foot, which grow as the first power.
+# Arms of 5.5 and 5.95 mm bend less than one of 5 mm: as beams of these heights on an elastic foundation, by (5/5.5)^3 and (5/5.95)^3, up to
+# shear and foundation, which scale with the first power.
 between "mpm: narrow slot opens" "$(awk -v a="$(lip narrow.end)" -v b="$(lip wide.end)" 'BEGIN { print a / b }')" 0.75 0.91
 between "mpm: thin slot opens" "$(awk -v a="$(lip thin.end)" -v b="$(lip wide.end)" 'BEGIN { print a / b }')" 0.59 0.84
 
@@ -108,9 +108,9 @@ done
 "$cleave" check "$work/mesh.yaml" >"$work/said" 2>&1
 is "the slit is said" "$(grep -c 'nodes doubled at 1 free surface inside: a pre-crack' "$work/said")" 1
 
-# ---- faces that meet, and what stays closed --------------------------------------------------------------------------------
+# ---- contact of faces, and slots that stay closed --------------------------------------------------------------------------
 
-# A slot in the middle of a block that is pressed: without contact its faces would pass through each other by 5 spacings.
+# A slot in the middle of a block under compression: without contact its faces would overlap by 5 spacings.
 cat >"$work/press.yaml" <<'END'
 space: plane stress
 thickness: 2 mm

@@ -1,11 +1,11 @@
 #!/bin/sh
-# What test_physics.sh needs besides: scenes written on the spot, means and fronts of series and profiles.
-# Sourced after summary.sh and scenes.sh.
+# Functions for test_physics.sh: scenes from standard input, means and fronts of series and profiles. Sourced after summary.sh and
+# scenes.sh.
 
-# scene NAME: standard input becomes the scene NAME.
+# scene NAME: writes standard input as the scene NAME.
 scene() { cat >"$work/$1.yaml"; }
 
-# go FOLDER NAME [ARGUMENT...]: a run of such a scene in the background, two at a time; `landed` waits for the last.
+# go FOLDER NAME [ARGUMENT...]: starts a run of such a scene in the background, at most two at a time; `landed` waits for the last.
 going=0
 go()
 {
@@ -17,7 +17,7 @@ go()
 
 landed() { wait; going=0; }
 
-# forced FOLDER BALANCE: what holds for a run under body forces, as in sound().
+# forced FOLDER BALANCE: checks a run under body forces, as sound().
 forced()
 {
     is "$1 status" "$(f "$1" status)" done
@@ -25,8 +25,8 @@ forced()
     between "$1 energy balance" "$(f "$1" energy.balance_error)" "-$2" "$2"
 }
 
-# read_csv: how every awk program here begins: `at` is the number of the column called `name`, x that of places. Values that
-# are compared take a "+ 0": awk reads numbers below 1e-308 as words.
+# read_csv: common start of the awk programs here: `at` is the index of the column `name`, x that of positions. Values to be compared need a
+# "+ 0": awk reads numbers below 1e-308 as words.
 read_csv='FNR == 1 {
     for (k = 1; k <= NF; k++) { sub(/ \[.*/, "", $k); if ($k == name) at = k; if ($k == "x") x = k }
     next
@@ -34,7 +34,7 @@ read_csv='FNR == 1 {
 
 # ---- series: a column of history.csv over time ---------------------------------------------------------------------
 
-# mean FOLDER COLUMN FROM TO: its mean over these times [s].
+# mean FOLDER COLUMN FROM TO: prints its mean over these times [s].
 mean()
 {
     awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
@@ -42,7 +42,7 @@ mean()
         END { if (n) printf "%.9g", sum / n }' "$work/$1/history.csv"
 }
 
-# most FOLDER COLUMN [FROM]: its largest size at any sample, or from this time [s] on.
+# most FOLDER COLUMN [FROM]: prints its largest magnitude at any sample, or from this time [s] on.
 most()
 {
     awk -F, -v name="$2" -v from="${3:-0}" "$read_csv"'
@@ -50,7 +50,7 @@ most()
         END { if (n) printf "%.9g", largest }' "$work/$1/history.csv"
 }
 
-# rises FOLDER COLUMN VALUE: when it first reaches the value [s], between two samples.
+# rises FOLDER COLUMN VALUE: prints the time at which it first reaches the value [s], interpolated between samples.
 rises()
 {
     awk -F, -v name="$2" -v value="$3" "$read_csv"'
@@ -58,9 +58,9 @@ rises()
         { t = $1; v = $at; n++ }' "$work/$1/history.csv"
 }
 
-# ---- profiles: a line probe called `bar` at the end of the run, one station for each particle ----------------------
+# ---- profiles: a line probe called `bar` at the end of the run, with one station per particle ----------------------
 
-# along FOLDER COLUMN FROM TO: its mean over the stations between two places [m].
+# along FOLDER COLUMN FROM TO: prints its mean over the stations between two positions [m].
 along()
 {
     awk -F, -v name="$2" -v from="$3" -v to="$4" "$read_csv"'
@@ -68,7 +68,7 @@ along()
         END { if (n) printf "%.9g", sum / n }' "$work/$1/bar_000001.csv"
 }
 
-# strain FOLDER FROM TO: mean of du/dx between two places [m].
+# strain FOLDER FROM TO: prints the mean of du/dx between two positions [m].
 strain()
 {
     awk -F, -v name=displacement_x -v from="$2" -v to="$3" "$read_csv"'
@@ -76,7 +76,7 @@ strain()
         END { if (n > 1) printf "%.9g", (u1 - u0) / (x1 - x0) }' "$work/$1/bar_000001.csv"
 }
 
-# front FOLDER VALUE: where du/dx, half-way between stations, first passes the value on the way up x [m].
+# front FOLDER VALUE: prints the first position, midway between stations, at which du/dx exceeds the value with increasing x [m].
 front()
 {
     awk -F, -v name=displacement_x -v value="$2" "$read_csv"'
@@ -89,7 +89,7 @@ front()
         { place = $x; u = $at }' "$work/$1/bar_000001.csv"
 }
 
-# astray FOLDER COLUMN A B C: its largest distance from A + B x + C x^2.
+# astray FOLDER COLUMN A B C: prints its largest difference from A + B x + C x^2.
 astray()
 {
     awk -F, -v name="$2" -v a="$3" -v b="$4" -v c="$5" "$read_csv"'
@@ -97,7 +97,7 @@ astray()
         END { if (n) printf "%.9g", largest }' "$work/$1/bar_000001.csv"
 }
 
-# extreme FOLDER COLUMN: its largest size in the last profiles of all lines.
+# extreme FOLDER COLUMN: prints its largest magnitude in the last profiles of all lines.
 extreme()
 {
     awk -F, -v name="$2" "$read_csv"'

@@ -1,27 +1,27 @@
 #!/bin/sh
-# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: side by side on one thread each, then one after the
-# other on all threads those whose source says `Runs alone`. Prints a line for each, the output of those that fail, and a count.
-# A script that cannot run here exits 77 after a line that says why: SKIPPED.
+# Runs test programs and scripts on as many threads as OMP_NUM_THREADS says: in parallel on one thread each, then one after another on all
+# threads those whose source contains `Runs alone`. Prints a line for each, the output of those that fail, and a count. A script that cannot
+# run here exits with status 77 after a line with the reason: SKIPPED.
 lanes=${OMP_NUM_THREADS:-$(getconf _NPROCESSORS_ONLN)}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 trap 'trap "" TERM; kill 0; exit 1' INT TERM HUP
 
-# Files of tests in memory, where it has room for them (0.3 GB is the most of one): every frame and checkpoint waits for a disk.
+# Files of tests are in memory if there is space (a test needs at most 0.3 GB), to avoid waiting for a disk at every frame and checkpoint.
 [ ! -w /dev/shm ] || [ "$(df -Pk /dev/shm | awk 'END { print $4 }')" -lt 2000000 ] || export TMPDIR="${TMPDIR:-/dev/shm}"
 
-# What a shell starts beside itself is deaf to SIGINT, which tests raise: env gives it its hearing back.
+# Background processes of a shell ignore SIGINT, which tests raise; env restores the default.
 hearing="env --default-signal=INT,QUIT"
 $hearing true 2>/dev/null || hearing=
 
-# source_of TEST: the script itself, or the source of the program.
+# source_of TEST: prints the script itself, or the source of the program.
 source_of()
 {
     path=${1#"${BUILD:-build}/"}
     case $path in *.sh) echo "$path" ;; *) echo "$path.c" ;; esac
 }
 
-# alone TEST: must it have the machine for itself?
+# alone TEST: returns 0 if the test must run alone.
 alone()
 {
     case $1 in
@@ -30,7 +30,7 @@ alone()
     esac
 }
 
-# try TEST LANE: runs it and tells.
+# try TEST LANE: runs a test and prints the result.
 try()
 {
     log=$folder/log$2 said=$folder/said$2 start=$(date +%s)
@@ -50,8 +50,8 @@ try()
     head -n 1 "$said" >>"$folder/results"
 }
 
-# lane NUMBER: tries the tests of the list `beside` that no other lane has begun. Threads that a test starts by itself do not spin
-# while they wait: the other lanes have work for the processors.
+# lane NUMBER: runs the tests of the list `beside` that no other lane has started. Threads that a test starts itself do not spin while they
+# wait, because the other lanes need the processors.
 lane()
 {
     export OMP_NUM_THREADS=1 GOMP_SPINCOUNT=0 KMP_BLOCKTIME=0
@@ -69,11 +69,11 @@ if [ -f "$folder/beside" ]; then
     wait
 fi
 
-# Threads that wait must not starve the others of a busy machine: rounds of gcc's library, milliseconds of clang's.
+# Waiting threads must not block other programs on a busy machine: spin count of gcc's library, milliseconds of clang's.
 export GOMP_SPINCOUNT=2000 KMP_BLOCKTIME=1
 [ ! -f "$folder/alone" ] || while read -r test; do try "$test" 0 </dev/null; done <"$folder/alone"
 
-# What takes over 20 s has to say why: `Takes` in its head.
+# A test of more than 20 s has to state why: `Takes` in its head.
 for test in "$@"; do
     seconds=$(sed -n "s/^[a-zA-Z]* *$(basename "$test") (\([0-9]*\) s.*/\1/p" "$folder/results")
     [ "${seconds:-0}" -le 20 ] || head -n 12 "$(source_of "$test")" | grep -q 'Takes' ||

@@ -1,13 +1,13 @@
 #!/bin/sh
 # Small scenes of every kind (tests/robustness/small_scenes.txt) and the other commands (small_commands.txt beside it), for tests that run
-# them all under a tool. Sourced after summary.sh.
+# all of them under a tool. Sourced after summary.sh.
 
-# The list with what each scene changes written out: NAME|FILE|KEY=VALUE;KEY=VALUE;...
+# Expands the list to NAME|FILE|KEY=VALUE;KEY=VALUE;... with all settings of each scene.
 sed 's/ *| */|/g; s/; */;/g; s/ *$//; /^#/d' tests/robustness/small_scenes.txt | awk -F'|' -v OFS='|' '
     $2 in file { $3 = settings[$2] ($3 == "" ? "" : ";" $3); $2 = file[$2] }
     { file[$1] = $2; settings[$1] = $3; print }' >"$work/small_scenes"
 
-# call_with SCENE SETTINGS COMMAND...: COMMAND with the scene's file and its settings as -s behind it.
+# call_with SCENE SETTINGS COMMAND...: runs COMMAND with the scene's file and its settings as -s.
 call_with()
 {
     scene_file=$1 rest=$2; shift 2
@@ -21,7 +21,7 @@ call_with()
     "$@"
 }
 
-# each_scene PATTERN COMMAND...: COMMAND NAME FILE -s KEY=VALUE ... of every scene whose name has the pattern.
+# each_scene PATTERN COMMAND...: runs COMMAND NAME FILE -s KEY=VALUE ... for every scene whose name matches the pattern.
 each_scene()
 {
     pattern=$1; shift
@@ -29,7 +29,8 @@ each_scene()
     while IFS='|' read -r name file settings <&3; do call_with "$file" "$settings" "$@" "$name"; done 3<"$work/each_scene"
 }
 
-# each_command COMMAND...: COMMAND STATUS WHAT ARGUMENT... of every line of small_commands.txt, in order; @ becomes the folder $work/c.
+# each_command COMMAND...: runs COMMAND STATUS WHAT ARGUMENT... for every line of small_commands.txt, in order; @ becomes the folder
+# $work/c.
 each_command()
 {
     mkdir -p "$work/c"
@@ -42,8 +43,8 @@ each_command()
     done 4<"$work/each_command"
 }
 
-# instrumented FOLDER FLAGS SETTING...: a program built for a tool in a folder of its own, with these flags of the compiler and settings
-# of make; from here on $cleave.
+# instrumented FOLDER FLAGS SETTING...: builds a program for a tool in a folder of its own, with these compiler flags and settings of make,
+# and makes it $cleave.
 instrumented()
 {
     folder=$1 flags=$2; shift 2

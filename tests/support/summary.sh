@@ -1,21 +1,21 @@
 #!/bin/sh
-# What the test scripts share: figures out of summary.json and history.csv with awk alone, and checks that are counted.
-# Sourced from the project's root, after `test_name` is set. Gives $cleave, $root and $work, a folder that goes at the end.
+# Functions for all test scripts: figures from summary.json and history.csv with awk alone, and counted checks. Sourced from the project's
+# root after `test_name` is set. Defines $cleave, $root and $work, a folder that is removed at the end.
 set -u
 root=$(pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
-cleave=$work/cleave                      # a copy: a build in the meantime must not mix two programs in one test
+cleave=$work/cleave                      # a copy: a concurrent build must not mix two programs in one test
 cp "${BUILD:-build}/cleave" "$cleave" || exit 1
-look_through=$(cd "${BUILD:-build}" && pwd)/tests/robustness/test_numbers       # there with `make test`
+look_through=$(cd "${BUILD:-build}" && pwd)/tests/robustness/test_numbers       # built by `make test`
 checks=0 failures=0
 
 fail() { echo "$test_name: $1" >&2; failures=$((failures + 1)); }
 pass() { checks=$((checks + 1)); }
 
-# numbers FOLDER: below it no frame holds a number that is none, nor does a history, but for nan where there is no tip or no front yet,
-# fewer than two contours, no factors, or nothing that has yielded.
+# numbers FOLDER: checks that all numbers in frames and histories below it are finite, except for nan where there is no tip or front yet,
+# fewer than two contours, no factors, or no yielded point.
 numbers()
 {
     [ ! -x "$look_through" ] || none=$(find "$1" -path '*/frames/*.hdf' -exec "$look_through" {} +) || fail "$1: $none"
@@ -28,7 +28,7 @@ numbers()
     is "$1: histories" "$none" ""
 }
 
-# finish: the count, and the exit status of the script.
+# finish: prints the count, and exits with the status of the script.
 finish()
 {
     numbers "$work"
@@ -37,7 +37,7 @@ finish()
     exit
 }
 
-# figure DIR PATH: the entry of DIR/summary.json with this path, as in crack.tips.0.x; nothing where there is none.
+# figure DIR PATH: prints the entry of DIR/summary.json with this path, as in crack.tips.0.x; nothing if there is none.
 figure()
 {
     [ -f "$1/summary.json" ] || return 0
@@ -64,7 +64,7 @@ figure()
         }' "$1/summary.json"
 }
 
-# column DIR NAME TIME: a column of DIR/history.csv (its name without the unit) at the last sample not after TIME [s].
+# column DIR NAME TIME: prints a column of DIR/history.csv (its name without the unit) at the last sample not after TIME [s].
 column()
 {
     awk -F, -v name="$2" -v time="$3" '
@@ -73,7 +73,7 @@ column()
         END { print value }' "$1/history.csv"
 }
 
-# passes DIR NAME VALUE: the time [s] of the first sample at which a column of DIR/history.csv is at least VALUE.
+# passes DIR NAME VALUE: prints the time [s] of the first sample at which a column of DIR/history.csv is at least VALUE.
 passes()
 {
     awk -F, -v name="$2" -v value="$3" '
@@ -81,10 +81,10 @@ passes()
         at && $at + 0 >= value + 0 { print $1; exit }' "$1/history.csv"
 }
 
-# compute FORMULA: what awk makes of it.
+# compute FORMULA: prints its value, evaluated by awk.
 compute() { awk "BEGIN { printf \"%.9g\", $1 }" </dev/null; }
 
-# between WHAT VALUE LOW HIGH: a number, and LOW <= VALUE <= HIGH.
+# between WHAT VALUE LOW HIGH: checks that VALUE is a number with LOW <= VALUE <= HIGH.
 between()
 {
     if awk -v v="$2" -v low="$3" -v high="$4" 'BEGIN {
@@ -92,7 +92,7 @@ between()
     else fail "$1: ${2:-missing}, not within $3 and $4"; fi
 }
 
-# apart WHAT A B MOST: two numbers no farther apart than MOST.
+# apart WHAT A B MOST: checks that two numbers differ by at most MOST.
 apart()
 {
     if awk -v a="$2" -v b="$3" -v most="$4" 'BEGIN { n = "^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
@@ -100,16 +100,16 @@ apart()
     else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
 }
 
-# near WHAT VALUE WANTED SHARE: no farther from it than this share of it.
+# near WHAT VALUE WANTED SHARE: checks that the relative difference is at most SHARE.
 near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
 
-# absent WHAT VALUE: the run has no such figure.
+# absent WHAT VALUE: checks that the run has no such figure.
 absent() { if [ -z "$2" ]; then pass; else fail "$1: $2, where there should be none"; fi; }
 
-# is WHAT VALUE WANTED: the same word.
+# is WHAT VALUE WANTED: checks that two words are equal.
 is() { if [ "$2" = "$3" ]; then pass; else fail "$1: '$2', not '$3'"; fi; }
 
-# holds WHAT COMMAND...: the command succeeds.
+# holds WHAT COMMAND...: checks that the command succeeds.
 holds()
 {
     claim=$1; shift

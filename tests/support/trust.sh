@@ -1,16 +1,16 @@
 #!/bin/sh
-# What test_trust.sh and long_trust.sh share: small scenes, and runs that are disturbed and must not show it.
-# Sourced after summary.sh.
+# Functions for test_trust.sh and long_trust.sh: small scenes, and runs that are disturbed without effect on results. Sourced after
+# summary.sh.
 
-# A small plate whose notches crack, a bar that spalls, a solid plate: name, scene and the arguments that make it small. All on the grid of
-# the current frame; test_frame.sh has them in the other.
+# A small plate with cracking notches, a spalling bar, a solid plate: name, scene and the arguments that make it small. All in the current
+# frame; test_frame.sh has them in the reference frame.
 current="-s mpm.frame=current -s mpm.transfer=apic"
 flat="inputs/kalthoff_winkler.yaml $current -s duration=36us -s particles.spacing=2mm -s time.step=0.1us -s output.frames=10
     -s output.samples=100"
 line="inputs/hopkinson_bar.yaml -s duration=1.2ms -s time.step=1us -s output.frames=10 -s output.samples=200"
 solid="inputs/kalthoff_winkler_3d.yaml $current -s duration=24us -s output.frames=4 -s output.samples=50"
 
-# calm FOLDER ARGUMENTS: a run that must succeed and say nothing but its warnings.
+# calm FOLDER ARGUMENTS: checks that a run succeeds and prints only warnings.
 calm()
 {
     to=$1; shift
@@ -19,7 +19,7 @@ calm()
     numbers "$to"
 }
 
-# ended STATUS WHAT FOLDER TEXT ARGUMENT...: this exit status and one line, but for warnings, with this text.
+# ended STATUS WHAT FOLDER TEXT ARGUMENT...: checks for this exit status and one line, besides warnings, with this text.
 ended()
 {
     wanted=$1 what=$2 folder=$3 text=$4; shift 4
@@ -31,7 +31,7 @@ ended()
 refused() { ended 2 "$@"; }
 stopped() { ended 1 "$@"; }
 
-# warned WHAT FOLDER TEXT ARGUMENT...: a run to its end that says this on standard error and in its summary.
+# warned WHAT FOLDER TEXT ARGUMENT...: checks that a run completes with this text on standard error and in its summary.
 warned()
 {
     what=$1 folder=$2 text=$3; shift 3
@@ -41,10 +41,10 @@ warned()
     holds "$what: in the summary" grep -q "$text" "$folder/summary.json"
 }
 
-# physical FOLDER: the figures of its summary that do not depend on the machine.
+# physical FOLDER: prints the figures of its summary that do not depend on the machine.
 physical() { sed '/"threads"/,$d' "$1/summary.json"; }
 
-# same WHAT A B: two folders hold the same frames, samples, scene and figures, byte for byte, and nothing half-written.
+# same WHAT A B: checks that two folders have the same frames, samples, scene and figures, byte for byte, and no temporary files.
 same()
 {
     physical "$2" >"$work/figures_a"
@@ -56,30 +56,28 @@ same()
     bare "$1" "$3"
 }
 
-# bare WHAT FOLDER: no temporary file is left.
+# bare WHAT FOLDER: checks that no temporary file is left.
 bare() { is "$1: temporary files" "$(find "$2" -name '*.tmp')" ""; }
 
-# random LOW HIGH: a number of seconds, another at every call; the seed is the script's.
+# random LOW HIGH: prints a random number of seconds; the seed is that of the script.
 draw=0
 random() { draw=$((draw + 1)); awk -v s="$seed" -v k=$draw -v low="$1" -v high="$2" 'BEGIN {
     srand(s * 1000 + k); rand(); printf "%.3f", low + (high - low) * rand() }'; }
 
-# await FOLDER LINES PID: until history.csv is that long or the process has ended.
+# await FOLDER LINES PID: waits until history.csv has that many lines or the process has ended.
 await()
 {
     while kill -0 "$3" 2>/dev/null && [ "$(cat "$1/history.csv" 2>/dev/null | wc -l)" -lt "$2" ]; do sleep 0.01; done
 }
 
-# A shell starts what it leaves behind deaf to SIGINT, and deaf it rightly stays: env gives it its hearing back. Where env cannot,
-# SIGTERM takes the place of SIGINT.
+# Background processes of a shell ignore SIGINT; env restores the default. If env cannot, SIGTERM is used instead of SIGINT.
 hearing="env --default-signal=INT"
 $hearing true 2>/dev/null || hearing=
 
-# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that gets the signal when history.csv has that many lines, one of them its own (a
-# run that goes on finds lines there before it can hear anything); $result: its status.
-# A busy machine lets it come to its end before anyone looks: it is held while its lines are counted, and begun again from where
-# it was if all of them were there, but for the last, before which nobody listens any more. A run that had more to do and did
-# not heed the signal shows a status of 0.
+# interrupt FOLDER SIGNAL LINES ARGUMENTS: a run that receives the signal when history.csv has that many lines, at least one of them new (a
+# resumed run finds lines before it handles signals); $result: its status. On a busy machine the run may end before the lines are counted:
+# it is therefore paused while they are counted, and restarted from its previous state if all lines but the last were there, because the run
+# no longer handles signals before the last. A run that had more steps and ignored the signal has status 0.
 interrupt()
 {
     to=$1 signal=$2 length=$3 tries=0; shift 3
@@ -105,7 +103,7 @@ interrupt()
     done
 }
 
-# interrupted FOLDER LINES ARGUMENTS: a fresh run, stopped by SIGINT when history.csv has that many lines.
+# interrupted FOLDER LINES ARGUMENTS: a new run, stopped by SIGINT when history.csv has that many lines.
 interrupted()
 {
     rm -rf "$1"
@@ -114,8 +112,8 @@ interrupted()
     is "$to: interrupted" $result 130
 }
 
-# twice_interrupted FOLDER LINES LATER ARGUMENTS: a fresh run on 2 threads, stopped by SIGINT when history.csv has LINES lines, resumed and
-# stopped again when the file has LATER lines. A run that goes on from there tests threads and both stops at once.
+# twice_interrupted FOLDER LINES LATER ARGUMENTS: a new run on 2 threads, stopped by SIGINT when history.csv has LINES lines, resumed and
+# stopped again when the file has LATER lines. Resuming it tests threads and both stops at once.
 twice_interrupted()
 {
     twice=$1 first=$2 later=$3; shift 3
@@ -124,7 +122,7 @@ twice_interrupted()
     is "$twice: interrupted again" $result 130
 }
 
-# piecewise FOLDER ARGUMENTS: a run in load steps that stops after each of them and goes on, on one thread; $parts: its number of pieces.
+# piecewise FOLDER ARGUMENTS: a run in load steps that stops after each of them and is resumed, on one thread; $parts: number of pieces.
 piecewise()
 {
     to=$1 parts=0 status=130; shift
@@ -136,7 +134,7 @@ piecewise()
     is "$to: status, $(cat "$work/err")" $status 0
 }
 
-# coarser SCENE FACTOR: the override that makes the spacing of a shipped scene so many times as large.
+# coarser SCENE FACTOR: prints the override that multiplies the spacing of a shipped scene.
 coarser()
 {
     h=$(sed -n 's/^variables: .*[{ ]h: \([0-9.]*\) mm.*/\1/p' "$1")
@@ -144,8 +142,8 @@ coarser()
     echo "-s particles.spacing=$(compute "$2 * $(sed -n 's/^particles: {spacing: \([0-9.]*\) mm.*/\1/p' "$1")")mm"
 }
 
-# disturbances SIGNAL HOW MANY REFERENCE ARGUMENTS: a run that gets the signal at random moments, on a random number of threads, each time
-# followed by --resume; every time the run gets to its end it must equal the reference, and starts anew.
+# disturbances SIGNAL HOW MANY REFERENCE ARGUMENTS: a run that receives the signal at random moments, on a random number of threads, each
+# time followed by --resume; whenever the run ends it must equal the reference, and starts anew.
 disturbances()
 {
     deed=$1 wanted=$2 reference=$3 ended_early=0 ended=0; shift 3
@@ -162,12 +160,12 @@ disturbances()
         wait $process 2>/dev/null
         result=$?
         case $deed$result in
-        KILL137 | TERM130 | TERM143) ended_early=$((ended_early + 1)); continue ;;    # 143: before it listened
+        KILL137 | TERM130 | TERM143) ended_early=$((ended_early + 1)); continue ;;    # 143: before it handled the signal
         "$deed"0) ;;
         *) fail "after $ended_early times SIG$deed: status $result: $(cat "$work/err")"; return ;;
         esac
         ended=$((ended + 1))
-        longest=$(compute "0.8 * $longest")      # the machine is less busy than it was for the reference: sooner
+        longest=$(compute "0.8 * $longest")      # the machine is less busy than during the reference: earlier
         same "after $ended_early times SIG$deed" "$reference" "$work/disturbed"
         rm -rf "$work/disturbed"
     done
