@@ -58,10 +58,10 @@ static void test_vortex_laws(void **state)
 static void test_vortex_order(void **state)
 {
     (void)state;
-    for (enum vortex_way way = 0; way < VORTEX_WAYS; way++) {
+    for (enum vortex_method method = 0; method < VORTEX_METHODS; method++) {
         double coarse, fine;
-        assert_ok(vortex_run(way, 0.1, &coarse));
-        assert_ok(vortex_run(way, 0.05, &fine));
+        assert_ok(vortex_run(method, 0.1, &coarse));
+        assert_ok(vortex_run(method, 0.05, &fine));
         assert_near(coarse / fine, 4, 0.5);
     }
 }

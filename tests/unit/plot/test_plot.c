@@ -122,11 +122,11 @@ static void slices_show_damage(void **state)
     cloud_make(&c, &f, NULL);
     assert_float_equal(fabs(c.layer), 0.5e-3, 1e-8);
     cloud_free(&c);
-    struct look look = {.normal = 0, .placed = true, .layer = 1.9e-3};
-    assert_int_equal(look_settle(&look, &f), OK);
-    assert_float_equal(look.layer, 1.5e-3, 1e-8);
-    look.layer = 9e-3;
-    assert_int_equal(look_settle(&look, &f), REFUSED);
+    struct projection projection = {.normal = 0, .placed = true, .layer = 1.9e-3};
+    assert_int_equal(projection_complete(&projection, &f), OK);
+    assert_float_equal(projection.layer, 1.5e-3, 1e-8);
+    projection.layer = 9e-3;
+    assert_int_equal(projection_complete(&projection, &f), REFUSED);
     assert_non_null(strstr(status_message(), "-2.5 to 2.5 mm"));
     frame_free(&f);
 }
@@ -139,9 +139,9 @@ static void slices_are_near_the_middle(void **state)
     static const float damage[] = {0, 0.5F, 0.496F, 0.45F, 0, 0, 0.1F, 0};
     struct frame f = block_make(9, 9, 8, 3);
     for (int64_t i = 0; i < f.n; i++) f.damage[i] = damage[i / 81];
-    struct look look = {.normal = 2};
-    assert_int_equal(look_settle(&look, &f), OK);
-    assert_float_equal(look.layer, -1.5e-3, 1e-8);
+    struct projection projection = {.normal = 2};
+    assert_int_equal(projection_complete(&projection, &f), OK);
+    assert_float_equal(projection.layer, -1.5e-3, 1e-8);
     f.spacing = NEW("test.spacing", f.n, float);
     for (int64_t i = 0; i < f.n; i++) f.spacing[i] = i == 37 ? 0.7e-3F : 2.8e-3F;
     assert_float_equal(frame_spacing(&f), 0.7e-3, 1e-9);
@@ -176,7 +176,7 @@ static void one_particle_sets_no_scale(void **state)
     f.u[0][17] = 5, value[17] = 1e6F;
     const struct plot_field *field;
     assert_int_equal(plot_field_find(&field, "speed", 2), OK);
-    cloud_make(&c, &f, &(struct look){.normal = -1, .field = field, .value = value});
+    cloud_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
     struct view v = view_of(&c, 1);
     view_set_field(&v, field, &c, 1);
     assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
@@ -187,7 +187,7 @@ static void one_particle_sets_no_scale(void **state)
     assert_true(v.low == -v.high);
     for (int64_t i = 0; i < f.n; i++) value[i] = -value[i];
     cloud_free(&c);
-    cloud_make(&c, &f, &(struct look){.normal = -1, .field = field, .value = value});
+    cloud_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
     view_set_field(&v, field, &c, 1);
     assert_true(v.low == -v.high && v.high > 7 && v.high <= 9);
     cloud_free(&c), memory_free(value), frame_free(&f);
@@ -203,8 +203,8 @@ static void solids_are_seen_from_outside(void **state)
     struct cloud c;
     struct colour *pixel = NEW("test.pixel", PIXELS * PIXELS, struct colour);
     f.damage[555] = 1; /* inside */
-    const struct look look = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
-    cloud_make(&c, &f, &look);
+    const struct projection projection = {.outside = true, .camera = camera_along(2, 1), .normal = -1};
+    cloud_make(&c, &f, &projection);
     struct view v = {.from = {-6e-3, -6e-3}, .to = {6e-3, 6e-3}, .top = 1};
     int shown = 0, dark = 0;
     boxes_paint(pixel, PIXELS, PIXELS, &v, &c, MAP_DAMAGE);
