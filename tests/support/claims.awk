@@ -22,7 +22,9 @@ function load(name,    line, title, fenced)
     while ((getline line <name) > 0) {
         if (name ~ /[.]yaml$/) sub(/^# /, "", line)
         if (line ~ /^```/) fenced = !fenced
-        if (line ~ /^#+ / && !fenced) { title = line; sub(/^#+ /, "", title) }
+        if (line ~ /^#+ / && !fenced) { title = line; sub(/^#+ /, "", title); gsub(/,/, "", title) }
+        sub(/^ +/, "", line)
+        gsub(/ +/, " ", line)
         page[name] = page[name] line " "
         section[name, title] = section[name, title] line " "
         lines[name]++
@@ -126,7 +128,7 @@ function cells(name, only,    k, n, cell, head, heads, j, rest, value)
         if (!heads) { heads = n; for (j = 1; j <= n; j++) head[j] = cell[j]; continue }
         if (cell[2] ~ /^ ?-+ ?$/ || (only != "" && title_of[name, k] != only)) continue
         for (j = 3; j < n; j++) {
-            if (head[j] ~ /limit|expected|theory|source|command|minutes|layers|across|contents|answer|Zeng/ || head[j] ~ /^ *reference *$/) continue
+            if (head[j] ~ /limit|expected|theory|source|command|minutes|across|contents|answer|Zeng/ || head[j] ~ /^ *(reference|layers|ν) *$/) continue
             rest = cell[j]
             gsub(/\([A-Z][^)]*[12][0-9][0-9][0-9]\)/, "", rest)
             while (match(rest, /[0-9]-[0-9]/)) rest = substr(rest, 1, RSTART) " " substr(rest, RSTART + 2)

@@ -3,15 +3,39 @@
 claims=$root/bench/claims.csv
 compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -f "$root/tests/support/claims.awk" "$claims"; }
 
-# scene_of WORDS: the scene that a command names; `NAME.yaml` without a folder is the one that README.md prints, which is written here.
+# scene_of NAME: the scene that a command names. A name without a folder is that of a scene printed in README.md below a line with `NAME`,
+# or in a page of the manual below `# NAME`: it is written to a file of its own.
 scene_of()
 {
     case $1 in
-        */*) echo "$root/$1" ;;
-        *) awk -v name="$1" 'index($0, "`" name "`") { near = 1 } near && /^```$/ { exit } on { print } near && /^```yaml/ { on = 1 }' \
-               "$root/README.md" >"$work/$1"
-           echo "$work/$1" ;;
+        */*) echo "$root/$1"; return ;;
     esac
+    awk -v name="$1" 'FNR == 1 { on = near = 0 } found { exit } index($0, "`" name "`") { near = 1 }
+        /^```$/ && on { found = 1; exit }
+        fresh { fresh = 0; on = near || $0 == "# " name; near = 0 }
+        on { print }
+        /^```yaml/ { fresh = 1 }' "$root/README.md" "$root"/inputs/*.md >"$work/$1"
+    echo "$work/$1"
+}
+
+# value_of RUN SOURCE: the figure that a source gives of a run: a path in its summary, with a formula behind it after a blank; or a formula
+# with paths in braces.
+value_of()
+{
+    formula=$2
+    case $formula in
+        *"{"*) ;;
+        *" "*) formula="{${formula%% *}} ${formula#* }" ;;
+        *) formula="{$formula}" ;;
+    esac
+    while :; do
+        case $formula in *"{"*) ;; *) break ;; esac
+        path=${formula#*"{"}
+        path=${path%%"}"*}
+        found=$(figure "$1" "$path")
+        formula="${formula%%"{"*}(${found:-missing})${formula#*"}"}"
+    done
+    case $formula in *missing* | *null*) ;; *) compute "$formula" ;; esac
 }
 
 # measure WHEN: runs each scene of the rows of this kind once, and compares what its summary has with value and tolerance.
@@ -21,15 +45,13 @@ measure()
     run=0
     while read -r command; do
         run=$((run + 1))
-        set -- $command
+        eval "set -- $command"
         scene=$(scene_of "$3")
         shift 3
         "$cleave" run "$scene" "$@" -o "$work/claim$run" -q >"$work/log" 2>&1 </dev/null || fail "$command: $(tail -n 1 "$work/log")"
-        awk -F, -v command="$command" 'NR > 1 && $5 == command { print $2 "," $3 "," $6 "," $1 }' "$claims" | sort -u >"$work/rows"
+        awk -F, -v command="$command" 'NR > 1 && $5 == command && $6 != "-" { print $2 "," $3 "," $6 "," $1 }' "$claims" | sort -u >"$work/rows"
         while IFS=, read -r value tolerance source figure; do
-            key=${source%% *} formula=
-            [ "$key" = "$source" ] || formula=${source#* }
-            apart "$figure ($command)" "$(compute "($(figure "$work/claim$run" "$key")) $formula")" "$value" "$tolerance"
+            apart "$figure ($command)" "$(value_of "$work/claim$run" "$source")" "$value" "$tolerance"
         done <"$work/rows"
         rm -rf "$work/claim$run"
     done <"$work/commands"
