@@ -73,7 +73,7 @@ static const char page[] =
     "ENERGY   balance error = (kinetic + strain + plastic + fracture + contact + damped + absorbed - work - start)/\n"
     "  largest sum.\n"
     "\n"
-    "Titles and DOIs of the sources are in README.md.\n";
+    "Titles and DOIs of the sources are in inputs/references.md.\n";
 
 status theory_print(FILE *out)
 {

@@ -135,7 +135,7 @@ const struct key keys[] = {
     KEY("bodies.shape", KEY_REGION, UNIT_NONE, AT(scene_body, shape), ANY, "(required, or particles)",
         "solids, filled with a lattice of particles"),
     KEY("bodies.particles", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(required, or shape)",
-        "particle list (inputs/bodies.md says its columns); sought in the scene's folder, then in the current one",
+        "particle list (inputs/lists.md has its columns); sought in the scene's folder, then in the current one",
         .words = "file name, .csv or .h5"),
     KEY("bodies.parts", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 10000), NONE,
         "regions of it that are of another material; later entries overwrite earlier ones"),

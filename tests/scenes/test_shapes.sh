@@ -1,12 +1,12 @@
 #!/bin/sh
-# Bodies from files, from the command line: the three scenes of inputs/bodies.md, their volumes, materials, echoes; files that change.
+# Bodies from files, from the command line: the three scenes of inputs/files.md, their volumes, materials, echoes; files that change.
 test_name=test_shapes
 . tests/support/summary.sh
 
 cp inputs/blade.stl inputs/gear.inp inputs/fibres.png "$work"
 # The scenes of the section, by the names in their first lines.
 awk -v work="$work" '/^```yaml/ { getline; if ($2 ~ /^(blade|gear|fibres)\.yaml:$/) { name = $2; sub(":", "", name); file = work "/" name } }
-    /^```$/ { file = "" } file { print > file }' inputs/bodies.md
+    /^```$/ { file = "" } file { print > file }' inputs/files.md
 cd "$work" || exit 1
 
 # said NAME PATTERN ARGUMENTS: checks the output of check for a scene.
