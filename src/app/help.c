@@ -31,11 +31,20 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
+/* Joins the words after `help` by _, as keys are: fracture energy is fracture_energy. NULL: there are none. */
+static const char *help_word(int argc, char **argv, char *joined, size_t room)
+{
+    size_t used = 0;
+    for (int k = 1; k < argc && used < room; k++)
+        used += (size_t)snprintf(joined + used, room - used, "%s%s", k > 1 ? "_" : "", argv[k]);
+    return argc > 1 ? joined : NULL;
+}
+
 status command_help(int argc, char **argv)
 {
-    const char *word = argc == 2 || (argc == 3 && !strcmp(argv[1], "--completion")) ? argv[1] : NULL;
-    if (argc > 1 && !word)
-        return status_set(REFUSED, "usage: cleave help [KEY|scene|units|expression|run|theory|trust]");
+    char joined[256];
+    const bool completion = argc > 1 && !strcmp(argv[1], "--completion");
+    const char *word = completion ? argv[1] : help_word(argc, argv, joined, sizeof joined);
     if (!word || !strcmp(word, "scene")) return help_scene();
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
     if (!strcmp(word, "--schema")) return scene_schema(stdout);

@@ -144,23 +144,57 @@ static status help_unknown(const char *path)
     return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
 }
 
+/* Is k a key whose last name is `leaf`? */
+static bool has_leaf(const struct key *k, const char *leaf)
+{
+    return k->type != KEY_GROUP && !strcmp(key_leaf(k), leaf);
+}
+
 bool scene_has_key(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);
-    bool has = path_now(path) != NULL;
-    for (int k = 0; k < keys_count && !has; k++) has = is_below(&keys[k], path);
+    bool has = path_now(path) || foreign_paths(path);
+    for (int k = 0; k < keys_count && !has; k++) has = is_below(&keys[k], path) || has_leaf(&keys[k], path);
     return has;
+}
+
+static void print_key(FILE *out, const struct key *k)
+{
+    char facts[640];
+    facts_text(k, facts, sizeof facts);
+    fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
+}
+
+/* Prints what takes the place of a word that is no key, and the keys that concern it. */
+static void help_foreign(FILE *out, const char *word)
+{
+    char text[400], path[64];
+    if (foreign_text(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
+    for (const char *c = foreign_paths(word); *c; c += strspn(c, " ")) {
+        const size_t length = strcspn(c, " ");
+        snprintf(path, sizeof path, "%.*s", (int)length, c);
+        int found = 0;
+        fputc('\n', out);
+        for (int k = 0; k < keys_count; k++)
+            if (is_below(&keys[k], path)) print_key(out, &keys[k]), found++;
+        INVARIANT(found > 0);
+        c += length;
+    }
 }
 
 status scene_help(FILE *out, const char *key)
 {
-    char path[128] = "", facts[640];
-    int found = 0;
+    char path[128] = "";
+    int found = 0, leaves = 0;
     if (key) path_of_table(key, path, sizeof path);
     const char *now = path_now(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += is_below(&keys[k], path);
+    if (found == 0 && foreign_paths(path)) return help_foreign(out, path), OK;
+    for (int k = 0; k < keys_count && found == 0; k++)
+        if (has_leaf(&keys[k], path)) print_key(out, &keys[k]), leaves++;
+    if (leaves > 0) return OK;
     if (found == 0) return help_unknown(path);
     if (!key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
@@ -169,8 +203,7 @@ status scene_help(FILE *out, const char *key)
         if (!is_below(&keys[k], path)) continue;
         bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
         if (top && has_keys && !key) fputc('\n', out);
-        key_facts(&keys[k], facts, sizeof facts);
-        fprintf(out, "%-30s %s\n%-30s   %s\n", keys[k].path, facts, "", keys[k].help);
+        print_key(out, &keys[k]);
     }
     return OK;
 }

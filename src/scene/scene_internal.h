@@ -203,6 +203,15 @@ bool key_in(const struct key *k, const char *group);
 const struct key *key_find(const char *group, const char *leaf);
 const struct key *key_nearest(const char *group, const char *leaf);
 
+/* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
+
+/* Writes what takes the place of a word that is no key of `group` ("" for the top): a key, or what Cleave does not do.
+ * Returns false, and writes nothing, for words that are not known. */
+bool foreign_text(const char *word, const char *group, char *text, size_t room);
+
+/* Returns the keys that concern such a word, separated by spaces, perhaps none; NULL for words that are not known. */
+const char *foreign_paths(const char *word);
+
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
 /* REFUSED with `file:line:column: key: ...` or `-s key=value: key: ...`. */

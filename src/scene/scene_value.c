@@ -159,6 +159,8 @@ int word_index(const char *words, const char *text)
 
 static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
 {
+    char instead[400];
+    if (foreign_text(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
     const struct key *nearest = key_nearest(group, n->key);
     const char *leaf = nearest ? key_leaf(nearest) : "";
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;

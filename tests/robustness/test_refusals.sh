@@ -80,6 +80,24 @@ done <<'END'
 1|name: [[[[[[[[[[[[[[[[[[[[[[[[]]]]]]]]]]]]]]]]]]]]]]]]|1:22|deeper than 16
 1|{|3:10|not YAML
 1|"name|21:1|unexpected end of stream
+2|spaces: plane|2:1|the nearest is space
+2|space: plane stress^temperature: 300|3:1|Cleave does not do heat
+2|space: plane stress^dt: 1 us|3:1|here it is `time.step`
+2|space: plane stress^periodic: x|3:1|does not do periodic boundaries; planes of symmetry come nearest: boundary: {mirror
+6|material: {E: 190 GPa, density: 7800}|6:12|E: unknown key; here it is `young`
+6|material: {young: 190 GPa, nu: 0.3, density: 7800}|6:28|here it is `poisson`
+6|material: {young: 190 GPa, rho: 7800}|6:28|here it is `density`
+6|material: {young: 190 GPa, density: 7800, G_c: 100}|6:43|here it is `energy_release_rate`
+6|material: {young: 190 GPa, density: 7800, strength: 100 MPa}|6:43|`critical_stretch`, about strength/E
+6|material: {young: 190 GPa, density: 7800, compressive_strength: 100 MPa}|6:43|does not do failure in compression
+6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
+6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do heat
+6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do heat
+6|material: {young: 190 GPa, density: 7800, Johnson_Cook: {}}|6:43|linear hardening comes nearest: yield_stress
+6|material: {young: 190 GPa, density: 7800, orthotropic: {}}|6:43|does not do anisotropic materials
+6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
+6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
+8|  - sphere: {radius: 1}|8:5|here it is `ball`
 2|space: plane|2:1|plane stress
 2|space: solid|3:1|thickness
 2||1:1|space: missing
@@ -309,6 +327,7 @@ run good.yaml -s =3|-s =3|
 run good.yaml -s duraton=1us|-s duraton=1us|nearest is duration
 run good.yaml -s duration=fast|-s duration=fast|a time is expected
 run good.yaml -s duration=-1|-s duration=-1|out of range
+run good.yaml -s material.E=1|-s material.E=1: E|here it is `young`
 run good.yaml -s material.youn=1|-s material.youn=1|young
 run good.yaml -s material.young=1mm|-s material.young=1mm|a stress is expected
 run good.yaml -s particles.horizon=0.5|-s particles.horizon=0.5|smaller than one spacing
@@ -328,7 +347,7 @@ compare|compare:|usage
 compare kept|compare:|usage
 compare kept kept kept|compare:|usage
 help nonsense|nonsense|
-help a b|usage|
+help a b|a_b|
 info now|info:|
 bench nonsense|unknown bench|
 END
@@ -338,6 +357,36 @@ ended "-o ''" $? "-o" ""
 ended "-o with a name of 5000 letters" $? "-o" "too long"
 "$cleave" >out 2>err
 is "no command: exit status" $? 2
+
+# ---- words of other programs ---------------------------------------------------------------------------------------------
+
+# `cleave help WORD` prints the page of the key that has the meaning here.
+while IFS='|' read -r word page; do
+    "$cleave" help $word >out 2>err || fail "help $word: $(cat err)"
+    holds "help $word: $(head -n 4 out)" grep -q "^$page " out
+done <<'END'
+yield|material.yield_stress
+plasticity|material.yield_hardening
+G_c|material.energy_release_rate
+strength|material.critical_stretch
+E|material.young
+damage|output.fields
+toughness|material.toughness
+fracture energy|material.energy_release_rate
+friction|contact.friction
+gravity|gravity
+velocity|initial.velocity
+velocity|boundary.velocity
+nu|material.poisson
+Young-modulus|material.young
+END
+# The first word of each row of the table has a page whose keys there are.
+sed -n 's/^    {"\([^|"]*\).*/\1/p' "$root/src/scene/scene_foreign.c" >kept/words
+between "rows of the table" "$(wc -l <kept/words)" 50 200
+while read -r word; do
+    "$cleave" help "$word" >out 2>err || fail "help $word: $(cat err)"
+    holds "help $word: $(cat out)" grep -q '[a-z]' out
+done <kept/words
 
 cd "$root" || exit 1
 finish

@@ -1,0 +1,219 @@
+/* Words of other programs, of textbooks and of everyday use that are no keys of a scene: the key that has the meaning
+ * here, or what Cleave does not do and what comes nearest. Messages about unknown keys and `cleave help` use the same
+ * table. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scene_internal.h"
+
+/* words: a|b|c. paths: keys to show, separated by spaces; the first one takes the place of the word. text: appended to
+ * the name of the first key or, where it begins with =, the whole message; NULL: nothing to append. */
+static const struct foreign {
+    const char *words, *paths, *text;
+} foreign[] = {
+    /* elastic constants, density */
+    {"E|E0|youngs_modulus|young_modulus|youngs|elastic_modulus|elasticity|modulus|stiffness|elastic", "material.young",
+     NULL},
+    {"nu|poissons_ratio|poisson_ratio|poissons", "material.poisson", NULL},
+    {"rho|mass_density|rho0", "material.density", NULL},
+    {"K|kappa|bulk_modulus|G|mu|shear_modulus|lame|lame_lambda|lame_mu|lambda", "material.young material.poisson",
+     "with `poisson`: E = 9 K G/(3 K + G), nu = E/(2 G) - 1"},
+    {"wave_speed|sound_speed|c0", "material.young material.density",
+     "with `density` and `poisson`; E = rho c^2 in a bar"},
+    /* fracture */
+    {"G_c|Gc|G_Ic|G_IC|GIc|GIC|G0|G_f|Gf|fracture_energy|critical_energy_release_rate|energy_release|griffith|"
+     "surface_energy",
+     "material.energy_release_rate", "in J/m^2"},
+    {"K_Ic|KIc|K_IC|KIC|K_c|Kc|fracture_toughness|tenacity", "material.toughness", "as 30 MPa m^0.5"},
+    {"s_c|sc|s0|s00|stretch|critical_bond_stretch|max_stretch|critical_strain|failure_strain|fracture_strain|"
+     "strain_to_failure",
+     "material.critical_stretch", "the stretch at which a bond breaks"},
+    {"strength|tensile_strength|ultimate_strength|ultimate_tensile_strength|failure_stress|fracture_stress|sigma_c|"
+     "sigma_t|f_t|ft|UTS|failure|fracture|damage_model|failure_model|breaking",
+     "material.energy_release_rate material.toughness material.critical_stretch material.scatter",
+     "=bonds break by their stretch, which follows from `energy_release_rate` or `toughness`; or give "
+     "`critical_stretch`, about strength/E"},
+    {"damage", "output.fields probes.break probes.tip material.critical_stretch",
+     "=damage is a result, the share of broken bonds, in every frame; what breaks bonds is `energy_release_rate`, "
+     "`toughness` or `critical_stretch` of the material"},
+    {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter", NULL},
+    {"precrack|pre_crack|pre_cracks|precracks|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
+    {"cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
+    {"compressive_strength|compression_strength|f_c|fc|crushing_strength|crushing", "material.yield_stress",
+     "=Cleave does not do failure in compression: bonds break by tension; `yield_stress` limits stress in both"},
+    {"fatigue|cycles|paris|paris_law|n_cycles|s_n_curve", "steps",
+     "=Cleave does not do fatigue; load steps (`solver: static`, `steps`) follow a crack under one growing load"},
+    {"phase_field|length_scale|l0|regularisation|regularization|xfem", "particles.horizon",
+     "=Cleave does not do phase fields or XFEM: cracks are broken bonds, and the length is the horizon, "
+     "particles.horizon"},
+    {"erosion|element_deletion|deletion|kill", "material.critical_stretch",
+     "=Cleave does not do deletion of particles: bonds break (energy_release_rate, toughness or critical_stretch), "
+     "mass "
+     "stays"},
+    /* yielding */
+    {"yield|yielding|yield_strength|yield_point|sigma_y|sigy|plastic|plasticity|von_mises|mises|ductile|j2",
+     "material.yield_stress material.yield_tangent material.yield_hardening",
+     "with `yield_tangent` or `yield_hardening`"},
+    {"hardening|hardening_modulus|isotropic_hardening|H|plastic_modulus|strain_hardening",
+     "material.yield_hardening material.yield_tangent", NULL},
+    {"tangent_modulus|E_t|Et|etan", "material.yield_tangent", NULL},
+    {"johnson_cook|jc|strain_rate|rate|rate_dependence|strain_rate_hardening|viscoplastic|viscoplasticity|cowper_"
+     "symonds",
+     "material.yield_stress material.yield_hardening",
+     "=Cleave does not do yielding that depends on rate or temperature; von Mises with linear hardening comes nearest: "
+     "yield_stress, yield_hardening"},
+    {"friction_angle|cohesion|dilation_angle|dilatancy|drucker_prager|mohr_coulomb|cap|pressure_dependence|concrete|"
+     "soil|"
+     "sand",
+     "material.yield_stress contact.friction",
+     "=Cleave does not do yielding that depends on pressure (Mohr-Coulomb, Drucker-Prager); nearest: yield_stress (von "
+     "Mises), and contact.friction between faces"},
+    {"kinematic_hardening|backstress|chaboche|hardening_curve|plastic_strain|stress_strain_curve|swift|voce|ludwik",
+     "material.yield_hardening",
+     "=Cleave does not do hardening that is kinematic or a curve; linear isotropic hardening comes nearest: "
+     "yield_hardening"},
+    /* other physics */
+    {"temperature|thermal|heat|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|specific_heat|"
+     "heat_capacity|initial_temperature|diffusion|cooling",
+     "initial.displacement_gradient",
+     "=Cleave does not do heat; a uniform strain at the start comes nearest: initial.displacement_gradient"},
+    {"orthotropic|orthotropy|anisotropic|anisotropy|transversely_isotropic|fibre|fiber|fibres|fibers|fibre_angle|"
+     "fiber_angle|laminate|laminae|composite|E1|E2|E3|E11|E22|E33|nu12|nu13|nu23|G12|G13|G23",
+     "parts material.young",
+     "=Cleave does not do anisotropic materials; regions of isotropic ones come nearest: materials, with parts"},
+    {"hyperelastic|neo_hooke|neo_hookean|mooney_rivlin|ogden|C10|D1|rubber|foam", "material.young mpm.strain",
+     "=Cleave does not do hyperelastic laws; Hooke's law with large rotations comes nearest: young, poisson"},
+    {"viscoelastic|viscoelasticity|prony|creep|relaxation_time|maxwell|kelvin_voigt|stiffness_damping|beta",
+     "damping material.viscosity",
+     "=Cleave does not do viscoelasticity or creep; damping by mass comes nearest: the key damping"},
+    {"eos|equation_of_state|mie_gruneisen|gruneisen|hugoniot|jwl|explosive|detonation",
+     "boundary.pressure material.viscosity",
+     "=Cleave does not do equations of state or explosives; a pressure that is a function of time comes nearest: "
+     "boundary.pressure"},
+    {"fluid|water|pore_pressure|permeability|porosity|biot|hydraulic|fluid_pressure",
+     "boundary.pressure boundary.follow",
+     "=Cleave does not do fluids or pores; a pressure on faces comes nearest: boundary.pressure"},
+    {"periodic|periodicity|pbc|periodic_boundary", "boundary.mirror",
+     "=Cleave does not do periodic boundaries; planes of symmetry come nearest: boundary: {mirror: ...}"},
+    {"electric|magnetic|piezoelectric|corrosion|hydrogen|moisture|chemistry", "",
+     "=Cleave does not do this physics: it solves the motion and fracture of solids alone"},
+    {"shell|shells|beam|beams|truss|plate|membrane", "space thickness",
+     "=Cleave does not do shells or beams; space: plane stress, or solid with 4 or more particles across comes "
+     "nearest"},
+    {"axisymmetric|axisymmetry|axial_symmetry", "space boundary.mirror",
+     "=Cleave does not do axial symmetry; a quarter of the solid between two mirrors comes nearest: space: solid"},
+    {"modal|eigenvalue|eigenfrequency|frequency|buckling|eigen", "probes.point",
+     "=Cleave does not do modes; free vibration recorded by a probe `point` comes nearest"},
+    {"implicit|newmark|hht|newton|newton_raphson|arc_length|riks", "solver steps",
+     "=Cleave does not do implicit dynamics; solver: static with `steps` follows equilibria, `steps.control` their "
+     "path"},
+    {"gpu|cuda|device|mpi|ranks|nodes|processes|threads|n_threads|num_threads|cores|cpus", "",
+     "=no key: Cleave runs on the cores of one machine, and -t sets the number of threads"},
+    /* damping, waves */
+    {"viscosity|artificial_viscosity|bulk_viscosity|linear_viscosity|quadratic_viscosity|q1|q2", "material.viscosity",
+     NULL},
+    {"rayleigh|rayleigh_damping|alpha_damping|mass_damping|viscous_damping|dashpot", "damping", NULL},
+    {"non_reflecting|nonreflecting|silent|pml|infinite_elements|absorbing_boundary|transmitting", "boundary.absorbing",
+     NULL},
+    /* discretisation */
+    {"dx|h|mesh_size|element_size|cell_size|grid_size|resolution|lattice|lattice_constant|particle_spacing|n_particles|"
+     "num_nodes|discretisation|discretization|node_spacing",
+     "particles.spacing", NULL},
+    {"delta|horizon_size|horizon_ratio|m_ratio|cutoff|family|neighbour_radius|neighbor_radius", "particles.horizon",
+     "in spacings"},
+    {"influence_function|weight_function|kernel", "pd.influence", NULL},
+    {"dimension|dim|dims|ndim|problem_type|analysis|2d|3d|plane", "space", NULL},
+    {"width|depth|area|cross_section", "thickness section",
+     "in plane spaces, `section` in space line; sizes of a body are those of its solids"},
+    {"element|elements|element_type|element_block|blocks|block", "bodies", NULL},
+    {"geometry|domain|part|instance|specimen|sample", "body bodies", "or `bodies`"},
+    {"material_model|constitutive|constitutive_model|law|bond_type|pair_style|formulation|lps|pmb", "model", NULL},
+    {"sphere|circle", "solid.ball solid.disc", NULL},
+    {"rectangle|cuboid|cube|brick|prism|square", "solid.box", NULL},
+    {"hole|holes|void|cutout|difference", "solid.subtract", NULL},
+    /* time */
+    {"dt|delta_t|timestep|time_step|step_size|fixed_dt", "time.step", NULL},
+    {"cfl|courant|safety_factor|stable_step_factor", "time.safety", NULL},
+    {"t_end|tend|end_time|final_time|total_time|tmax|t_max|simulation_time|stop_time|period|run_time", "duration",
+     NULL},
+    {"nsteps|n_steps|num_steps|number_of_steps|timesteps|max_steps|load_steps|increments",
+     "duration time.step steps.number", "with time.step; load steps of solver static: steps.number"},
+    {"wall_time|walltime|time_limit", "time.wall", NULL},
+    /* loads, supports, initial states */
+    {"bc|bcs|boundary_condition|boundary_conditions|boundaries|constraint|constraints|support|supports|dirichlet|"
+     "encastre|"
+     "clamp|clamped|pinned|prescribed_displacement",
+     "boundary boundary.fixed boundary.displacement boundary.velocity",
+     "a list of {fixed, displacement, velocity, traction, pressure ...}"},
+    {"loads|load|cload|dload|forces|point_force|point_load|neumann|surface_traction|applied_stress",
+     "boundary.traction boundary.pressure boundary.body_force bodies.force",
+     "on a face; pressure or body_force otherwise, and bodies.force on rigid bodies"},
+    {"weight|g|grav|acceleration", "gravity", NULL},
+    {"initial_velocity|ic|ics|initial_conditions|initial_condition|v0|impact_velocity",
+     "initial.velocity bodies.velocity", "or bodies.velocity for a whole body"},
+    {"initial_stress|prestress|pre_stress|residual_stress|initial_strain|prestrain|eigenstrain",
+     "initial.displacement_gradient", "a strain of the initial state"},
+    {"amplitude|time_function|load_curve|ramp_time", "boundary.time", NULL},
+    {"symmetry|symmetric|xsymm|ysymm|zsymm|symmetry_plane", "boundary.mirror", NULL},
+    {"friction_coefficient|coefficient_of_friction|coulomb|mu_friction|friction", "contact.friction", NULL},
+    {"short_range_force|short_range|penalty|contact_stiffness|repulsion", "contact.stiffness contact.between", NULL},
+    {"wall|walls|rigid_wall|obstacle|impactor|projectile|indenter|rigid_body", "bodies.rigid boundary.mirror",
+     "a body with rigid: true; a smooth wall is a boundary `mirror`"},
+    /* output */
+    {"dump|vtk|vtu|paraview|write_frequency|output_frequency|output_interval|n_outputs|field_output",
+     "output.frames output.every output.fields", "or output.every"},
+    {"history|history_output|thermo|log|sensors|sensor|gauge|gauges|measure|strain_gauge", "probes output.samples",
+     "what is measured; output.samples says how often"},
+    {"restart|checkpoint_every|restart_file", "output.checkpoint", "and `cleave run --resume` goes on from it"},
+    {"sif|stress_intensity|stress_intensity_factor|stress_intensity_factors|j_integral|K_I|K_II", "probes.sif", NULL},
+    {"crack_speed|tip_speed|crack_tip|crack_path|crack_length", "probes.tip crack.speed_window", NULL},
+    {"units|unit_system|unit", "",
+     "=Cleave does not do unit systems: numbers are SI unless a unit stands behind them, as 0.5 mm (`cleave help "
+     "units`)"},
+};
+
+/* Compares two words; those longer than two letters without regard to case, and with - or a blank for _. */
+static bool word_is(const char *word, const char *text, size_t length)
+{
+    if (strlen(word) != length) return false;
+    for (size_t k = 0; k < length; k++) {
+        const char c = word[k] == '-' || word[k] == ' ' ? '_' : word[k];
+        const bool same_letter = length > 2 && tolower((unsigned char)c) == tolower((unsigned char)text[k]);
+        if (c != text[k] && !same_letter) return false;
+    }
+    return true;
+}
+
+/* Returns the row of the table that holds a word, or NULL. */
+static const struct foreign *foreign_row(const char *word)
+{
+    for (size_t k = 0; k < COUNT_OF(foreign); k++)
+        for (const char *c = foreign[k].words; *c;) {
+            const size_t length = strcspn(c, "|");
+            if (word_is(word, c, length)) return &foreign[k];
+            c += length + (c[length] == '|');
+        }
+    return NULL;
+}
+
+bool foreign_text(const char *word, const char *group, char *text, size_t room)
+{
+    const struct foreign *row = foreign_row(word);
+    if (!row) return false;
+    if (row->text && *row->text == '=') return snprintf(text, room, "%s", row->text + 1), true;
+    const size_t length = strcspn(row->paths, " "), within = strlen(group);
+    const bool here = within > 0 && !strncmp(row->paths, group, within) && row->paths[within] == '.' &&
+                      !memchr(row->paths + within + 1, '.', length - within - 1);
+    const char *name = here ? row->paths + within + 1 : row->paths;
+    if (!strncmp(name, "solid.", 6)) name += 6;
+    snprintf(text, room, "here it is `%.*s`%s%s", (int)strcspn(name, " "), name, row->text ? ", " : "",
+             row->text ? row->text : "");
+    return true;
+}
+
+const char *foreign_paths(const char *word)
+{
+    const struct foreign *row = foreign_row(word);
+    return row ? row->paths : NULL;
+}
