@@ -38,8 +38,9 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
     const struct node *poisson = node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
-    return fault(r, poisson, "%s is impossible with bond-based peridynamics in space %s; %s is expected",
-                 shown(r, poisson), space_names[s->space], s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4");
+    return fault(r, poisson, "%s is impossible with bonds, which have %s in space %s; %s", shown(r, poisson),
+                 s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
+                 material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
 
 /* Reads the slope beyond yield from one of two keys. REFUSED if it is not below young. */
@@ -122,8 +123,9 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
     TRY(read_viscosity(r, node_find(n, "viscosity"), m));
     if (s->model != MODEL_BOND && material_yields(m))
         return fault(r, node_find(n, "yield_stress"),
-                     "state-based models do not yield in this version; model bond, or no "
-                     "yield_stress, is expected");
+                     "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
+                     "the key model",
+                     s->model == MODEL_OSPD ? "ospd" : "mospd");
     material_derive(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
@@ -256,9 +258,15 @@ status read_bodies(struct reader *r, const struct node *root)
     sort_bodies(s, n_bodies);
     if (s->bodies == 0) return fault(r, many, "only rigid bodies; one with a material is expected");
     if (s->rigids > 0 && s->method == METHOD_MPM)
-        return fault(r, many, "rigid bodies meet peridynamic particles only; method: pd or adaptive is expected");
+        return fault(r, many,
+                     "rigid bodies meet peridynamic particles only; `method: pd` or `adaptive` is expected, or, for a "
+                     "smooth wall "
+                     "at rest, a boundary `mirror` in its place");
     if (s->rigids > 0 && scene_at_rest(s))
-        return fault(r, many, "rigid bodies move in steps of time; solver: explicit is expected");
+        return fault(r, many,
+                     "rigid bodies move in steps of time; `solver: explicit` is expected, or, for a smooth wall at "
+                     "rest, a boundary "
+                     "`mirror` in its place");
     return OK;
 }
 

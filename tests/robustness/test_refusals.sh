@@ -125,7 +125,7 @@ done <<'END'
 5|coupling: glue|5:1|partial stress, handshake, pm, pg, pmg or pgg
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing
-6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|1/3 is expected
+6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; `model: ospd` has any
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given beside critical_stretch
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|no slope below young
 6|material: steel|6:1|not a mapping
@@ -351,6 +351,9 @@ help a b|a_b|
 info now|info:|
 bench nonsense|unknown bench|
 END
+"$cleave" check good.yaml -s method=mpm -s body= -s 'bodies=[{name: a, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}, {name: b, rigid: true,
+    shape: {half-space: {point: [0, 0], normal: [0, 1]}}}]' >out 2>err
+ended "material points and a rigid body" $? "-s bodies=" "for a smooth wall at rest, a boundary \`mirror\`"
 "$cleave" run good.yaml -o '' >out 2>err
 ended "-o ''" $? "-o" ""
 "$cleave" run good.yaml -o "$(awk 'BEGIN { for (k = 0; k < 5000; k++) printf "x" }')" >out 2>err

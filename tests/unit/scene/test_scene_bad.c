@@ -92,7 +92,13 @@ static const struct {
     {"190 GPa", "many GPa", "7:3: young: many GPa is not a number; a stress is expected, as 190 GPa"},
     {"190 GPa", "1e-400", "7:3: young: 1e-400 is out of range; a stress above 0 is expected, as 190 GPa"},
     {"poisson: 1/3", "poisson: 0.3",
-     "8:3: poisson: 0.3 is impossible with bond-based peridynamics in space plane stress; 1/3 is expected"},
+     "8:3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; `model: ospd` has any"},
+    {"poisson: 1/3", "poisson: 0.3\n  yield_stress: 1 GPa",
+     "8:3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; `method: mpm` has any, and "
+     "yields"},
+    {"kJ/m^2\n", "kJ/m^2\n  yield_stress: 1 GPa\nmodel: ospd\n",
+     "11:3: yield_stress: model ospd does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` "
+     "without the key model"},
     {"poisson: 1/3", "poisson: 0.5",
      "8:3: poisson: 0.5 is out of range; a plain number above -1 up to 0.4999 is expected"},
     {"poisson: 1/3", "critical_stretch: 0.01",
@@ -165,7 +171,7 @@ static const struct {
     {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "add: {add: {all: true}}",
      "13:19: add: stands inside add, subtract or intersect; a solid such as box is expected there"},
     {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "sphere: {radius: 1}",
-     "13:13: sphere: unknown key; `cleave help solid` lists what is known"},
+     "13:13: sphere: unknown key; here it is `ball`"},
     {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "shape: []",
      "13:5: shape: an empty list; at least one solid is expected"},
     {"shape: {box: {from: [0, -100 mm], to: [100 mm, 100 mm]}}", "material: iron",
@@ -405,8 +411,8 @@ static void test_overrides(void **state)
          "indent, a key ends in `: `, brackets close"},
         {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
         {{"material.poisson", "0.3"},
-         "-s material.poisson=0.3: poisson: 0.3 is impossible with bond-based peridynamics in space "
-         "plane stress; 1/3 is expected"},
+         "-s material.poisson=0.3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; "
+         "`model: ospd` has any"},
         {{"duration", ""}, "x:1:1: duration: missing; a time is expected, as 20 us"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
