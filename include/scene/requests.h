@@ -8,6 +8,12 @@
 #include "base/base.h"
 #include "data/region.h"
 
+/* ---- figures that a scene means, however unlikely -----------------------------------------------------------------
+ */
+
+/* Words of the key `accept`, a bit each: rules of src/engine/warn_units.c that the scene breaks on purpose. */
+#define ACCEPT_WORDS "waves|stretch|stress|strain|steps|reach|particles"
+
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };

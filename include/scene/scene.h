@@ -200,6 +200,8 @@ struct scene {
     bool compress;            /* gzip the frames */
     real speed_window;        /* of the crack tip's speed [s] */
 
+    unsigned accept;   /* bits of ACCEPT_WORDS: unlikely figures that are meant */
+    bool has_accept;   /* given */
     char renamed[400]; /* keys given by an earlier name; "" : none */
     char *text;        /* the scene as run: every key, defaults written out, YAML */
 };

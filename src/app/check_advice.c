@@ -433,7 +433,6 @@ static void advise_symmetry(const struct run *e, FILE *out)
 
 void advise(const struct run *e, FILE *out)
 {
-    advise_units(e, out);
     advise_features(e, out);
     advise_sections(e, out);
     advise_cracks(e->scene, e->fracture, out);

@@ -67,11 +67,6 @@ void advise_incompressible(const struct run *e, FILE *out);
 void say_levels(const struct run *e);
 void say_levels_saving(const struct run *e, const struct cost *c);
 
-/* ---- check_units.c ----------------------------------------------------------------------------------------------- */
-
-/* Writes a line for each number that looks like one of another unit. */
-void advise_units(const struct run *e, FILE *out);
-
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */

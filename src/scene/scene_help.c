@@ -162,7 +162,7 @@ bool scene_has_key(const char *key)
 static void print_key(FILE *out, const struct key *k)
 {
     char facts[640];
-    facts_text(k, facts, sizeof facts);
+    key_facts(k, facts, sizeof facts);
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 

@@ -107,6 +107,12 @@ const struct key keys[] = {
         "each spacing of the front; those that are alike break together"),
     KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
         "of these only such as are overloaded like the first, up to this share"),
+    KEY("accept", KEY_SET, UNIT_NONE, AT(scene, accept), ANY, "none",
+        "figures of this scene that look like mistakes of units and are meant, a list: speed of waves, critical "
+        "stretch, "
+        "stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves travel, "
+        "particles across a body with a crack",
+        .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error of a figure, which pilot runs find out",
         .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),

@@ -1,0 +1,281 @@
+/* Warns of figures that a scene hardly means: gross mistakes of units, found by what they lead to. One table has the
+ * rules; the key `accept` of a scene names those that it breaks on purpose. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "engine_internal.h"
+
+enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
+#define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
+
+/* What is looked at, in the order of ACCEPT_WORDS. */
+enum rule { RULE_WAVES, RULE_STRETCH, RULE_STRESS, RULE_STRAIN, RULE_STEPS, RULE_REACH, RULE_PARTICLES, RULES };
+
+/* Limits of a figure, least to most, and what to look at where it is beyond. Waves: 18 km/s in diamond, 20 m/s in gels
+ * of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals without flaws. Stress, over the strength
+ * E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach: of waves in the duration [spacings]. */
+static const struct {
+    real least, most;
+    const char *what, *unit, *look;
+} rule[RULES] = {
+    [RULE_WAVES] = {10, 20e3, "the speed of its waves is", " m/s", "young (GPa?) and density (kg/m^3)"},
+    [RULE_STRETCH] = {1e-6, 0.05, "its bonds break at a stretch of", "",
+                      "critical_stretch (%?), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
+    [RULE_STRESS] = {1e-2, 1e3,
+                     "the largest stress that loads, speeds and displacements can make, over the strength, is", "",
+                     "loads (Pa), speeds (m/s), displacements (m) and what says when bonds break"},
+    [RULE_STRAIN] = {0, 0.2, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
+    [RULE_STEPS] = {5, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
+    [RULE_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
+                    "duration, lengths (mm?) and young (GPa?)"},
+    [RULE_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
+                        "spacing and lengths (mm?)"},
+};
+
+/* Warns if `value` is beyond the limits of a rule that the scene does not accept. subject: what it is of, and a note
+ * with the numbers that it follows from, perhaps "". */
+static void units_judge(const struct scene *s, enum rule k, const char *subject, real value, const char *note,
+                        struct warnings *to)
+{
+    const char *word = ACCEPT_WORDS;
+    const bool low = value<rule[k].least, high = value> rule[k].most;
+    if ((!low && !high) || s->accept & 1u << k) return;
+    for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
+    warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: see whether %s have the units that are meant; if so: accept: [%.*s]",
+                 subject, rule[k].what, value, rule[k].unit, note, low ? "below" : "above",
+                 low ? rule[k].least : rule[k].most, rule[k].look, (int)strcspn(word, "|"), word);
+}
+
+/* ---- materials -----------------------------------------------------------------------------------------------------
+ */
+
+static void units_of_materials(const struct scene *s, struct warnings *to)
+{
+    char subject[NAME_MAX_LENGTH + 16], note[80];
+    for (int m = 0; m < s->materials; m++) {
+        const struct material *a = &s->material[m];
+        const real stretch = a->critical_stretch;
+        snprintf(subject, sizeof subject, "material %s", a->name);
+        units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
+        snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
+        if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[RULE_STRETCH].least))
+            units_judge(s, RULE_STRETCH, subject, stretch, note, to);
+    }
+}
+
+/* ---- stress that loads can make -------------------------------------------------------------------------------- */
+
+/* Figures of all loads. stress: of tractions, pressures, body forces [Pa]; speed: of what is driven beside its
+ * particles [m/s]; least, most: displacements of what is driven [dim, m]; supports: number of loads that hold or drive.
+ */
+struct load_figures {
+    real stress, speed, least[DIM_MAX], most[DIM_MAX];
+    int supports;
+};
+
+static real units_length(const real *value, int dim)
+{
+    real square_sum = 0;
+    for (int d = 0; d < dim; d++) square_sum += square(value[d]);
+    return sqrt(square_sum);
+}
+
+/* Returns the stress that a load which is a force makes at one place and time [Pa]: of a body force over the longest
+ * edge of the box round all particles. */
+static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
+{
+    real value[DIM_MAX] = {0}, density = 0;
+    load_value_at(l, p, k, t, value);
+    if (l->boundary->kind == BOUNDARY_PRESSURE) return fabs(value[0]);
+    if (l->boundary->kind == BOUNDARY_TRACTION) return units_length(value, s->dim);
+    for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
+    return (l->boundary->by_mass ? density : 1) * units_length(value, s->dim) * particles_longest(p);
+}
+
+/* Adds a load at one place and time to the figures. */
+static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
+                            struct load_figures *f)
+{
+    const enum boundary_kind kind = l->boundary->kind;
+    if (kind == BOUNDARY_TRACTION || kind == BOUNDARY_PRESSURE || kind == BOUNDARY_BODY_FORCE)
+        f->stress = real_max(f->stress, load_stress_at(s, p, l, k, t));
+    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || load_displacement_known(l->boundary) != OK) return;
+    real u[DIM_MAX];
+    load_displacement_at(l, p, k, l->boundary->frozen ? INFINITY : t, u); /* frozen: in the pseudo-time of a solver */
+    for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
+}
+
+/* Adds a load to the figures, by moments between 0 and the duration and some of its particles. */
+static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
+                             struct load_figures *f)
+{
+    const bool drives = l->boundary->kind == BOUNDARY_VELOCITY;
+    f->supports += drives || l->boundary->kind == BOUNDARY_MIRROR;
+    if (l->n == 0) return;
+    for (int m = 0; m <= MOMENTS_OF_LOADS; m++)
+        for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES_OF_LOADS)
+            load_figures_at(s, p, l, k, s->duration * m / MOMENTS_OF_LOADS, f);
+    if (!drives || !scene_moves(s)) return;
+    const real speed =
+        l->boundary->displaces ? load_displacing_speed(l, p, s->duration) : load_velocity_jump(l, p, s->duration);
+    if (isfinite(speed)) f->speed = real_max(f->speed, speed);
+}
+
+/* Returns the largest difference between the velocities of particles and rigid bodies at the start [m/s]. */
+static real units_speed_at_start(const struct scene *s, const struct particles *p)
+{
+    real apart[DIM_MAX] = {0};
+    for (int d = 0; d < s->dim; d++) {
+        real low = 0, high = 0;
+        for (int64_t i = 0; i < p->n; i++) low = real_min(low, p->v[d][i]), high = real_max(high, p->v[d][i]);
+        for (int b = s->bodies; b < s->bodies + s->rigids; b++)
+            low = real_min(low, s->body[b].velocity[d]), high = real_max(high, s->body[b].velocity[d]);
+        apart[d] = high - low;
+    }
+    return units_length(apart, s->dim);
+}
+
+/* Returns the largest component of the stress at the start [Pa]. */
+static real units_stress_at_start(const struct particles *p)
+{
+    real most = 0;
+    for (int c = 0; c < symmetric_count(p->dim); c++)
+        for (int64_t i = 0; i < p->n && p->stress[c]; i++) most = real_max(most, fabs(p->stress[c][i]));
+    return most;
+}
+
+/* Returns the least strength E s_c of what can break [Pa]; INFINITY: nothing. */
+static real least_strength(const struct scene *s)
+{
+    real least = INFINITY, young = INFINITY;
+    for (int m = 0; m < s->materials; m++) {
+        young = real_min(young, s->material[m].young);
+        least = real_min(least, s->material[m].young * s->material[m].critical_stretch);
+    }
+    for (int k = 0; k < s->interfaces; k++)
+        if (s->interface[k].critical_stretch > 0) least = real_min(least, young * s->interface[k].critical_stretch);
+    return least;
+}
+
+/* Warns where the largest stress of the run can't break anything, or is far beyond the strength: tractions, rho c v of
+ * speeds and E u/L of displacements. Displacements of bodies in motion may follow the first break, and say nothing of
+ * too large a stress. */
+static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
+                           struct warnings *to)
+{
+    struct load_figures f = {0};
+    real impedance = 0, young = 0, stretched = 0;
+    char note[160];
+    const real strength = least_strength(s);
+    if (s->method == METHOD_MPM || !isfinite(strength) || s->growths > 0) return;
+    for (int b = 0; b < loads->n; b++) load_figures_add(s, p, &loads->load[b], &f);
+    for (int m = 0; m < s->materials; m++) {
+        impedance = real_max(impedance, s->material[m].density * s->material[m].wave_speed);
+        young = real_max(young, s->material[m].young);
+    }
+    for (int d = 0; d < s->dim && f.supports > 1; d++) {
+        real low, high;
+        particles_extent(p, p->n, d, &low, &high);
+        stretched = real_max(stretched, young * (f.most[d] - f.least[d]) / (high - low + s->spacing));
+    }
+    const real enough = rule[RULE_STRESS].least * strength;
+    real stress = real_max(f.stress, units_stress_at_start(p));
+    stress = real_max(stress, impedance * real_max(f.speed, scene_moves(s) ? units_speed_at_start(s, p) : 0));
+    stress = real_max(stress, scene_moves(s) ? real_min(stretched, enough) : stretched);
+    snprintf(note, sizeof note, " (%.3g Pa; E s_c is %.3g Pa)", stress, strength);
+    units_judge(s, RULE_STRESS, "loads", stress / strength, note, to);
+}
+
+/* Warns of tractions and pressures beside the least Young's modulus. */
+static void units_of_tractions(const struct scene *s, struct warnings *to)
+{
+    char subject[NAME_MAX_LENGTH + 16], note[80];
+    real young = INFINITY;
+    for (int m = 0; m < s->materials; m++) young = real_min(young, s->material[m].young);
+    for (int b = 0; b < s->boundaries; b++) {
+        const struct boundary *a = &s->boundary[b];
+        if (a->kind != BOUNDARY_TRACTION && a->kind != BOUNDARY_PRESSURE) continue;
+        const real most = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : units_length(a->value, s->dim);
+        snprintf(subject, sizeof subject, "boundary %s", a->name);
+        snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", most, young);
+        units_judge(s, RULE_STRAIN, subject, most / young, note, to);
+    }
+}
+
+/* ---- steps and particles -------------------------------------------------------------------------------------------
+ */
+
+/* Warns of too few or too many steps in time, and of waves that do not reach the next particle. */
+static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, struct warnings *to)
+{
+    char note[80];
+    if (!scene_moves(s)) return;
+    snprintf(note, sizeof note, " of %.3g s", clock->dt);
+    const real reach = wave_speed * s->duration / s->spacing;
+    if (reach < rule[RULE_REACH].least)
+        units_judge(s, RULE_REACH, "time", reach, "", to);
+    else
+        units_judge(s, RULE_STEPS, "time", (real)clock->steps, note, to);
+}
+
+/* Does a crack meet the box low to high, spacings around it included? */
+static bool crack_meets_box(const struct crack *c, const real *low, const real *high, const struct scene *s)
+{
+    bool meets = true;
+    for (int d = 0; d < s->dim; d++) {
+        real from = INFINITY, to = -INFINITY;
+        for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
+        meets = meets && from <= high[d] + s->spacing && to >= low[d] - s->spacing;
+    }
+    return meets;
+}
+
+/* Returns the number of particles along an axis between two places, with their images beyond planes of symmetry. */
+static real particles_across(const struct scene *s, real low, real high, int axis)
+{
+    real n = round((high - low) / s->spacing) + 1;
+    for (int b = 0; b < s->boundaries; b++)
+        if (s->boundary[b].kind == BOUNDARY_MIRROR && s->boundary[b].axis == axis) n *= 2;
+    return n;
+}
+
+/* Warns if the body in the box low to high has few particles along an axis. */
+static void units_of_body(const struct scene *s, const char *name, const real *low, const real *high,
+                          struct warnings *to)
+{
+    char subject[NAME_MAX_LENGTH + 16], note[80];
+    real least = INFINITY;
+    for (int d = 0; d < s->dim; d++) {
+        const real n = particles_across(s, low[d], high[d], d);
+        if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
+    }
+    snprintf(subject, sizeof subject, "body %s", name);
+    units_judge(s, RULE_PARTICLES, subject, least, note, to);
+}
+
+/* Looks at the bodies, those joined counted as one, that a pre-crack meets. */
+static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
+        real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
+        bool cracked = false;
+        for (int d = 0; d < s->dim; d++)
+            for (int64_t i = 0; i < p->n; i++) {
+                if (s->body[p->body[i]].joined != b) continue;
+                low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
+            }
+        for (int k = 0; k < s->cracks && high[0] >= low[0]; k++)
+            cracked = cracked || crack_meets_box(&s->crack[k], low, high, s);
+        if (cracked) units_of_body(s, s->body[b].name, low, high, to);
+    }
+}
+
+void engine_warn_of_units(const struct run *e, struct warnings *to)
+{
+    units_of_time(e->scene, &e->clock, e->tables.wave_speed, to);
+    units_of_materials(e->scene, to);
+    units_of_tractions(e->scene, to);
+    units_of_loads(e->scene, &e->part, &e->loads, to);
+    units_of_particles(e->scene, &e->part, to);
+}
