@@ -12,6 +12,7 @@
 struct coupling_state {
     bool approaches; /* bodies meet: material points near others become peridynamic */
     struct partial_stress partial;
+    bool flip;                  /* the transfer of the grid is FLIP */
     bool uses_partial;          /* partial stresses and ends of state-based bonds are made */
     uint8_t *bonded;            /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
     struct interface_zone zone; /* damped beside peridynamic particles (FLIP, partial stress) */
@@ -27,19 +28,24 @@ void coupling_partial_make(struct run *e);
  * the motion of its nodes. */
 status coupling_frame_make(struct run *e, bool still);
 /* Makes the interface zone and the list of material points that have bonds anew. */
-void interface_make(struct run *e);
+void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                    const struct bond_source *source);
 /* Updates material points at the end of state-based bonds from their cells, or from their stress. */
-void ends_update(struct run *e);
+void ends_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
+                 const struct material *material);
 
 /* Pre-cracks as slits of the mesh or cut bonds, and what is peridynamic from the start. REFUSED where the scene wants
  * what cannot be. */
 status notch_convert(struct run *e);
 /* What stands for pre-crack number `crack`, in words. */
-void notch_text(const struct run *e, int crack, char *text, size_t room);
+void notch_text(const struct notches *n, int crack, real spacing, char *text, size_t room);
 /* Marks points at faces of slits that meet. False: nothing was looked at in this step. */
 bool notch_approach(struct run *e);
 /* Marks as peridynamic the particles on both sides of narrow voids that cut no mesh: a grid would close them. */
-void voids_convert(struct run *e);
+void voids_convert(struct particles *p, const struct voids *v, bool uncut);
+/* Do no voids cut the mesh with nodes of grid g? A cut parts a line; where a mirror lies between nodes there are no
+ * extra ones. */
+bool mesh_uncut(const struct grid *g, const struct scene *s);
 /* Warns of voids that the run closes: narrow ones on the grid of the current frame, and in lists and images. */
 void voids_warn(const struct run *e, struct warnings *to);
 

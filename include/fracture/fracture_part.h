@@ -9,12 +9,11 @@
 /* Cracks: where their tips are, and those whose growth is prescribed or SIF-controlled. */
 struct fracture_state {
     struct tips tips;
-    struct growth *growth; /* [scene->growths] */
+    int growths;
+    struct growth *growth; /* [growths] */
 };
 
-/* Tips of pre-cracks that are slits, before the first sample of tips. */
-void cracks_notches(struct run *e);
 /* Do bonds fade along growing cracks? */
-bool cracks_fade(const struct run *e);
+bool cracks_fade(const struct fracture_state *f);
 
 #endif

@@ -31,26 +31,28 @@ struct grid_method {
     struct transfer_data transfer;
     bool sort_needed;   /* points moved to other cells or converted */
     real smallest_mass; /* of a node that moves [kg] */
+    real spacing;       /* of particles [m] */
 };
 
 /* Makes the grids of a run, with their nodes where its bodies want them; `meshed`: there are bodies in the reference
  * frame, whose particles lie midway between nodes. A second call moves the nodes. */
-void grid_part_make(struct run *e, bool meshed);
+void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 /* Makes the groups of points that turn together, where bodies may turn (FLIP). */
-void grid_turning_make(struct run *e);
+void grid_turning_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
+                       const struct scene *s, enum coupling coupling);
 /* Sets `anchor` to a place of a node [m] where the body begins at `from`; `meshed`: midway between particles of a
  * lattice with a place at `site`. */
 void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
 /* Number of the body that comes k-th, those that are joined counted as one; -1: there is none. */
 int body_apart(const struct scene *s, int k);
 /* Does a mirror lie between two nodes? Nodes beyond it follow others one by one, extra nodes of a slit do not. */
-bool grid_mirror_between(const struct run *e);
+bool grid_mirror_between(const struct grid *g, const struct scene *s);
 
 /* Sorts the points on the grid in this step into cells. *lost: a place is not finite, and nothing is sorted. FAILED
  * where the grid would have too many nodes. */
 status grid_sort(struct run *e, bool *lost);
 /* Steps 1 and 3 of the algorithm: mass, momentum and forces of points to the nodes. */
-void grid_map(struct run *e);
+void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct laps *laps);
 /* Steps 3, 4, 6 and 7: nodes move, points follow, their strain and stress. middle: time in the middle of the step [s].
  */
 void grid_step(struct run *e, real middle);

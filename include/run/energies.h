@@ -37,6 +37,6 @@ static inline void states_precompute(struct bonds *b, struct particles *p, const
 }
 
 /* Stress of peridynamic particles, which steps do not compute: for samples, frames and reversion. */
-void run_stress(struct run *e);
+void run_stress(struct bonds *b, struct particles *p, const struct bond_source *s, const struct kernels *kernels);
 
 #endif

@@ -112,7 +112,7 @@ static void say_notches(const struct run *e)
     const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        notch_text(e, k, text, sizeof text);
+        notch_text(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);

@@ -230,8 +230,9 @@ static void advise_shocks(const struct scene *s, FILE *out)
 /* Coarse cells that the scene gives and that do not carry its loads. */
 static void advise_levels(const struct run *e, FILE *out)
 {
+    const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (frame_levels_coarse(e, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
+    if (frame_levels_coarse(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
 }
 
 /* Body of a particle; joined ones are one. */
@@ -381,7 +382,8 @@ static void advise_frame(const struct run *e, FILE *out)
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
-        if (e->frame->choice[b].reference || !frame_allowed(e, b)) continue;
+        if (e->frame->choice[b].reference || scene_frame_not_default(e->scene, b)) continue;
+        if (!frame_allowed(e->frame, &e->part, e->grid)) continue;
         fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
         if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
         fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",

@@ -11,7 +11,8 @@ void say_levels(const struct run *e)
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
-    frame_levels_text(e, text, sizeof text);
+    const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
+    frame_levels_text(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",

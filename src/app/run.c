@@ -88,8 +88,9 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
     engine_warn(e);
+    const struct levels_choice levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
-    if (frame_levels_coarse(e, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
+    if (frame_levels_coarse(&levels, e->frame, s, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,

@@ -41,21 +41,22 @@ static status contact_state(struct run *e, struct archive *a)
 }
 
 /* Rigid bodies at the end, and the largest force on each. */
-static void put_rigid(const struct run *e, struct json *j)
+static void put_rigid(const struct rigid_set *rigid, const struct contact *c, const struct particles *p,
+                      const struct run_clock *clock, struct json *j)
 {
     static const char *const velocity[] = {"velocity_x", "velocity_y", "velocity_z"};
-    if (e->scene->rigids == 0) return;
+    if (rigid->n == 0) return;
     json_open(j, "rigid", '[');
-    for (int k = 0; k < e->scene->rigids; k++) {
-        const struct rigid_body *r = &e->rigid->body[k];
+    for (int k = 0; k < rigid->n; k++) {
+        const struct rigid_body *r = &rigid->body[k];
         real v[DIM_MAX];
-        rigids_velocity(e->rigid, k, e->clock.t, e->clock.dt, v);
+        rigids_velocity(rigid, k, clock->t, clock->dt, v);
         json_open(j, NULL, '{');
         json_text(j, "name", r->name);
         json_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
         json_real(j, "force_max", r->force_most);
-        json_real(j, "patch", contact_patch(e->contact, &e->part, k));
+        json_real(j, "patch", contact_patch(c, p, k));
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -64,7 +65,7 @@ static void put_rigid(const struct run *e, struct json *j)
 static void put_contact_and_rigid(const struct run *e, struct json *j)
 {
     put_contact(e->contact, e->grid, j);
-    put_rigid(e, j);
+    put_rigid(e->rigid, e->contact, &e->part, &e->clock, j);
 }
 
 #define OVERLAP_DOUBTFUL 0.3 /* [spacings] */

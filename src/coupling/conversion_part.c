@@ -7,34 +7,26 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-void ends_update(struct run *e)
+void ends_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
+                 const struct material *material)
 {
-    if (!e->part.end_strain) return;
-    partial_ends_update(&e->coupling->partial, &e->part, e->scene->material);
-    if (e->frame->mesh.points > 0) mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
-}
-
-/* Updates the stress share of material points where bonds fade; convert() has updated it for broken bonds. */
-static void renew_partial(struct run *e, bool changed)
-{
-    if (changed && e->coupling->uses_partial && e->scene->growths > 0)
-        partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-}
-
-/* Marks material points that other bodies have come near. */
-static void approach(struct run *e)
-{
-    frame_sync_points(e, NULL, 0);
-    approach_mark(&e->part, e->scene->bodies, e->rigid->body, e->scene->rigids, APPROACH_REACH * e->scene->spacing);
+    if (!p->end_strain) return;
+    partial_ends_update(partial, p, material);
+    if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
 /* May a point have been marked for conversion in this step, or a bond have changed? Points on the grid say nothing of
  * it; of the mesh its cells say that their points may be. */
-static bool may_convert(const struct run *e, int64_t broken)
+static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
-    return broken > 0 || e->coupling->approaches || e->part.n_free > 0 || e->part.n_grid_coupled > 0 ||
-           e->scene->growths > 0 || scene_in_steps(e->scene) || e->part.low_since || e->frame->levels.returned ||
-           mesh_stressed(&e->frame->mesh);
+    return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_in_steps(s) || p->low_since ||
+           r->levels.returned || mesh_stressed(&r->mesh);
+}
+
+static void sync_listed(void *context, const int32_t *list, int64_t n)
+{
+    struct run *e = context;
+    frame_sync_listed(e->frame, &e->part, &e->loads, list, n);
 }
 
 static void meet_others(void *context, const int32_t *list, int64_t n)
@@ -46,7 +38,10 @@ static void meet_others(void *context, const int32_t *list, int64_t n)
 bool conversion_mark(struct run *e)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
-    if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) approach(e);
+    if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) {
+        frame_sync_motion(e->frame, &e->part, &e->loads);
+        approach_mark(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n, APPROACH_REACH * e->scene->spacing);
+    }
     return notch_approach(e);
 }
 
@@ -54,54 +49,59 @@ void conversion_follow(struct run *e, int64_t converted)
 {
     struct partial_stress *partial = &e->coupling->partial;
     const bool due = converted > 0 || partial->touches > 0;
-    const bool anew = due && frame_follow(e, converted, partial->touched, partial->touches);
-    if (converted > 0 || (due && !anew)) ends_update(e);
+    const bool anew = due && frame_follow(e->frame, &e->part, converted, partial, &e->damped);
+    if (anew) frame_follow_points(e->frame, &e->part, &e->bonds, &e->loads);
+    if (converted > 0 || (due && !anew)) ends_update(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
 int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades)
 {
-    const struct conversion_sync sync = {frame_sync_points, e, meet_others};
-    if (!marked && !may_convert(e, broken)) return 0;
-    frame_levels_guard(e);
-    const int64_t converted = convert(&e->coupling->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                                      e->coupling->uses_partial ? &e->coupling->partial : NULL, &sync, e->clock.t);
-    if (converted > 0) interface_make(e), e->grid->sort_needed = true;
-    renew_partial(e, broken > 0 || converted > 0 || fades);
+    const struct conversion_sync sync = {sync_listed, e, meet_others};
+    struct coupling_state *c = e->coupling;
+    if (!marked && broken == 0 && !c->approaches && !may_convert(e->scene, &e->part, e->frame)) return 0;
+    frame_levels_guard(&e->frame->levels, &e->part);
+    const int64_t converted = convert(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
+                                      c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
+    if (converted > 0) interface_make(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
+    /* where bonds fade; convert() has updated the stress share of points for broken bonds */
+    if (c->uses_partial && e->scene->growths > 0 && (broken > 0 || converted > 0 || fades))
+        partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     conversion_follow(e, converted);
     return converted;
 }
 
-/* Marks material points with bonds, e->bonded [n], for FLIP. */
-static void bonded_make(struct run *e)
+/* Marks material points with bonds, c->bonded [n], for FLIP. */
+static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
-    const struct bonds *b = &e->bonds;
     if (b->rows == 0) { /* all have reverted: no point is beside bonds */
-        memory_free(e->coupling->bonded);
-        e->coupling->bonded = NULL;
+        memory_free(c->bonded);
+        c->bonded = NULL;
         return;
     }
-    if (e->scene->transfer != TRANSFER_FLIP || e->part.n_free == 0) return;
-    if (!e->coupling->bonded) e->coupling->bonded = NEW("engine.bonded", e->part.n, uint8_t);
+    if (!c->flip || p->n_free == 0) return;
+    if (!c->bonded) c->bonded = NEW("engine.bonded", p->n, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < e->part.n; i++) e->coupling->bonded[i] = e->part.kind[i] == KIND_MPM && bonds_has(b, i);
+    for (int64_t i = 0; i < p->n; i++) c->bonded[i] = p->kind[i] == KIND_MPM && bonds_has(b, i);
 }
 
-void interface_make(struct run *e)
+void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
+                    const struct bond_source *source)
 {
-    bonded_make(e);
-    if (e->part.n_free == 0) interface_zone_free(&e->coupling->zone);
-    if (e->coupling_kind == COUPLING_PARTIAL_STRESS && e->scene->transfer == TRANSFER_FLIP && e->part.n_free > 0)
-        interface_zone_make(&e->coupling->zone, &e->part, &e->source);
+    bonded_make(c, p, b);
+    if (p->n_free == 0) interface_zone_free(&c->zone);
+    if (!c->partial.gives_all && c->flip && p->n_free > 0) interface_zone_make(&c->zone, p, source);
 }
 
 void coupling_partial_make(struct run *e)
 {
+    struct coupling_state *c = e->coupling;
     e->coupling_kind = e->scene->method == METHOD_ADAPTIVE ? e->scene->coupling : COUPLING_HANDSHAKE;
-    e->coupling->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
-    e->coupling->uses_partial = !e->coupling->partial.gives_all || e->part.end_strain;
-    if (e->coupling->uses_partial) partial_stress_make(&e->coupling->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    interface_make(e);
+    c->flip = e->scene->transfer == TRANSFER_FLIP;
+    c->partial.gives_all = e->coupling_kind != COUPLING_PARTIAL_STRESS;
+    c->uses_partial = !c->partial.gives_all || e->part.end_strain;
+    if (c->uses_partial) partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
+    interface_make(c, &e->part, &e->bonds, &e->source);
 }
 
 status coupling_frame_make(struct run *e, bool still)

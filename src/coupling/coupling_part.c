@@ -19,14 +19,14 @@ static int reversions_most(const struct particles *p)
 }
 
 /* What stands for each of the first pre-cracks. */
-static void put_notches(struct json *j, const struct run *e)
+static void put_notches(struct json *j, const struct notches *n, real spacing)
 {
     enum { SAID = 16 };
     char text[256];
-    if (e->coupling->notches.n == 0) return;
+    if (n->n == 0) return;
     json_open(j, "notches", '[');
-    for (int k = 0; k < e->coupling->notches.n && k < SAID; k++) {
-        notch_text(e, k, text, sizeof text);
+    for (int k = 0; k < n->n && k < SAID; k++) {
+        notch_text(n, k, spacing, text, sizeof text);
         json_text(j, NULL, text);
     }
     json_close(j, ']');
@@ -44,7 +44,7 @@ static void put_conversion(const struct run *e, struct json *j)
     json_real(j, "pd_share_start", start);
     json_real(j, "pd_share_end", end);
     json_real(j, "pd_share_max", real_max((real)c->peak / n, real_max(start, end)));
-    put_notches(j, e);
+    put_notches(j, &e->coupling->notches, e->scene->spacing);
     if (e->part.low_since) {
         json_count(j, "converted", c->converted);
         json_count(j, "returned", c->reverted);
@@ -57,7 +57,7 @@ static void put_conversion(const struct run *e, struct json *j)
 /* Of the mesh points at ends of bonds follow, which is no state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
-    if (!a->saving) ends_update(e);
+    if (!a->saving) ends_update(&e->coupling->partial, e->frame, &e->part, e->scene->material);
     return conversion_archive(&e->coupling->conversion, a);
 }
 

@@ -42,13 +42,12 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
 }
 
 /* Contact between several bodies, by method. */
-static void warn_of_contact(const struct run *e, struct warnings *to)
+static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
+                            struct warnings *to)
 {
-    const struct scene *s = e->scene;
-    const struct reference_frame *reference = e->frame;
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_meet(s) || e->coupling->approaches) return;
+    if (!scene_bodies_meet(s) || approaches) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
@@ -71,17 +70,15 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are neighbours at the start and move together.
+/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are nearer than `reach` at the start and move
+ * together.
  * Returns the number of such pairs of bodies. */
-static int touching(const struct run *e, bool *touch)
+static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
-    const struct particles *p = &e->part;
-    const int bodies = e->scene->bodies;
-    const real reach = real_min(1.5 * e->scene->spacing, e->source.family.cutoff);
     struct near near = {0};
     int pairs = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        near_find(&near, &e->cells, p, i, reach, false);
+        near_find(&near, cells, p, i, reach, false);
         for (int k = 0; k < near.n; k++) {
             const int32_t j = near.at[k];
             if (j >= p->n || p->body[j] <= p->body[i] || !start_as_one(p, i, j)) continue;
@@ -101,7 +98,8 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
     char name[2 * NAME_MAX_LENGTH + 8];
     if (s->bodies < 2) return;
     bool *touch = NEW("warn.touch", s->bodies * s->bodies, bool);
-    struct name_list names = {.all = touching(e, touch)};
+    const real reach = real_min(1.5 * s->spacing, e->source.family.cutoff);
+    struct name_list names = {.all = touching(&e->part, &e->cells, s->bodies, reach, touch)};
     for (int k = 0; k < s->bodies * s->bodies; k++) {
         if (!touch[k]) continue;
         snprintf(name, sizeof name, "%s with %s", s->body[k / s->bodies].name, s->body[k % s->bodies].name);
@@ -118,7 +116,7 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
 
 void warn_of_bodies(const struct run *e, struct warnings *to)
 {
-    warn_of_contact(e, to);
+    warn_of_contact(e->scene, e->frame, e->coupling->approaches, to);
     warn_of_touch(e, to);
     voids_warn(e, to);
 }

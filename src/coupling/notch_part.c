@@ -20,11 +20,11 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
-static const char *obstacle_of(const struct run *e)
+static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
-    const char *why = scene_obstacle(e->scene);
-    if (!why && !frame_any(e)) why = "there are no material points in the reference frame";
-    if (!why && grid_mirror_between(e)) why = "a mirror lies between two nodes of the mesh";
+    const char *why = scene_obstacle(s);
+    if (!why && !frame_any(r)) why = "there are no material points in the reference frame";
+    if (!why && grid_mirror_between(g, s)) why = "a mirror lies between two nodes of the mesh";
     return why;
 }
 
@@ -40,25 +40,25 @@ static status notches_check(const struct scene *s, const struct notches *n)
 status notch_convert(struct run *e)
 {
     const struct scene *s = e->scene;
+    const struct grid *g = &e->grid->field[0].grid;
     struct notches *n = &e->coupling->notches;
     const real tips = s->conversion.tips * e->source.family.horizon;
     const real radius = tips > 0 ? real_max(tips, NOTCH_ZONE_LEAST * s->spacing) : NOTCH_ZONE * s->spacing;
-    notches_make(n, &e->part, &e->source, radius, obstacle_of(e));
+    notches_make(n, &e->part, &e->source, radius, obstacle_of(s, e->frame, g));
     TRY(notches_check(s, n));
     struct bond_source cut = e->source;
     cut.crack = n->cut, cut.cracks = n->cuts;
     convert_region(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
     notches_convert(n, &e->part, &e->source);
-    voids_convert(e);
+    voids_convert(&e->part, e->source.voids, mesh_uncut(g, s));
     convert_start(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void notch_text(const struct run *e, int crack, char *text, size_t room)
+void notch_text(const struct notches *n, int crack, real spacing, char *text, size_t room)
 {
-    const struct notches *n = &e->coupling->notches;
     if (n->notch[crack].slit)
-        snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / e->scene->spacing);
+        snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
     else
         snprintf(text, room, "cut bonds: %s", n->notch[crack].reason);
 }
@@ -69,7 +69,7 @@ bool notch_approach(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
-    frame_sync_points(e, n->face, n->faces);
+    frame_sync_listed(e->frame, &e->part, &e->loads, n->face, n->faces);
     notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;
 }

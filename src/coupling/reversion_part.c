@@ -35,7 +35,7 @@ status reversion_check(const struct scene *s)
 /* Energy of the body at the current positions [J]. */
 static real energy_now(struct run *e)
 {
-    if (e->source.modulus) run_stress(e);
+    if (e->source.modulus) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
@@ -48,10 +48,10 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     const real before = energy_now(e);
     reversion_apply(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
                     e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
-    frame_insert(e, list, n);
+    frame_insert(e->frame, &e->part, list, n, &e->damped);
     conversion_follow(e, n);
-    frame_sync_points(e, NULL, e->part.n);
-    interface_make(e);
+    frame_sync_motion(e->frame, &e->part, &e->loads);
+    interface_make(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
@@ -63,7 +63,7 @@ void revert(struct run *e)
     if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
         e->part.n_of[KIND_PD] == 0)
         return;
-    run_stress(e);
+    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     const int64_t n = reversion_choose(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,

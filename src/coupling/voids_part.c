@@ -8,14 +8,10 @@
 
 #define ALONG 0.999 /* least cosine between an axis and a way along it */
 
-/* Can voids not cut the mesh? A cut parts a line; where a mirror lies between nodes there are no extra ones. */
-static bool mesh_uncut(const struct run *e) { return e->part.dim == 1 || grid_mirror_between(e); }
+bool mesh_uncut(const struct grid *g, const struct scene *s) { return s->dim == 1 || grid_mirror_between(g, s); }
 
-void voids_convert(struct run *e)
+void voids_convert(struct particles *p, const struct voids *v, bool uncut)
 {
-    struct particles *p = &e->part;
-    const struct voids *v = e->source.voids;
-    const bool uncut = mesh_uncut(e);
     for (int64_t i = 0; i < p->n && v; i++)
         if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
@@ -40,13 +36,11 @@ static void closed_add(struct closed *to, int64_t i)
 }
 
 /* Of bodies whose surface is known: material points on a grid that no void cuts. */
-static struct closed closed_on_grid(const struct run *e)
+static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
-    const struct particles *p = &e->part;
-    const bool uncut = mesh_uncut(e);
     struct closed found = {0};
-    for (int64_t i = 0; i < p->n && e->source.voids; i++)
-        if (e->source.voids->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
+    for (int64_t i = 0; i < p->n && v; i++)
+        if (v->near[i] & VOID_ACROSS && p->kind[i] == KIND_MPM && (uncut || !(p->flag[i] & FLAG_MESHED)))
             closed_add(&found, i);
     return found;
 }
@@ -67,18 +61,18 @@ static void next_along(const struct particles *p, int64_t i, const struct near *
 }
 
 /* Of body b, whose surface is not known: particles of a lattice between which sites are empty, nearer than `reach`. */
-static struct closed closed_in_lattice(const struct run *e, int b, real reach)
+static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
+                                       int b, real reach)
 {
-    const struct particles *p = &e->part;
-    const real spacing = e->scene->spacing;
+    const real spacing = s->spacing;
     struct closed found = {0};
     struct near near = {0};
     int64_t all = 0, regular = 0;
     for (int64_t i = 0; i < p->n; i++) {
         real next[2 * DIM_MAX];
         int beside = 0, across = 0;
-        if (e->scene->body[p->body[i]].joined != b) continue;
-        near_find(&near, &e->cells, p, i, reach, false);
+        if (s->body[p->body[i]].joined != b) continue;
+        near_find(&near, cells, p, i, reach, false);
         next_along(p, i, &near, next);
         for (int d = 0; d < p->dim; d++) beside += real_min(next[2 * d], next[2 * d + 1]) < 1.01 * spacing;
         for (int a = 0; a < 2 * p->dim; a++) across += next[a] > 1.5 * spacing && next[a] <= reach;
@@ -92,7 +86,8 @@ static struct closed closed_in_lattice(const struct run *e, int b, real reach)
 void voids_warn(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    const struct closed grid = closed_on_grid(e);
+    const bool uncut = mesh_uncut(&e->grid->field[0].grid, s);
+    const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
     char place[96];
     if (grid.n > 0)
         warnings_add(to,
@@ -100,10 +95,10 @@ void voids_warn(const struct run *e, struct warnings *to)
                      "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
                      "particles.spacing does, too",
                      s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
-                     (long long)grid.n, mesh_uncut(e) ? "" : "mpm.frame reference, ");
+                     (long long)grid.n, uncut ? "" : "mpm.frame reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || surface_known(s, b)) continue;
-        const struct closed gap = closed_in_lattice(e, b, voids_reach(e));
+        const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, voids_reach(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,
                      "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "

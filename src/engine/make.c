@@ -146,14 +146,18 @@ static status make_bonds(struct run *e, struct predecessor *before)
     const struct scene *s = e->scene;
     make_mirrors(e->scene, &e->loads, &e->tables, &e->source);
     e->source.image = e->loads.image;
-    run_voids_make(e);
+    if (run_voids_list(&e->tables, s, &e->loads)) {
+        voids_find(&e->tables.voids, &e->part, &e->cells, e->loads.image, voids_reach(s, e->source.family.cutoff));
+        e->source.voids = &e->tables.voids;
+    }
     e->source.room = bonds_room(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
         bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
         e->source.neighbour_volume = e->tables.neighbour_volume;
     }
-    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s)) TRY(run_surface_make(e));
+    if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
+        TRY(run_surface_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
     if (s->method == METHOD_ADAPTIVE) TRY(notch_convert(e));
     if (before) engine_take_particles(e, before); /* slits are those of the start, whatever has converted since */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
@@ -322,10 +326,10 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(named(s, frame_hollow_plan(e)));
+    TRY(named(s, frame_hollow_plan(&e->frame->hollow, s, &e->source)));
     if (!e->frame->hollow.absent) TRY(named(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
-    strength_found(e);
+    strength_found(e->tables.elastic, &e->part);
     return named(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
@@ -335,9 +339,10 @@ static status make_probes(struct run *e)
     const struct scene *s = e->scene;
     e->probing->strain_stress = largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    cracks_notches(e);
+    if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);
     TRY(named(s, led_check(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
+    e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
     if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
     diagnostics_make(e->diagnostics);
@@ -350,7 +355,7 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(named(s, frames_choose(e)));
+    TRY(named(s, frames_choose(e->frame, e->grid, &e->part, s)));
     if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_at_rest(s))
         loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
@@ -358,19 +363,23 @@ static status make_forces(struct run *e, struct predecessor *before)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
                             e->source.family.cutoff, e->optional)));
-    absorbing_make_all(e);
+    e->tables.impedance = absorbing_impedances(s, &e->source);
+    const struct impedance *z = e->tables.impedance;
+    if (z)
+        loads_absorbing_make(&e->loads, &e->part,
+                             (const struct impedance *const[MOVERS]){z, z + s->materials, z + 2 * s->materials});
     cells_make(&e->cells, &e->part, e->source.family.cutoff * (1 + 1e-9));
     e->source.cells = &e->cells;
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
     TRY(rigids_check(e->rigid, s, &e->part));
-    TRY(named(s, joined_check(e)));
+    TRY(named(s, joined_check(s, &e->part, &e->cells, e->source.family.cutoff)));
     TRY(named(s, statics_check(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
     coupling_partial_make(e);
     TRY(named(s, coupling_frame_make(e, before != NULL)));
-    TRY(driving_check(e, before == NULL));
-    ends_update(e);
+    TRY(driving_check(&e->loads, &e->part, s, before == NULL));
+    ends_update(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_make(e->stability, &e->part);
     return make_time(e, before);
 }
@@ -405,7 +414,7 @@ status engine_make_again(struct run *e, const struct scene *s, struct output *ou
                                                NULL,
                                                false,
                                                {NULL}};
-    grid_turning_make(e);
+    grid_turning_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
     return make_probes(e);
 }
 

@@ -47,9 +47,9 @@ static void nodes_take(struct run *e, struct run *old)
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
     levels_follow_fine(&r->levels, &e->part, &r->source);
-    frame_levels_found(e);
-    frame_sync_points(e, NULL, 0);
-    ends_update(e);
+    frame_levels_found(r, &e->part, &e->bonds, &e->loads);
+    frame_sync_motion(r, &e->part, &e->loads);
+    ends_update(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
 /* Moves what is not described by the functions of state: the motion of nodes, files, timers and warnings. */
@@ -98,7 +98,7 @@ status engine_refill(struct run *e, const uint8_t *level)
         TRY(output_wait(e->report->out));
         output_particles_changed(e->report->out);
     }
-    frame_hollow_change(e, level);
+    frame_hollow_change(e->frame, level);
     TRY(run_replace(e));
     if (e->report->out) contact_record(e->contact, &e->part);
     return OK;

@@ -20,12 +20,12 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
 /* Levels of cells follow cracks and stress; where finer cells lack particles, the run is made again with them. */
 static status refine(struct run *e)
 {
-    if (!frame_levels_due(e)) return OK;
+    if (!frame_levels_due(&e->frame->levels, e->clock.step)) return OK;
     const struct observed seen = run_observed(e);
     rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = frame_levels_plan(e);
+    uint8_t *level = frame_levels_plan(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
-    const status s = frame_hollow_lacks(e, level) ? engine_refill(e, level) : OK;
+    const status s = frame_hollow_lacks(&e->frame->mesh, level) ? engine_refill(e, level) : OK;
     if (s == OK) frame_levels_apply(e, level);
     memory_free(level);
     return s;

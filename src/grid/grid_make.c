@@ -58,48 +58,46 @@ static real shape_reach(const struct scene *s)
 }
 
 /* The lower corner of the body is that of the first shape, or of the particles of a list. */
-void grid_part_make(struct run *e, bool meshed)
+void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
 {
-    const struct scene *s = e->scene;
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    if (!e->grid->field) make_fields(e->scene, e->grid);
-    struct grid *g = &e->grid->field[0].grid;
+    if (!mpm->field) make_fields(s, mpm);
+    struct grid *g = &mpm->field[0].grid;
     g->dim = s->dim;
     g->h = s->cell * s->spacing;
     bool bounded = s->body[0].shape.n > 0 && region_bounds(&s->body[0].shape, s->dim, from, to);
     for (int d = 0; d < s->dim; d++) {
         if (!bounded) {
-            particles_extent(&e->part, e->part.n, d, &from[d], &to[d]);
+            particles_extent(p, p->n, d, &from[d], &to[d]);
             from[d] -= 0.5 * s->spacing;
         }
-        site[d] = e->part.X[d][0];
+        site[d] = p->X[d][0];
     }
     grid_anchor(s, from, site, meshed, g->anchor);
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
     const real full = lightest * pow(g->h, s->dim) * section;
-    e->grid->smallest_mass = GRID_MASS_SMALLEST * full;
+    mpm->smallest_mass = GRID_MASS_SMALLEST * full;
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
-    for (int k = 0; k < e->grid->fields && e->grid->fields > 1; k++) {
-        e->grid->field[k].grid = *g;
-        e->grid->field[k].grid.body = 1 + body_apart(s, k);
+    for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
+        mpm->field[k].grid = *g;
+        mpm->field[k].grid.body = 1 + body_apart(s, k);
     }
-    grid_contact_free(&e->grid->contact);
-    e->grid->contact = (struct grid_contact){.friction = s->contact_friction,
-                                             .spacing = s->spacing,
-                                             .half_width = shape_reach(s),
-                                             .smallest_mass = e->grid->smallest_mass,
-                                             .began = NAN,
-                                             .ended = NAN};
-    grid_contact_make(&e->grid->contact, e->grid->fields);
-    e->grid->sort_needed = true;
+    grid_contact_free(&mpm->contact);
+    mpm->contact = (struct grid_contact){.friction = s->contact_friction,
+                                         .spacing = s->spacing,
+                                         .half_width = shape_reach(s),
+                                         .smallest_mass = mpm->smallest_mass,
+                                         .began = NAN,
+                                         .ended = NAN};
+    grid_contact_make(&mpm->contact, mpm->fields);
+    mpm->spacing = s->spacing;
+    mpm->sort_needed = true;
 }
 
-bool grid_mirror_between(const struct run *e)
+bool grid_mirror_between(const struct grid *g, const struct scene *s)
 {
-    const struct scene *s = e->scene;
-    const struct grid *g = &e->grid->field[0].grid;
     for (int b = 0; b < s->boundaries; b++) {
         const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;
         if (s->boundary[b].kind == BOUNDARY_MIRROR && fabs(nodes - nearbyint(nodes)) > 1e-6) return true;

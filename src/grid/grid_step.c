@@ -29,18 +29,17 @@ static void field_list(struct grid_field *f, const struct particles *p)
 }
 
 /* Extends a grid over its particles and sorts the material points by cells; *lost: their places are not finite. */
-static status field_sort(struct run *e, struct grid_field *f, bool *lost)
+static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
-    const struct particles *p = &e->part;
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
     bool changed;
-    if (e->grid->fields > 1) field_list(f, p);
+    if (f->grid.body > 0) field_list(f, p);
     const int32_t *list = f->list ? f->list : p->list_free;
     const int64_t n = f->list ? f->n : p->n_free;
     for (int k = 0; k < KINDS; k++)
         if (k == KIND_MPM)
             bounds_widen(p, list, n, from, to);
-        else if (coupling_unified(e->coupling_kind))
+        else if (coupling_unified(coupling))
             bounds_widen(p, p->list[k], p->n_of[k], from, to);
     for (int d = 0; d < p->dim && (n > 0 || !f->list); d++)
         if (!isfinite(to[d] - from[d])) {
@@ -54,12 +53,12 @@ static status field_sort(struct run *e, struct grid_field *f, bool *lost)
 }
 
 /* Does nothing while no particle has left its cell. */
-static status points_sort(struct run *e, bool *lost)
+static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
-    if (!e->grid->sort_needed) return OK;
-    for (int k = 0; k < e->grid->fields; k++) TRY(field_sort(e, &e->grid->field[k], lost));
-    e->grid->transfer.order = &e->grid->field[0].order;
-    e->grid->sort_needed = false;
+    if (!mpm->sort_needed) return OK;
+    for (int k = 0; k < mpm->fields; k++) TRY(field_sort(&mpm->field[k], p, coupling, lost));
+    mpm->transfer.order = &mpm->field[0].order;
+    mpm->sort_needed = false;
     return OK;
 }
 
@@ -83,7 +82,7 @@ status grid_sort(struct run *e, bool *lost)
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
-    TRY(points_sort(e, lost));
+    TRY(points_sort(e->grid, &e->part, e->coupling_kind, lost));
     if (coupling_moves_by_grid(e->coupling_kind))
         grid_coupled_select(&e->grid->coupled, e->coupling_kind, &e->part, &e->grid->field[0].grid);
     return OK;
@@ -109,16 +108,16 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
 /* Maps mass, momentum and force of all particles on the grids to their nodes. */
-static void grid_take(struct run *e)
+static void grid_take(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
-    const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
-    if (e->grid->turning.groups > 0) turning_begin(&e->grid->turning, &e->part, e->scene->spacing);
-    for (int k = 0; k < e->grid->fields; k++) {
-        const struct transfer_data own = field_data(e->grid, k);
-        grid_clear(&e->grid->field[k].grid);
-        e->kernels.p2g(&e->grid->field[k].grid, &e->part, &own);
+    const struct transfer_data grid_coupled = grid_coupled_data(mpm);
+    if (mpm->turning.groups > 0) turning_begin(&mpm->turning, p, mpm->spacing);
+    for (int k = 0; k < mpm->fields; k++) {
+        const struct transfer_data own = field_data(mpm, k);
+        grid_clear(&mpm->field[k].grid);
+        kernels->p2g(&mpm->field[k].grid, p, &own);
     }
-    if (e->part.n_grid_coupled > 0) e->kernels.p2g(&e->grid->field[0].grid, &e->part, &grid_coupled);
+    if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
 /* Where bodies on grids of their own may meet in this step; [fields] sides, NULL of a single grid. */
@@ -170,14 +169,14 @@ static void grids_remap(struct run *e, const struct grid_side *side)
     lap(&e->laps, LAP_GRID);
 }
 
-void grid_map(struct run *e)
+void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct laps *laps)
 {
-    if (!grid_holds(&e->part)) {
-        for (int k = 0; k < e->grid->fields; k++) grid_idle(&e->grid->field[k].grid);
+    if (!grid_holds(p)) {
+        for (int k = 0; k < mpm->fields; k++) grid_idle(&mpm->field[k].grid);
         return;
     }
-    grid_take(e);
-    lap(&e->laps, LAP_SCATTER);
+    grid_take(mpm, p, kernels);
+    lap(laps, LAP_SCATTER);
 }
 
 void grid_step(struct run *e, real middle)
@@ -206,7 +205,7 @@ real grid_power(struct run *e, real middle)
     real power = 0;
     bool lost;
     if (!grid_holds(&e->part) || grid_sort(e, &lost) != OK || lost) return 0;
-    grid_take(e);
+    grid_take(e->grid, &e->part, &e->kernels);
     real **momentum = NEW("engine.momenta", e->grid->fields, real *);
     for (int k = 0; k < e->grid->fields; k++) {
         const struct grid *g = &e->grid->field[k].grid;

@@ -9,13 +9,14 @@ static int first_of(const struct grid_method *grid, const struct scene *scene, i
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Marks the bodies whose particles a support holds; one that turns them keeps no body from turning. */
-static void mark_held(const struct run *e, bool *held)
+/* Marks the bodies (by the first that they are `one` with) whose particles a support holds; one that turns them keeps
+ * no body from turning. */
+static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
-    for (int b = 0; b < e->loads.n; b++) {
-        const struct load *l = &e->loads.load[b];
+    for (int b = 0; b < loads->n; b++) {
+        const struct load *l = &loads->load[b];
         if (l->boundary->kind != BOUNDARY_VELOCITY || l->boundary->rotates) continue;
-        for (int64_t k = 0; k < l->n; k++) held[first_of(e->grid, e->scene, e->part.body[l->particle[k]])] = true;
+        for (int64_t k = 0; k < l->n; k++) held[one[p->body[l->particle[k]]]] = true;
     }
 }
 
@@ -32,21 +33,22 @@ static void turning_middle(const struct particles *part, const struct scene *sce
         if (scene->boundary[b].kind == BOUNDARY_MIRROR) middle[scene->boundary[b].axis] = scene->boundary[b].at;
 }
 
-void grid_turning_make(struct run *e)
+void grid_turning_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
+                       const struct scene *s, enum coupling coupling)
 {
-    const struct scene *s = e->scene;
-    if (e->part.dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || s->method == METHOD_PD ||
-        coupling_moves_by_grid(e->coupling_kind) || coupling_unified(e->coupling_kind))
+    if (p->dim < 2 || s->transfer != TRANSFER_FLIP || !scene_moves(s) || s->method == METHOD_PD ||
+        coupling_moves_by_grid(coupling) || coupling_unified(coupling))
         return;
     bool *held = NEW("engine.held", s->bodies, bool), all = true;
     int *one = NEW("engine.one", s->bodies, int);
     real middle[DIM_MAX];
-    mark_held(e, held);
-    turning_middle(&e->part, e->scene, middle);
-    for (int b = 0; b < s->bodies; b++) one[b] = first_of(e->grid, e->scene, b), all &= held[one[b]];
-    if (!all) turning_make(&e->grid->turning, &e->part, s->spacing, middle, one, held);
-    for (int c = 0; c < 3; c++) e->grid->transfer.turn[c] = e->grid->turning.turn[c];
+    for (int b = 0; b < s->bodies; b++) one[b] = first_of(mpm, s, b);
+    mark_held(loads, p, one, held);
+    turning_middle(p, s, middle);
+    for (int b = 0; b < s->bodies; b++) all &= held[one[b]];
+    if (!all) turning_make(&mpm->turning, p, s->spacing, middle, one, held);
+    for (int c = 0; c < 3; c++) mpm->transfer.turn[c] = mpm->turning.turn[c];
     /* with it hand-shake gains 1e-7 of its energy a step */
-    e->grid->transfer.second_map = e->grid->turning.groups > 0 && e->coupling_kind != COUPLING_HANDSHAKE;
+    mpm->transfer.second_map = mpm->turning.groups > 0 && coupling != COUPLING_HANDSHAKE;
     memory_free(held), memory_free(one);
 }

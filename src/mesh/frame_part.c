@@ -31,130 +31,127 @@ static void frames_mark(struct particles *part, struct reference_frame *frame)
         if (frame->choice[part->body[i]].reference) part->flag[i] |= FLAG_MESHED;
 }
 
-status frames_choose(struct run *e)
+status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s)
 {
-    const struct scene *s = e->scene;
-    e->frame->choice = NEW("engine.frame", s->bodies, struct frame_choice);
+    r->bodies = s->bodies;
+    r->spacing = s->spacing;
+    r->finite = !s->small_strain;
+    r->converts = s->method == METHOD_ADAPTIVE;
+    r->active_set = s->active_set;
+    r->room_limits = s->levels == LEVELS_AUTO;
+    r->choice = NEW("engine.frame", s->bodies, struct frame_choice);
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++) {
         const enum grid_frame said = s->body[b].frame;
         const char *why = scene_frame_unsupported(s, b);
         if (why && said == FRAME_REFERENCE)
             return status_set(REFUSED, "mpm.frame: body %s cannot be in the reference frame: %s", s->body[b].name, why);
-        take_frame(&e->frame->choice[b], said != FRAME_CURRENT,
+        take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
-    grid_part_make(e, frame_any(e));
+    grid_part_make(mpm, s, p, frame_any(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
-        const char *why = doubt(&e->part, e->grid, &e->frame->hollow);
-        take_frame(&e->frame->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
-        if (why) grid_part_make(e, frame_any(e));
+        const char *why = doubt(p, mpm, &r->hollow);
+        take_frame(&r->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
+        if (why) grid_part_make(mpm, s, p, frame_any(r));
     }
-    frames_mark(&e->part, e->frame);
+    frames_mark(p, r);
     return OK;
 }
 
-bool frame_allowed(const struct run *e, int body)
+bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm)
 {
-    return !scene_frame_not_default(e->scene, body) &&
-           mesh_pieces(&e->part, &e->grid->field[0].grid, &e->frame->hollow) == 1;
+    return mesh_pieces(p, &mpm->field[0].grid, &r->hollow) == 1;
 }
 
-bool frame_any(const struct run *e)
+bool frame_any(const struct reference_frame *r)
 {
-    for (int b = 0; b < e->scene->bodies; b++)
-        if (e->frame->choice[b].reference) return true;
+    for (int b = 0; b < r->bodies; b++)
+        if (r->choice[b].reference) return true;
     return false;
 }
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-static void lattice_constants(const struct particles *p, const struct bond_source *source, const struct material *m,
-                              struct elastic *to)
+/* Elastic constants of the cells [materials]: of the material, or of its bonds on the lattice (mpm.constants). */
+static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
-    real c12;
-    family_constants(&source->family, m, &to->c11, &c12);
-    if (p->dim > 1) to->c12 = to->shear = c12;
-}
-
-/* Elastic constants of the cells: of the material, or of its bonds on the lattice (mpm.constants). */
-static void make_constants(struct run *e, const struct mesh_source *cuts)
-{
-    const struct scene *s = e->scene;
-    e->frame->elastic = NEW("engine.cell_elastic", s->materials, struct elastic);
+    struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
-        e->frame->elastic[m] = e->tables.elastic[m];
-        if (s->lattice_constants) lattice_constants(&e->part, &e->source, &s->material[m], &e->frame->elastic[m]);
+        real c12;
+        cell[m] = own[m];
+        if (!s->lattice_constants) continue;
+        family_constants(family, &s->material[m], &cell[m].c11, &c12);
+        if (s->dim > 1) cell[m].c12 = cell[m].shear = c12;
     }
-    e->frame->source = (struct mesh_source){.elastic = e->frame->elastic,
-                                            .isotropic = e->tables.elastic,
-                                            .materials = s->materials,
-                                            .partial = cuts->partial,
-                                            .hollow = &e->frame->hollow,
-                                            .slit = cuts->slit,
-                                            .slits = cuts->slits,
-                                            .voids = grid_mirror_between(e) ? NULL : e->source.voids,
-                                            .mirror = e->source.mirror,
-                                            .mirrors = e->source.mirrors};
+    return cell;
 }
 
-void frame_follow_points(struct run *e)
+void frame_follow_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                         struct loads *loads)
 {
-    mesh_find_exposed(&e->frame->mesh, &e->part, &e->bonds, &e->loads);
-    loads_mesh_find(&e->loads, &e->frame->mesh, &e->part);
+    mesh_find_exposed(&r->mesh, p, bonds, loads);
+    loads_mesh_find(loads, &r->mesh, p);
 }
 
 status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
 {
-    make_constants(e, cuts);
-    e->frame->source.still = still;
-    TRY(mesh_make(&e->frame->mesh, &e->part, &e->grid->field[0].grid, &e->frame->source));
+    struct reference_frame *r = e->frame;
+    const struct grid *g = &e->grid->field[0].grid;
+    r->elastic = cell_constants(e->scene, e->tables.elastic, &e->source.family);
+    r->source = (struct mesh_source){.elastic = r->elastic,
+                                     .isotropic = e->tables.elastic,
+                                     .materials = e->scene->materials,
+                                     .partial = cuts->partial,
+                                     .hollow = &r->hollow,
+                                     .slit = cuts->slit,
+                                     .slits = cuts->slits,
+                                     .voids = grid_mirror_between(g, e->scene) ? NULL : e->source.voids,
+                                     .mirror = e->source.mirror,
+                                     .mirrors = e->source.mirrors,
+                                     .still = still};
+    TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
-    frame_levels_room(e);
-    frame_follow_points(e);
+    frame_levels_room(r, e->scene, e->part.n_body);
+    frame_follow_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
 /* Conversion may leave any number of points in a cell. With partial stress no such cell has a smaller critical step
  * than the cells of the start; with hand-shake a cell with a single point has. */
-real frame_critical_step(const struct run *e)
+real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
-    const struct scene *s = e->scene;
     real density[UINT8_MAX], step = INFINITY;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    if (e->frame->mesh.points > 0)
-        step = mesh_critical_step(&e->frame->mesh, &e->frame->source, density,
-                                  s->method == METHOD_ADAPTIVE && e->coupling_kind != COUPLING_PARTIAL_STRESS);
+    if (r->mesh.points > 0)
+        step = mesh_critical_step(&r->mesh, &r->source, density, r->converts && coupling != COUPLING_PARTIAL_STRESS);
     return step;
 }
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-void frame_exposed_follow(struct run *e)
+void frame_exposed_follow(struct reference_frame *r, struct particles *p)
 {
-    mesh_exposed_move(&e->frame->mesh, &e->part);
-    mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
+    mesh_exposed_move(&r->mesh, p);
+    mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-void frame_force(struct run *e)
+void frame_force(struct reference_frame *r, struct particles *p, int64_t step)
 {
-    const bool finite = !e->scene->small_strain;
-    struct mesh_levels *levels = &e->frame->levels;
-    mesh_clear(&e->frame->mesh);
-    mesh_exposed_force(&e->frame->mesh, &e->part);
-    mesh_force(&e->frame->mesh, &e->part, e->frame->elastic, finite);
-    levels_force(levels, &e->part, e->frame->coarse, finite, levels_due(levels, e->clock.step));
+    mesh_clear(&r->mesh);
+    mesh_exposed_force(&r->mesh, p);
+    mesh_force(&r->mesh, p, r->elastic, r->finite);
+    levels_force(&r->levels, p, r->coarse, r->finite, levels_due(&r->levels, step));
 }
 
 /* Walls of the mesh and of the coarse cells that move in this step, these by longer ones. */
-static void nodes_walls(struct run *e, real middle, int due)
+static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
-    struct mesh_levels *levels = &e->frame->levels;
-    loads_mesh_walls(&e->loads, &e->frame->mesh, middle, e->clock.dt);
-    for (int level = 1; level <= due; level++) {
-        const real dt = (real)(1 << level) * e->clock.dt;
-        loads_level_walls(&e->loads, &levels->at[level].held, &levels->at[level].mesh.grid,
-                          middle + 0.5 * (dt - e->clock.dt), dt);
+    loads_mesh_walls(loads, &r->mesh, middle, dt);
+    for (int k = 1; k <= due; k++) {
+        struct mesh_level *level = &r->levels.at[k];
+        const real longer = (real)(1 << k) * dt;
+        loads_level_walls(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
     }
 }
 
@@ -165,68 +162,65 @@ static void nodes_react(struct loads *loads, struct reference_frame *frame, real
         loads_react(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void frame_move(struct run *e, real middle, real dt_velocity)
+void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
+                real middle, real dt_velocity)
 {
-    struct mesh *mesh = &e->frame->mesh;
-    struct mesh_levels *levels = &e->frame->levels;
-    const bool finite = !e->scene->small_strain;
-    const int due = levels_due(levels, e->clock.step);
-    if (mesh->points == 0) return;
-    if (e->scene->method == METHOD_ADAPTIVE) mesh_points_mark(mesh, &e->part, e->frame->elastic, finite);
-    nodes_walls(e, middle, due);
-    e->frame->speed =
-        levels->n > 0 ? levels_move(levels, e->clock.dt, dt_velocity, due, e->loads.impulse, &e->loads.constraint_work)
-                      : mesh_move(mesh, e->clock.dt, dt_velocity, e->loads.impulse, &e->loads.constraint_work);
-    nodes_react(&e->loads, e->frame, dt_velocity, due);
-    frame_exposed_follow(e);
-    if (e->scene->active_set && levels->n == 0) active_nodes_update(mesh, &e->loads);
+    const int due = levels_due(&r->levels, clock->step);
+    if (r->mesh.points == 0) return;
+    if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
+    nodes_walls(r, loads, middle, clock->dt, due);
+    r->speed = r->levels.n > 0
+                   ? levels_move(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
+                   : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
+    nodes_react(loads, r, dt_velocity, due);
+    frame_exposed_follow(r, p);
+    if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
 }
 
-void frame_sync(struct run *e)
+void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
-    if (e->frame->mesh.points == 0) return;
-    levels_prolong_points(&e->frame->levels);
-    mesh_points_move(&e->frame->mesh, &e->part);
-    mesh_points_stress(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
-    loads_mirror(&e->loads, &e->part);
+    if (r->mesh.points == 0) return;
+    levels_prolong_points(&r->levels);
+    mesh_points_move(&r->mesh, p);
+    mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
+    loads_mirror(loads, p);
 }
 
-void frame_sync_points(void *engine, const int32_t *list, int64_t n)
+void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
-    struct run *e = engine;
-    if (e->frame->mesh.points == 0) return;
-    if (list)
-        mesh_listed_move(&e->frame->mesh, &e->part, list, n);
-    else
-        levels_prolong_points(&e->frame->levels), mesh_points_move(&e->frame->mesh, &e->part);
-    loads_mirror(&e->loads, &e->part);
+    if (r->mesh.points == 0) return;
+    levels_prolong_points(&r->levels);
+    mesh_points_move(&r->mesh, p);
+    loads_mirror(loads, p);
 }
 
-/* Where no particle converts and only bonds break, the same cells stay partial: their stiffness is made anew in
- * place. */
-static bool refresh(struct particles *p, struct reference_frame *reference, int64_t converted, const int32_t *touched,
-                    int64_t touches)
+void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
+                       int64_t n)
 {
-    return converted == 0 && mesh_refresh(&reference->mesh, p, &reference->source, touched, touches);
+    if (r->mesh.points == 0) return;
+    mesh_listed_move(&r->mesh, p, list, n);
+    loads_mirror(loads, p);
 }
 
-bool frame_follow(struct run *e, int64_t converted, const int32_t *touched, int64_t touches)
+bool frame_follow(struct reference_frame *r, struct particles *p, int64_t converted,
+                  const struct partial_stress *partial, real *damped)
 {
-    if (e->frame->mesh.points == 0 || refresh(&e->part, e->frame, converted, touched, touches)) return false;
-    e->damped += mesh_follow(&e->frame->mesh, &e->part, &e->frame->source, touched, touches);
-    frame_follow_points(e);
+    if (r->mesh.points == 0) return false;
+    /* where no particle converts and only bonds break, the same cells stay partial: stiffness is made anew in place */
+    if (converted == 0 && mesh_refresh(&r->mesh, p, &r->source, partial->touched, partial->touches)) return false;
+    *damped += mesh_follow(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void frame_insert(struct run *e, const int32_t *list, int64_t n)
+void frame_insert(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped)
 {
     int32_t *own = NEW("engine.own", n, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
-        if (e->frame->mesh.place && e->frame->choice[e->part.body[list[k]]].reference) own[m++] = list[k];
+        if (r->mesh.place && r->choice[p->body[list[k]]].reference) own[m++] = list[k];
     if (m > 0) {
-        e->damped += mesh_insert(&e->frame->mesh, &e->part, own, m);
-        active_nodes_all(&e->frame->mesh);
+        *damped += mesh_insert(&r->mesh, p, own, m);
+        active_nodes_all(&r->mesh);
     }
     memory_free(own);
 }

@@ -136,19 +136,18 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-status frame_hollow_plan(struct run *e)
+status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source)
 {
-    struct hollow *h = &e->frame->hollow;
     int64_t absent = 0;
-    if (h->whole || frame_hollow_obstacle(e->scene)) return OK;
-    TRY(box_find(&h->box, e->scene));
-    const int64_t least = e->scene->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
+    if (h->whole || frame_hollow_obstacle(s)) return OK;
+    TRY(box_find(&h->box, s));
+    const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
-    fill_whole(h, e->scene, 0);
+    fill_whole(h, s, 0);
     h->absent = NEW("hollow.absent", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < h->box.n; I++) {
-        h->absent[I] = h->whole[I] && !cell_needed(e->scene, &e->source, h, I);
+        h->absent[I] = h->whole[I] && !cell_needed(s, source, h, I);
         absent += h->absent[I];
     }
     array_copy(h->whole, h->absent, h->box.n, 1); /* loads, faces of pre-cracks and probes stay where they are */
@@ -160,9 +159,8 @@ status frame_hollow_plan(struct run *e)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-bool frame_hollow_lacks(const struct run *e, const uint8_t *level)
+bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level)
 {
-    const struct mesh *mesh = &e->frame->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
         if (mesh->absent[I] && level[I] == 0) return true;
     return false;
@@ -191,9 +189,8 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-bool frame_hollow_start(struct run *e, const uint8_t *level)
+bool frame_hollow_start(struct reference_frame *r, const uint8_t *level)
 {
-    struct reference_frame *r = e->frame;
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false; /* the checkpoint has the levels, too */
     if (!level) {                         /* no coarse cells */
@@ -201,7 +198,7 @@ bool frame_hollow_start(struct run *e, const uint8_t *level)
         r->hollow.absent = NULL, r->lacks = true;
         return false;
     }
-    r->lacks = frame_hollow_lacks(e, level);
+    r->lacks = frame_hollow_lacks(&r->mesh, level);
     if (!r->lacks) return true;
     uint8_t *absent = absent_with(r, level, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
@@ -209,10 +206,9 @@ bool frame_hollow_start(struct run *e, const uint8_t *level)
     return false;
 }
 
-void frame_hollow_change(struct run *e, const uint8_t *level)
+void frame_hollow_change(struct reference_frame *r, const uint8_t *level)
 {
-    struct hollow *h = &e->frame->hollow;
-    uint8_t *absent = absent_with(e->frame, level, AHEAD);
-    memory_free(h->absent);
-    h->absent = absent;
+    uint8_t *absent = absent_with(r, level, AHEAD);
+    memory_free(r->hollow.absent);
+    r->hollow.absent = absent;
 }

@@ -5,7 +5,7 @@
 #include "mesh/mesh_part.h"
 
 /* Places, volumes and marks of the points of a cell from number `first` on; `point` [2^dim] their numbers. */
-static void cell_points(struct particles *p, const struct mesh *mesh, const struct scene *s, int64_t cell,
+static void cell_points(struct particles *p, const struct mesh *mesh, const struct material *m, int64_t cell,
                         int64_t first, int32_t *point)
 {
     const struct grid *g = &mesh->grid;
@@ -15,58 +15,60 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
         for (int d = 0; d < g->dim; d++) p->X[d][i] = grid_quarter(g, cell, c, d);
         p->volume0[i] = p->volume[i] = mesh->volume;
         p->material[i] = mesh->material[cell];
-        p->mass[i] = s->material[p->material[i]].density * mesh->volume;
+        p->mass[i] = m[p->material[i]].density * mesh->volume;
         p->id[i] = (int32_t)i;
     }
 }
 
 /* Points of the listed cells of a level, from number `first` on, with the motion of its nodes. */
-static void level_points(struct run *e, int level, const int64_t *cell, int64_t cells, int64_t first)
+static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
+                         const int64_t *cell, int64_t cells, int64_t first)
 {
-    struct particles *p = &e->frame->shown.part;
-    struct mesh mesh = e->frame->levels.at[level].mesh;
+    struct particles *p = &r->shown.part;
+    struct mesh mesh = r->levels.at[level].mesh;
     const int dim = p->dim;
     mesh.point = BARE("report.point", mesh.grid.n << dim, int32_t);
     for (int64_t k = 0; k < mesh.grid.n << dim; k++) mesh.point[k] = -1;
     for (int64_t k = 0; k < cells; k++)
-        cell_points(p, &mesh, e->scene, cell[k], first + (k << dim), mesh.point + (cell[k] << dim));
+        cell_points(p, &mesh, m, cell[k], first + (k << dim), mesh.point + (cell[k] << dim));
     mesh_points_move(&mesh, p);
-    mesh_points_stress(&mesh, p, e->frame->elastic, !e->scene->small_strain);
-    if (e->frame->shown.gradient[0]) mesh_points_gradient(&mesh, e->frame->shown.gradient);
+    mesh_points_stress(&mesh, p, r->elastic, r->finite);
+    if (r->shown.gradient[0]) mesh_points_gradient(&mesh, r->shown.gradient);
     for (int64_t i = first; i < first + (cells << dim); i++) {
-        e->frame->shown.spacing[i] = 0.5 * mesh.grid.h;
-        p->id[i] += (int32_t)e->part.n_body;
+        r->shown.spacing[i] = 0.5 * mesh.grid.h;
+        p->id[i] += (int32_t)body->n_body;
     }
     memory_free(mesh.point);
 }
 
-void frame_hollow_points_free(struct run *e)
+void frame_hollow_points_free(struct hollow_points *h)
 {
-    particles_free(&e->frame->shown.part);
-    memory_free(e->frame->shown.spacing);
-    e->frame->shown.spacing = NULL;
+    particles_free(&h->part);
+    memory_free(h->spacing);
+    h->spacing = NULL;
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) {
-        memory_free(e->frame->shown.gradient[k]);
-        e->frame->shown.gradient[k] = NULL;
+        memory_free(h->gradient[k]);
+        h->gradient[k] = NULL;
     }
 }
 
-bool frame_hollow_points(struct run *e, bool gradients)
+bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
+                         bool gradients)
 {
-    struct mesh_levels *l = &e->frame->levels;
+    struct mesh_levels *l = &r->levels;
+    const int dim = body->dim;
     int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
-    frame_hollow_points_free(e);
-    if (!e->frame->hollow.absent) return false;
-    for (int level = 1; level <= l->n; level++) points += (cells[level] = levels_hollow(l, level, NULL)) << e->part.dim;
-    particles_make(&e->frame->shown.part, e->part.dim, points, 0);
-    e->frame->shown.part.plane_strain = e->part.plane_strain;
-    e->frame->shown.spacing = NEW("report.spacing", points, real);
-    for (int k = 0; k < e->part.dim * e->part.dim && gradients; k++)
-        e->frame->shown.gradient[k] = NEW("report.gradient", points, real);
-    for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << e->part.dim, level++) {
+    frame_hollow_points_free(&r->shown);
+    if (!r->hollow.absent) return false;
+    for (int level = 1; level <= l->n; level++) points += (cells[level] = levels_hollow(l, level, NULL)) << dim;
+    particles_make(&r->shown.part, dim, points, 0);
+    r->shown.part.plane_strain = body->plane_strain;
+    r->shown.spacing = NEW("report.spacing", points, real);
+    for (int k = 0; k < dim * dim && gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
+    for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
         levels_hollow(l, level, cell);
-        level_points(e, level, cell, cells[level], first);
+        level_points(r, body, m, level, cell, cells[level], first);
         memory_free(cell);
     }
     return true;

@@ -82,13 +82,12 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
 }
 
 /* Least extent of the bodies in the plane, in space the middle one, in spacings. */
-static real spacings_across(const struct run *e)
+static real spacings_across(const struct scene *s, const struct particles *p, const struct hollow *hollow)
 {
-    const struct scene *s = e->scene;
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
-    const bool made = !e->frame->hollow.absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
+    const bool made = !hollow->absent || !region_bounds(&s->body[0].shape, s->dim, low, high);
     for (int d = 0; d < s->dim; d++) {
-        if (made) particles_extent(&e->part, e->part.n, d, &low[d], &high[d]), high[d] += s->spacing;
+        if (made) particles_extent(p, p->n, d, &low[d], &high[d]), high[d] += s->spacing;
         extent[d] = (high[d] - low[d]) / s->spacing;
     }
     const real longest = real_max(extent[0], real_max(extent[1], extent[2]));
@@ -99,43 +98,41 @@ static real spacings_across(const struct run *e)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-void frame_levels_room(struct run *e)
+void frame_levels_room(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
-    struct reference_frame *r = e->frame;
-    const struct scene *s = e->scene;
     if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
-    if (s->levels == LEVELS_AUTO && e->part.n_body < PAYS) return;
+    if (s->levels == LEVELS_AUTO && particles < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most = mesh_room(&r->mesh, e->source.mirror, e->source.mirrors, r->room);
+    r->room_most = mesh_room(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
-/* The choice, once the critical step is known. */
-static struct levels_choice frame_levels_choice(const struct run *e)
+struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
+                                         const struct scene *s, real dt_critical)
 {
-    const struct scene *s = e->scene;
-    struct levels_choice c = {.given = s->levels != LEVELS_AUTO, .across = spacings_across(e)};
-    c.rise = sharpest_rise(e->scene, c.across);
+    struct levels_choice c = {.given = s->levels != LEVELS_AUTO,
+                              .particles = p->n_body,
+                              .step_share = s->time_step / dt_critical,
+                              .across = spacings_across(s, p, &r->hollow)};
+    c.rise = sharpest_rise(s, c.across);
     if (!scene_moves(s))
         c.why = LEVELS_AT_REST;
-    else if (e->frame->mesh.points == 0)
+    else if (r->mesh.points == 0)
         c.why = LEVELS_NO_MESH;
-    else if (e->part.n_body < PAYS)
+    else if (c.particles < PAYS)
         c.why = LEVELS_FEW;
     else if (s->damping > 0)
         c.why = LEVELS_DAMPED;
-    else if (s->time_step > LEVELS_STEP_MOST * e->clock.dt_critical)
+    else if (s->time_step > LEVELS_STEP_MOST * dt_critical)
         c.why = LEVELS_LONG_STEP;
     else {
         const real most = edge_for(&c.rise, c.across, ACROSS);
         while (c.automatic < LEVELS_MAX && (real)(4 << c.automatic) <= most * (1 + 1e-6)) c.automatic++;
         c.why = LEVELS_BY_LOADS;
-        if (e->frame->room && e->frame->room_most < c.automatic) c.automatic = e->frame->room_most, c.why = LEVELS_THIN;
+        if (r->room && r->room_most < c.automatic) c.automatic = r->room_most, c.why = LEVELS_THIN;
     }
     c.levels = c.why == LEVELS_AT_REST || c.why == LEVELS_NO_MESH ? 0 : c.given ? s->levels : c.automatic;
     return c;
 }
-
-int frame_levels_number(const struct run *e) { return frame_levels_choice(e).levels; }
 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
@@ -173,24 +170,24 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
 }
 
 /* Why auto takes as many as it does. */
-static void automatic_text(const struct run *e, const struct levels_choice *c, char *text, size_t room)
+static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
 {
     char load[256], want[160];
     const int edge = 2 << c->automatic;
-    rise_text(e->scene, &c->rise, load, sizeof load);
+    rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
     if (c->why == LEVELS_AT_REST)
         snprintf(text, room, "none, as a static solver has no use for them");
     else if (c->why == LEVELS_NO_MESH)
         snprintf(text, room, "none without material points in the reference frame");
     else if (c->why == LEVELS_FEW)
-        snprintf(text, room, "none, as the body has %lld particles: from %d on they save time",
-                 (long long)e->part.n_body, PAYS);
+        snprintf(text, room, "none, as the body has %lld particles: from %d on they save time", (long long)c->particles,
+                 PAYS);
     else if (c->why == LEVELS_DAMPED)
         snprintf(text, room, "none with damping, which knows one time step");
     else if (c->why == LEVELS_LONG_STEP)
-        snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f",
-                 e->scene->time_step / e->clock.dt_critical, LEVELS_STEP_MOST);
+        snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f", c->step_share,
+                 LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, room, "none, as no part of the body is %d spacings thick, %d cells of 4", 4 * CELLS_ACROSS,
                  CELLS_ACROSS);
@@ -208,17 +205,16 @@ static void automatic_text(const struct run *e, const struct levels_choice *c, c
                  edge, load, c->across, ACROSS);
 }
 
-void frame_levels_text(const struct run *e, char *text, size_t room)
+void frame_levels_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
 {
-    const struct levels_choice c = frame_levels_choice(e);
     char why[600];
-    automatic_text(e, &c, why, sizeof why);
-    if (!c.given)
+    automatic_text(c, s, why, sizeof why);
+    if (!c->given)
         snprintf(text, room, "%s", why);
-    else if (c.levels == 0)
+    else if (c->levels == 0)
         snprintf(text, room, "none by mpm.levels; auto: %s", why);
     else
-        snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c.levels, why);
+        snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c->levels, why);
 }
 
 /* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
@@ -243,18 +239,18 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
     return true;
 }
 
-bool frame_levels_coarse(const struct run *e, char *text, size_t room)
+bool frame_levels_coarse(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
+                         char *text, size_t room)
 {
-    struct levels_choice c = frame_levels_choice(e);
     char load[256], want[160];
-    int levels = c.rise.pulse ? 0 : CARRIED_BY_ANY;
-    const real most = edge_for(&c.rise, c.across, ACROSS_LEAST);
+    int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;
+    const real most = edge_for(&c->rise, c->across, ACROSS_LEAST);
     while (levels < LEVELS_MAX && (real)(4 << levels) <= most * (1 + 1e-6)) levels++;
-    if (!c.given) return false;
-    if (c.levels <= levels) return thin_text(e->frame, text, room);
-    rise_text(e->scene, &c.rise, load, sizeof load);
-    want_text(&c, 2 << c.levels, ACROSS_LEAST, want, sizeof want);
+    if (!c->given) return false;
+    if (c->levels <= levels) return thin_text(r, text, room);
+    rise_text(s, &c->rise, load, sizeof load);
+    want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
     snprintf(text, room, "mpm.levels: %d makes cells of %d spacings, and %s: such cells %s; %d or auto would do",
-             c.levels, 2 << c.levels, load, want, levels);
+             c->levels, 2 << c->levels, load, want, levels);
     return true;
 }

@@ -72,12 +72,11 @@ static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 }
 
 /* Marks the cells of level 0 in a ring and about it (`demand` NULL: none). Is any of them part of a coarser one? */
-static bool ring_cells(const struct reference_frame *frame, const struct scene *scene, const struct frame_ring *ring,
-                       uint8_t *demand)
+static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
     const struct grid *g = &l->fine->grid;
-    const real radius = ring->radius + AROUND_RING * scene->spacing;
+    const real radius = ring->radius + AROUND_RING * frame->spacing;
     int64_t from[2], to[2];
     bool coarse = false;
     for (int d = 0; d < 2; d++) {
@@ -97,10 +96,10 @@ static bool ring_cells(const struct reference_frame *frame, const struct scene *
 }
 
 /* The same of all rings: they want accelerations, which coarse cells have at some steps only. */
-static bool rings_cells(const struct reference_frame *frame, const struct scene *scene, uint8_t *demand)
+static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
-    for (int k = 0; k < frame->rings; k++) coarse |= ring_cells(frame, scene, &frame->ring[k], demand);
+    for (int k = 0; k < frame->rings; k++) coarse |= ring_cells(frame, &frame->ring[k], demand);
     return coarse;
 }
 
@@ -113,10 +112,10 @@ static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t 
 /* Cells of level 0 that must stay so: within `more` cells beyond the roomy ones of peridynamic particles and where
  * something is wanted, FLANK_MORE farther from several slits, and within one of a single slit, of what loads act on and
  * of mirrors. The caller frees them. */
-static uint8_t *demand_make(const struct run *e, int more)
+static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                            int more)
 {
-    const struct mesh_levels *l = &e->frame->levels;
-    const struct particles *p = &e->part;
+    const struct mesh_levels *l = &r->levels;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = NEW("levels.demand", n, uint8_t), *fixed = NEW("levels.fixed", n, uint8_t);
     uint8_t *flank = NEW("levels.flank", n, uint8_t);
@@ -124,13 +123,13 @@ static uint8_t *demand_make(const struct run *e, int more)
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) demand[cell_of(l->fine, p, p->list[KIND_PD][k])] = 1;
     levels_dilate(l, demand, l->roomy_cells + more);
     demand_slits(l->fine, flank);
-    levels_dilate(l, flank, e->frame->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
+    levels_dilate(l, flank, r->source.slits > 1 ? l->roomy_cells + more + FLANK_MORE : 1);
     marks_add(l, flank, demand);
     memory_free(flank);
-    for (int b = 0; b < e->loads.n; b++)
-        for (int64_t k = 0; k < e->loads.load[b].n; k++) fixed[cell_of(l->fine, p, e->loads.load[b].particle[k])] = 1;
-    demand_mirrors(e->frame, &e->loads, fixed);
-    rings_cells(e->frame, e->scene, fixed);
+    for (int b = 0; b < loads->n; b++)
+        for (int64_t k = 0; k < loads->load[b].n; k++) fixed[cell_of(l->fine, p, loads->load[b].particle[k])] = 1;
+    demand_mirrors(r, loads, fixed);
+    rings_cells(r, fixed);
     levels_dilate(l, fixed, 1);
     marks_add(l, fixed, demand);
     memory_free(fixed);
@@ -157,14 +156,14 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
 
 /* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
  * coarse ones, or all; NULL: there are none. The caller frees them. */
-static uint8_t *stressed_cells(const struct reference_frame *frame, const struct scene *scene, real share, bool all)
+static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
     uint8_t *cells = NULL;
     for (int level = all ? 0 : 1; level <= l->n; level++) {
         const struct mesh *mesh = level_mesh_of(l, level);
         uint8_t *mark = NEW("levels.mark", mesh->grid.n, uint8_t);
-        mesh_cells_mark(mesh, frame->elastic, share, all, mark, !scene->small_strain);
+        mesh_cells_mark(mesh, frame->elastic, share, all, mark, frame->finite);
         if (memchr(mark, 1, (size_t)mesh->grid.n)) {
             if (!cells) cells = NEW("levels.cells", l->fine->grid.n, uint8_t);
             demand_add(l, level, mark, cells);
@@ -183,42 +182,43 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 }
 
 /* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
-static void limit_by_room(const struct reference_frame *r, const struct scene *scene, uint8_t *limit)
+static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
-    for (int64_t I = 0; I < r->mesh.grid.n && r->room && scene->levels == LEVELS_AUTO; I++)
+    for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
 /* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
-static void next_levels(struct run *e, const uint8_t *demand, uint8_t *limit, uint8_t *level)
+static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
+                        uint8_t *limit, uint8_t *level)
 {
-    struct mesh_levels *l = &e->frame->levels;
-    levels_map(l, &e->part, demand, limit, level);
+    struct mesh_levels *l = &r->levels;
+    levels_map(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (frame_kinetic(e->frame) + frame_strain(e)) / e->mass;
+    const real most = ROUGH * (frame_kinetic(r) + frame_strain(r, p)) / mass;
     levels_prolong(l);
-    while (levels_limit_rough(l, level, most, limit)) levels_map(l, &e->part, demand, limit, level);
+    while (levels_limit_rough(l, level, most, limit)) levels_map(l, p, demand, limit, level);
 }
 
-void frame_levels_found(struct run *e)
+void frame_levels_found(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                        struct loads *loads)
 {
-    struct mesh_levels *l = &e->frame->levels;
-    for (int k = 1; k <= l->n; k++) loads_level_find(&e->loads, &l->at[k].held, &l->at[k].mesh.grid, &e->part);
-    frame_follow_points(e);
+    struct mesh_levels *l = &r->levels;
+    for (int k = 1; k <= l->n; k++) loads_level_find(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
+    frame_follow_points(r, p, bonds, loads);
 }
 
 /* Changes the levels; what that does to the energy is booked as damped. */
 static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
-    const bool finite = !e->scene->small_strain;
     const real dt = e->clock.step > 0 ? e->clock.dt : 0; /* at first velocities are those of the same time */
-    levels_half_kick(&r->levels, &e->part, r->elastic, finite, dt);
-    const real before = frame_kinetic(r) + frame_strain(e);
+    levels_half_kick(&r->levels, &e->part, r->elastic, r->finite, dt);
+    const real before = frame_kinetic(r) + frame_strain(r, &e->part);
     levels_change(&r->levels, &e->part, &r->source, level);
-    frame_levels_found(e);
-    e->damped += before - frame_kinetic(r) - frame_strain(e);
-    levels_half_kick(&r->levels, &e->part, r->elastic, finite, -dt);
+    frame_levels_found(r, &e->part, &e->bonds, &e->loads);
+    e->damped += before - frame_kinetic(r) - frame_strain(r, &e->part);
+    levels_half_kick(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
 status frame_levels_make(struct run *e, bool restored)
@@ -227,7 +227,8 @@ status frame_levels_make(struct run *e, bool restored)
     const struct scene *s = e->scene;
     real density[UINT8_MAX], fastest = 0;
     for (int m = 0; m < s->materials; m++) density[m] = s->material[m].density;
-    TRY(levels_make(&r->levels, frame_levels_number(e), &r->mesh, &e->part, &r->source, density));
+    const struct levels_choice choice = frame_levels_choice(r, &e->part, s, e->clock.dt_critical);
+    TRY(levels_make(&r->levels, choice.levels, &r->mesh, &e->part, &r->source, density));
     memory_free(r->coarse);
     r->coarse = NEW("engine.coarse_elastic", s->materials, struct elastic);
     for (int m = 0; m < s->materials; m++) {
@@ -236,7 +237,7 @@ status frame_levels_make(struct run *e, bool restored)
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (r->levels.n == 0) {
-        frame_hollow_start(e, NULL);
+        frame_hollow_start(r, NULL);
         return OK;
     }
     levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
@@ -247,14 +248,14 @@ status frame_levels_make(struct run *e, bool restored)
     for (int k = 1; k <= r->levels.n; k++)
         loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
-    uint8_t *demand = demand_make(e, ZONE_MORE), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
-    uint8_t *stressed = stressed_cells(e->frame, e->scene, SPLITS, true);
+    uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
+    uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
     marks_add(&r->levels, stressed, demand);
     uint8_t *limit = NEW("levels.limit", r->mesh.grid.n, uint8_t);
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
-    limit_by_room(e->frame, e->scene, limit);
-    next_levels(e, demand, limit, level);
-    if (frame_hollow_start(e, level)) change(e, level);
+    limit_by_room(r, limit);
+    next_levels(r, &e->part, e->mass, demand, limit, level);
+    if (frame_hollow_start(r, level)) change(e, level);
     memory_free(limit);
     e->damped = 0; /* the run begins with what the coarse cells have */
     memory_free(demand);
@@ -275,27 +276,27 @@ static bool any_stressed(const struct mesh_levels *l)
 }
 
 /* Bounds of the levels at the next change: cells become finer at once, and coarser where they have been calm. */
-static void limits_find(struct run *e, bool looks, uint8_t *limit)
+static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool looks,
+                        uint8_t *limit)
 {
-    struct mesh_levels *l = &e->frame->levels;
+    struct mesh_levels *l = &r->levels;
     const int64_t n = l->fine->grid.n;
     array_copy(limit, l->level, n, 1);
     if (!looks) return;
-    uint8_t *late = demand_make(e, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(e->frame, e->scene, MERGES, true);
+    uint8_t *late = demand_make(r, p, loads, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(r, MERGES, true);
     marks_add(l, stressed, late);
     for (int64_t I = 0; I < n; I++) {
         l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
         if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
     }
-    limit_by_room(e->frame, e->scene, limit);
+    limit_by_room(r, limit);
     memory_free(late);
     memory_free(stressed);
 }
 
 /* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
-static void lost_bonds_return(struct reference_frame *frame, struct particles *p)
+static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
-    struct mesh_levels *l = &frame->levels;
     if (!l->any_wanted) return;
     for (int64_t k = 0; k < p->n_of[KIND_MPM]; k++) {
         const int32_t i = p->list[KIND_MPM][k];
@@ -304,25 +305,25 @@ static void lost_bonds_return(struct reference_frame *frame, struct particles *p
     array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
-bool frame_levels_due(const struct run *e)
+bool frame_levels_due(const struct mesh_levels *l, int64_t step)
 {
-    const struct mesh_levels *l = &e->frame->levels;
-    return l->n > 0 && e->clock.step > 0 && e->clock.step % levels_stride(l) == 0;
+    return l->n > 0 && step > 0 && step % levels_stride(l) == 0;
 }
 
-uint8_t *frame_levels_plan(struct run *e)
+uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                           int64_t step, real mass)
 {
-    struct mesh_levels *l = &e->frame->levels;
-    const bool looks = e->clock.step % LOOK_STEPS == 0;
+    struct mesh_levels *l = &r->levels;
+    const bool looks = step % LOOK_STEPS == 0;
     levels_sync(l);
-    uint8_t *stressed = any_stressed(l) ? stressed_cells(e->frame, e->scene, SPLITS, false) : NULL;
-    if (!looks && !stressed && !l->any_wanted && !rings_cells(e->frame, e->scene, NULL)) return NULL;
+    uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
+    if (!looks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
-    uint8_t *demand = demand_make(e, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
+    uint8_t *demand = demand_make(r, p, loads, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
     uint8_t *level = NEW("levels.next", n, uint8_t);
     marks_add(l, stressed, demand);
-    limits_find(e, looks, limit);
-    next_levels(e, demand, limit, level);
+    limits_find(r, p, loads, looks, limit);
+    next_levels(r, p, mass, demand, limit, level);
     memory_free(demand);
     memory_free(limit);
     memory_free(stressed);
@@ -333,7 +334,7 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
 {
     struct mesh_levels *l = &e->frame->levels;
     if (!arrays_equal(level, l->level, l->fine->grid.n, 1)) change(e, level);
-    lost_bonds_return(e->frame, &e->part);
+    lost_bonds_return(l, &e->part);
     l->any_wanted = false;
 }
 
@@ -350,14 +351,13 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void frame_levels_guard(struct run *e)
+void frame_levels_guard(struct mesh_levels *l, struct particles *p)
 {
-    struct particles *p = &e->part;
-    e->frame->levels.returned = false;
-    if (e->frame->levels.n == 0 || !convert_due(p)) return;
+    l->returned = false;
+    if (l->n == 0 || !convert_due(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
         if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
-        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(&e->frame->levels, p, i);
+        for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(l, p, i);
     }
 }
 
@@ -368,10 +368,7 @@ real frame_kinetic(const struct reference_frame *reference)
     return mesh_kinetic(&reference->mesh) + levels_kinetic(&reference->levels);
 }
 
-real frame_strain(struct run *e)
+real frame_strain(struct reference_frame *r, const struct particles *p)
 {
-    struct reference_frame *r = e->frame;
-    const bool finite = !e->scene->small_strain;
-    return mesh_strain(&r->mesh, &e->part, r->elastic, finite) +
-           levels_strain(&r->levels, &e->part, r->elastic, finite);
+    return mesh_strain(&r->mesh, p, r->elastic, r->finite) + levels_strain(&r->levels, p, r->elastic, r->finite);
 }

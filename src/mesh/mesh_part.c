@@ -8,7 +8,7 @@ static void frame_free_all(struct run *e)
     struct reference_frame *f = e->frame;
     memory_free(f->elastic), memory_free(f->coarse), memory_free(f->room), memory_free(f->choice);
     levels_free(&f->levels), mesh_free(&f->mesh), hollow_free(&f->hollow), memory_free(f->ring);
-    frame_hollow_points_free(e);
+    frame_hollow_points_free(&f->shown);
 }
 
 /* Coarse cells, by level, and how often they have changed. */

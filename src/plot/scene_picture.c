@@ -107,7 +107,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     real from[DIM_MAX];
     int64_t count[DIM_MAX];
     double step;
-    const bool hollow = frame_hollow_points(e, false);
+    const bool hollow = frame_hollow_points(e->frame, &e->part, s->material, false);
     int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);

@@ -171,7 +171,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     if (!s->precondition) s->balance.noise = round_off_of(&e->bonds, &e->part);
     const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
     statics_flow(e);
-    frame_sync(e);
+    frame_sync(e->frame, &e->part, &e->loads);
     loads_mirror(&e->loads, &e->part);
     s->t = t;
     const bool touched = statics_touched(s, e->contact);

@@ -101,7 +101,7 @@ static void solver_finish(struct run *e)
     sample_probes(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
     say_past_limit(&e->warnings, e->solver->past_limit);
-    run_stress(e);
+    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     say_large_strain(&e->warnings, p, e->scene->material);
 }
 

@@ -73,7 +73,7 @@ static void forces_here(struct run *e)
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
-    if (has_mesh) frame_force(e), mirror_nodes_give(&e->frame->mesh);
+    if (has_mesh) frame_force(e->frame, &e->part, e->clock.step), mirror_nodes_give(&e->frame->mesh);
 }
 
 static void statics_forces(void *context, const struct field *u, struct field *f)

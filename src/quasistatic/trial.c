@@ -38,7 +38,7 @@ void trial_undo(struct run *e, struct memory_archive *m, const struct break_list
     memory_archive_free(m);
     statics_plastic_keep(e); /* as the start of the next solutions: a trial within may have kept its own */
     unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    frame_sync(e);
+    frame_sync(e->frame, &e->part, &e->loads);
     loads_mirror(&e->loads, &e->part); /* bonds to images break by where these are */
     reactions_store(e->statics, &e->part, &e->loads);
 }

@@ -2,7 +2,7 @@
  * the mesh have. */
 #include <math.h>
 
-#include "run/run.h"
+#include "run/make.h"
 #include "base/memory.h"
 
 /* rho c_p and rho c_s are the roots of rho c11 and rho G. */
@@ -20,23 +20,18 @@ static struct impedance impedance_lattice(const struct bond_source *source, cons
     return impedance_of(m, c11, scene->dim > 1 ? c12 : 0);
 }
 
-void absorbing_make_all(struct run *e)
+struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source)
 {
-    const struct scene *s = e->scene;
-    const struct impedance *all[MOVERS];
     bool any = false;
     for (int b = 0; b < s->boundaries; b++) any = any || s->boundary[b].kind == BOUNDARY_ABSORBING;
-    if (!any || scene_at_rest(s)) return;
-    e->tables.impedance = NEW("engine.impedance", (int64_t)MOVERS * s->materials, struct impedance);
-    for (int by = 0; by < MOVERS; by++) {
-        struct impedance *z = e->tables.impedance + by * s->materials;
-        all[by] = z;
+    if (!any || scene_at_rest(s)) return NULL;
+    struct impedance *z = NEW("engine.impedance", (int64_t)MOVERS * s->materials, struct impedance);
+    for (int by = 0; by < MOVERS; by++)
         for (int k = 0; k < s->materials; k++) {
             const struct material *m = &s->material[k];
             const bool lattice =
                 by == MOVED_BY_BONDS ? s->model == MODEL_BOND : by == MOVED_BY_MESH && s->lattice_constants;
-            z[k] = lattice ? impedance_lattice(&e->source, e->scene, m) : impedance_of(m, m->c11, m->shear);
+            z[by * s->materials + k] = lattice ? impedance_lattice(source, s, m) : impedance_of(m, m->c11, m->shear);
         }
-    }
-    loads_absorbing_make(&e->loads, &e->part, all);
+    return z;
 }

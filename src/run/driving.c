@@ -1,7 +1,7 @@
 /* Which prescribed velocities and displacements a run bears. */
 #include <math.h>
 
-#include "run/run.h"
+#include "run/make.h"
 
 /* REFUSED for what goes by place on the grid of the current frame. */
 static status placed_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
@@ -48,20 +48,21 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-status driving_check(const struct run *e, bool start)
+status driving_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start)
 {
-    const struct particles *p = &e->part;
-    for (int k = 0; k < e->loads.n; k++) {
-        const struct load *l = &e->loads.load[k];
+    real wave_speed = 0;
+    for (int m = 0; m < s->materials; m++) wave_speed = real_max(wave_speed, s->material[m].wave_speed);
+    for (int k = 0; k < loads->n; k++) {
+        const struct load *l = &loads->load[k];
         const struct boundary *b = l->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
         TRY(status_at(b->place, placed_on_grid(b, p, l)));
         if (!b->displaces) continue;
-        if (start) TRY(status_at(b->place, starts_at_place(b, p, l, e->scene->spacing)));
-        if (e->scene->solver != SOLVER_EXPLICIT) continue;
-        TRY(status_at(b->place, starts_at_rest(b, p, l, e->scene->spacing)));
-        const real speed = load_displacing_speed(l, p, e->scene->duration);
-        if (!(speed >= e->tables.wave_speed)) continue;
+        if (start) TRY(status_at(b->place, starts_at_place(b, p, l, s->spacing)));
+        if (s->solver != SOLVER_EXPLICIT) continue;
+        TRY(status_at(b->place, starts_at_rest(b, p, l, s->spacing)));
+        const real speed = load_displacing_speed(l, p, s->duration);
+        if (!(speed >= wave_speed)) continue;
         if (isinf(speed))
             return status_at(b->place, status_set(REFUSED,
                                                   "boundary %s: its displacement jumps, which no body follows; "
@@ -70,7 +71,7 @@ status driving_check(const struct run *e, bool start)
         return status_at(b->place, status_set(REFUSED,
                                               "boundary %s: its displacement grows by %.3g m/s, faster than the waves, "
                                               "%.4g m/s; a longer time is expected for it, or a smaller one",
-                                              b->name, speed, e->tables.wave_speed));
+                                              b->name, speed, wave_speed));
     }
     return OK;
 }

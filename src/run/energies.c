@@ -261,8 +261,8 @@ real diagnostics_momentum_of(const struct particles *p, const struct grid *const
 
 /* State precompute is anew at the current positions: a step moves particles after its forces, so that stresses in a
  * turning body would else include the rotation of a step. */
-void run_stress(struct run *e)
+void run_stress(struct bonds *b, struct particles *p, const struct bond_source *s, const struct kernels *kernels)
 {
-    states_precompute(&e->bonds, &e->part, &e->source);
-    e->kernels.bond_stress(&e->bonds, &e->part);
+    states_precompute(b, p, s);
+    kernels->bond_stress(b, p);
 }

@@ -1,18 +1,17 @@
 /* Are bodies that the scene joins near enough to have bonds? */
 #include "base/memory.h"
-#include "run/run.h"
+#include "run/make.h"
 
 /* Does a particle of one lie within the horizon of a particle of the other, by their shapes? */
-static bool are_near(const struct run *e, const struct region *one, const struct region *other)
+static bool are_near(const struct particles *p, const struct cells *cells, real cutoff, const struct region *one,
+                     const struct region *other, real tolerance)
 {
-    const struct particles *p = &e->part;
-    const real tolerance = ON_SURFACE * e->scene->spacing;
     struct near near = {0};
     bool found = false;
     for (int64_t i = 0; i < p->n && !found; i++) {
         const real X[DIM_MAX] = {p->X[0][i], p->dim > 1 ? p->X[1][i] : 0, p->dim > 2 ? p->X[2][i] : 0};
         if (!region_contains(one, X, p->dim, tolerance)) continue;
-        near_find(&near, &e->cells, p, i, e->source.family.cutoff, false);
+        near_find(&near, cells, p, i, cutoff, false);
         for (int k = 0; k < near.n && !found; k++) {
             const int32_t j = near.at[k];
             const real Y[DIM_MAX] = {p->X[0][j], p->dim > 1 ? p->X[1][j] : 0, p->dim > 2 ? p->X[2][j] : 0};
@@ -23,13 +22,15 @@ static bool are_near(const struct run *e, const struct region *one, const struct
     return found;
 }
 
-status joined_check(const struct run *e)
+status joined_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff)
 {
-    const struct scene *s = e->scene;
+    const real tolerance = ON_SURFACE * s->spacing;
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *face = &s->interface[k];
         const struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
-        if (!face->joined || one->file || other->file || are_near(e, &one->shape, &other->shape)) continue;
+        if (!face->joined || one->file || other->file ||
+            are_near(p, cells, cutoff, &one->shape, &other->shape, tolerance))
+            continue;
         return status_set(REFUSED,
                           "interfaces[%d]: %s and %s are farther apart than the horizon, so no bond joins "
                           "them; bodies that touch are expected, or no interface",

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "run/run.h"
+#include "run/make.h"
 
 enum { TEXT_LONGEST = 96 };
 
@@ -36,26 +36,24 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* REFUSED: the rows of particle i are not on, nor half a spacing beside, the plane of mirror number `mirror`. */
-static status refuse_rows(const struct run *e, int64_t i, int mirror)
+/* REFUSED: the rows of particle i are not on, nor half a spacing beside, the plane of mirror m. */
+static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
-    const struct boundary *m = e->loads.load[mirror].boundary;
     real X[DIM_MAX];
-    particle_place(&e->part, i, X);
-    const real rows = fabs(X[m->axis] - m->at) / e->scene->spacing, beside = rows - floor(rows);
+    particle_place(p, i, X);
+    const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
                       "body %s: its lattice does not go on beyond the mirror of boundary %s at %c = %.6g m: its first "
                       "row is %.3g spacings from it; 0.5 (a size along %c that is a multiple of particles.spacing), or "
                       "pd.surface volume, is expected",
-                      e->scene->body[body_made_for(e->scene, X, e->part.body[i])].name, m->name, "xyz"[m->axis],
-                      m -> at, beside, "xyz"[m->axis]);
+                      s->body[body_made_for(s, X, p->body[i])].name, m->name, "xyz"[m->axis], m -> at, beside,
+                      "xyz"[m->axis]);
 }
 
 /* REFUSED: particles i < n and j are not whole spacings apart. */
-static status refuse_apart(const struct run *e, int64_t i, int64_t j)
+static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
+                           int64_t j)
 {
-    const struct particles *p = &e->part;
-    const struct scene *s = e->scene;
     real X[DIM_MAX], Y[DIM_MAX], steps[DIM_MAX] = {0}, worst = 0;
     char here[TEXT_LONGEST], there[TEXT_LONGEST], apart[TEXT_LONGEST];
     int axis = 0;
@@ -65,10 +63,10 @@ static status refuse_apart(const struct run *e, int64_t i, int64_t j)
         const real off = fabs(steps[d] - nearbyint(steps[d]));
         if (off > worst) worst = off, axis = d;
     }
-    const int mirror = j < p->n ? -1 : mirror_between(&e->loads, X, Y, axis);
-    if (mirror >= 0) return refuse_rows(e, i, mirror);
+    const int mirror = j < p->n ? -1 : mirror_between(loads, X, Y, axis);
+    if (mirror >= 0) return refuse_rows(s, p, i, loads->load[mirror].boundary);
     vector_in_words(here, X, p->dim), vector_in_words(there, Y, p->dim), vector_in_words(apart, steps, p->dim);
-    const int body = body_made_for(e->scene, X, p->body[i]), beside = body_made_for(e->scene, Y, p->body[j]);
+    const int body = body_made_for(s, X, p->body[i]), beside = body_made_for(s, Y, p->body[j]);
     const char *own = s->body[body].name, *other = s->body[beside].name;
     if (body != beside)
         return status_set(REFUSED,
@@ -82,10 +80,10 @@ static status refuse_apart(const struct run *e, int64_t i, int64_t j)
                       own, here, there, apart);
 }
 
-status run_surface_make(struct run *e)
+status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
+                        const struct loads *loads, const struct scene *s)
 {
-    struct surface_weights *w = &e->tables.surface;
-    const status s = surface_make(w, &e->part, &e->source, e->source.rotates);
-    if (s == OK) e->source.surface = w;
-    return s == REFUSED && w->apart[0] >= 0 ? refuse_apart(e, w->apart[0], w->apart[1]) : s;
+    const status made = surface_make(w, p, source, source->rotates);
+    if (made == OK) source->surface = w;
+    return made == REFUSED && w->apart[0] >= 0 ? refuse_apart(s, p, loads, w->apart[0], w->apart[1]) : made;
 }

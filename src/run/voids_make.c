@@ -3,15 +3,15 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "run/run.h"
+#include "run/make.h"
 
 /* Cells of the mesh around one node hold points no farther apart along an axis [cells]. */
 #define CELLS_REACH 1.515
 
-real voids_reach(const struct run *e)
+real voids_reach(const struct scene *s, real cutoff)
 {
-    const real cells = e->scene->method == METHOD_PD ? 0 : CELLS_REACH * e->scene->cell * e->scene->spacing;
-    return real_max(e->scene->method == METHOD_MPM ? 0 : e->source.family.cutoff, cells);
+    const real cells = s->method == METHOD_PD ? 0 : CELLS_REACH * s->cell * s->spacing;
+    return real_max(s->method == METHOD_MPM ? 0 : cutoff, cells);
 }
 
 static bool may_have_voids(const struct scene *s)
@@ -45,20 +45,17 @@ static void list_shapes(const struct scene *s, struct voids *v)
     memory_free(wanted);
 }
 
-void run_voids_make(struct run *e)
+bool run_voids_list(struct material_tables *tables, const struct scene *s, const struct loads *loads)
 {
-    const struct scene *s = e->scene;
-    struct voids *v = &e->tables.voids;
-    if (!may_have_voids(s)) return;
+    struct voids *v = &tables->voids;
+    if (!may_have_voids(s)) return false;
     *v = (struct voids){.dim = s->dim, .spacing = s->spacing};
-    e->tables.void_mirror = NEW("voids.mirror", s->boundaries, struct mirror_plane);
+    tables->void_mirror = NEW("voids.mirror", s->boundaries, struct mirror_plane);
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].kind == BOUNDARY_MIRROR)
-            e->tables.void_mirror[v->mirrors++] =
-                (struct mirror_plane){s->boundary[b].axis, e->loads.load[b].outside, s->boundary[b].at};
-    v->mirror = e->tables.void_mirror;
+            tables->void_mirror[v->mirrors++] =
+                (struct mirror_plane){s->boundary[b].axis, loads->load[b].outside, s->boundary[b].at};
+    v->mirror = tables->void_mirror;
     list_shapes(s, v);
-    if (v->shapes == 0) return;
-    voids_find(v, &e->part, &e->cells, e->loads.image, voids_reach(e));
-    e->source.voids = v;
+    return v->shapes > 0;
 }

@@ -133,7 +133,7 @@ static status write_frames(struct run *e, unsigned due)
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e->scene, k);
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
-    if (frame_hollow_points(e, asked & (ASK_STRAIN | ASK_DENSITY))) {
+    if (frame_hollow_points(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
         extra.spacing = e->scene->spacing;
     }
@@ -151,7 +151,7 @@ static status write_frames(struct run *e, unsigned due)
 
 static status write_checkpoint(struct run *e)
 {
-    frame_sync(e);
+    frame_sync(e->frame, &e->part, &e->loads);
     e->report->last_checkpoint = team_clock();
     TRY(checkpoint_write(e->report->out, e->scene->text, e->save, e));
     e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, team_clock() - e->report->last_checkpoint);

@@ -154,8 +154,8 @@ static bool wants_stress(const struct scene *s)
 
 void run_sync(struct run *e)
 {
-    frame_sync(e);
-    run_stress(e);
+    frame_sync(e->frame, &e->part, &e->loads);
+    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
 /* True if a probe reads the motion of particles, for which points of a mesh are updated; damage and bonds are always up
@@ -205,7 +205,7 @@ static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e->frame, nodes);
-    if (wants_stress(e->scene)) run_stress(e);
+    if (wants_stress(e->scene)) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     rigids_keep(e->rigid, e->clock.t);
     diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e->scene, e->frame))
@@ -219,7 +219,7 @@ static void sample_state(struct run *e)
 real sample_strain(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + frame_strain(e);
+           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + frame_strain(e->frame, &e->part);
 }
 
 /* Energies of a sample at the current positions, but the kinetic energy [J]. */
@@ -242,7 +242,7 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) frame_sync(e);
+    if (wants_motion(e->scene)) frame_sync(e->frame, &e->part, &e->loads);
     struct observed o = run_observed(e);
     probes_sample_end(&e->probing->probes, &o, now);
     if (scene_moves(e->scene)) {
@@ -287,11 +287,11 @@ void sample_begin(struct run *e)
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) frame_sync(e);
+    if (wants_motion(e->scene)) frame_sync(e->frame, &e->part, &e->loads);
     if (sampling->due)
         sample_state(e), rigids_meet(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
-        run_stress(e);
+        run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     struct observed o = run_observed(e);
     probes_keep(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
@@ -420,7 +420,7 @@ static real power_last(struct run *e, real *held)
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
     loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
-    if (e->frame->mesh.points > 0) frame_force(e);
+    if (e->frame->mesh.points > 0) frame_force(e->frame, &e->part, e->clock.step);
     const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
@@ -440,7 +440,7 @@ void sample_last(struct run *e)
 {
     real held = 0;
     states_precompute(&e->bonds, &e->part, &e->source);
-    frame_sync(e); /* positions, velocities and stresses of points of the mesh */
+    frame_sync(e->frame, &e->part, &e->loads); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);

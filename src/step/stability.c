@@ -304,7 +304,7 @@ status stability_check(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(&e->loads, &e->part, &e->clock));
-    if (diverged) frame_sync_points(e, NULL, 0);
+    if (diverged) frame_sync_motion(e->frame, &e->part, &e->loads);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_overlap_check(e));

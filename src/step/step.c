@@ -39,7 +39,7 @@ static void conversion(struct run *e, struct step *now)
 {
     const bool marked = conversion_mark(e);
     sample_breaks(e, now->broken);
-    now->converted = conversion_pass(e, now->broken, marked, cracks_fade(e));
+    now->converted = conversion_pass(e, now->broken, marked, cracks_fade(e->fracture));
     lap(&e->laps, LAP_CONVERT);
 }
 
@@ -124,7 +124,7 @@ static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
     viscosity_lend(e->viscosity, &e->part, true);
-    grid_map(e); /* 1, 3: mass, momentum, force to nodes */
+    grid_map(e->grid, &e->part, &e->kernels, &e->laps); /* 1, 3: mass, momentum, force to nodes */
     viscosity_lend(e->viscosity, &e->part, false);
     if (e->clock.step == 0) residual_keep(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
@@ -137,10 +137,10 @@ static void move_grid(struct run *e, const struct step *now)
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
-    frame_force(e);
+    frame_force(e->frame, &e->part, e->clock.step);
     viscosity_push_nodes(e);
     if (e->clock.step == 0) residual_keep_mesh(e->probing, e->scene, &e->frame->mesh);
-    frame_move(e, now->middle, now->dt_velocity);
+    frame_move(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
 /* Supports bear what the grids have met, and hold their particles. */

@@ -186,14 +186,16 @@ status time_step_make(struct run *e)
     if (on_grid)
         points = critical_of_points(s, &e->tables, e->grid->field[0].grid.h,
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
-    e->clock.dt_critical = real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e)) *
-                           sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->part);
+    e->clock.dt_critical =
+        real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e->frame, s, e->coupling_kind)) *
+        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->part);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
-    const real safety = frame_levels_number(e) > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
+    const int levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical).levels;
+    const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;
     const real automatic =
         real_min(damping_step(s), real_min(safety * e->clock.dt_critical, contact_safety(s) * contact));
     const real dt = s->time_step > 0 ? s->time_step : automatic;
-    e->clock.stride = 1 << frame_levels_number(e);
+    e->clock.stride = 1 << levels;
     if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
         return status_set(REFUSED,
                           "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",

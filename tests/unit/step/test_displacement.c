@@ -203,7 +203,7 @@ static void check_patch(const char *scene, const char *solver, const char *model
     struct scene_run a;
     make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
     run_all(&a);
-    run_stress(&a.e);
+    run_stress(&a.e.bonds, &a.e.part, &a.e.source, &a.e.kernels);
     const struct particles *p = &a.e.part;
     const real far = particles_longest(p), within = 1e-4 * fabs(strain[0]) * far;
     int64_t free = 0;
