@@ -1,8 +1,8 @@
-/* Room `rigid`: solids that do not deform: where they are, how they move, and how far a point is from their surface. It
- * knows `data`, and neither particles' forces nor scenes; contact puts forces on them, the engine moves them.
+/* Room `rigid`: rigid bodies: their motion, and the distance of a point from their surface. The room uses `data` and
+ * knows neither the forces of particles nor scenes; contact computes the forces on rigid bodies, the engine moves them.
  *
- * A rigid body keeps its place, moves as it is told, or flies: then it has a mass, and a uniform density. Its shape is
- * that of a region (data/region.h), in the places of t = 0. */
+ * A rigid body is fixed, moves with a prescribed velocity (driven), or moves under forces (free): a free body has a
+ * mass of uniform density. The shape is a region (data/region.h) in the reference configuration, t = 0. */
 #ifndef CLEAVE_RIGID
 #define CLEAVE_RIGID
 
@@ -13,34 +13,42 @@ enum rigid_motion { RIGID_FIXED, RIGID_DRIVEN, RIGID_FREE };
 
 struct rigid_body {
     char name[NAME_MAX_LENGTH];
-    const struct region *shape; /* borrowed; at t = 0 */
+    const struct region *shape; /* of t = 0; kept by reference */
     int dim;
     enum rigid_motion motion;
-    bool turns;                     /* FREE: may rotate */
-    real speed[DIM_MAX], ramp;      /* DRIVEN: velocity [m/s] from t = ramp on, less in proportion before [s] */
-    real mass;                      /* FREE [kg] */
-    real inertia[DIM_MAX][DIM_MAX]; /* about the centre, at t = 0; along z in the plane [kg m^2] */
-    real weight[DIM_MAX];           /* FREE: constant force at its centre [N] */
-    real face;                      /* largest side of the box round it: 1, a length [m] or an area [m^2] */
-    real centre[DIM_MAX], radius;   /* of mass (else of the box round it) and farthest point, at t = 0 [m] */
+    bool turns;                /* FREE: may rotate */
+    real speed[DIM_MAX], ramp; /* DRIVEN: velocity [m/s] from t = `ramp` on, before in proportion to t [s] */
+    real mass;                 /* FREE [kg] */
+    /* FREE: tensor of inertia about the centre, at t = 0; in the plane only zz counts [kg m^2] */
+    real inertia[DIM_MAX][DIM_MAX];
+    real weight[DIM_MAX]; /* FREE: constant force at the centre [N] */
+    /* largest face of the bounding box: 1 in 1D, a length [m] in 2D, an area [m^2] in 3D */
+    real face;
+    real centre[DIM_MAX]; /* at t = 0: of mass, without a mass of the volume [m] */
+    real radius;          /* diagonal of the bounding box [m] */
 
-    real x[DIM_MAX];                      /* centre now [m] */
-    real v[DIM_MAX], spin[DIM_MAX];       /* half a step behind [m/s], [1/s] */
-    real angular[DIM_MAX];                /* angular momentum about the centre [kg m^2/s] */
-    real turn[DIM_MAX][DIM_MAX];          /* rotation since t = 0 */
-    real force[DIM_MAX], moment[DIM_MAX]; /* on it, about its centre, in the last step [N], [N m] */
-    real force_most;                      /* largest so far [N] */
-    real way[DIM_MAX];                    /* of the last step [m] */
-    real force_before[DIM_MAX];           /* as the last step of `work` had it [N] */
-    real work;                            /* done by what drives it, up to `force_before` [J] */
-    real kinetic;                         /* 1/2 m v- . v+ of the last step [J] */
+    real x[DIM_MAX]; /* present position of the centre [m] */
+    /* velocity of the centre [m/s] and angular velocity [1/s], half a step behind t */
+    real v[DIM_MAX], spin[DIM_MAX];
+    real angular[DIM_MAX];        /* angular momentum about the centre [kg m^2/s] */
+    real turn[DIM_MAX][DIM_MAX];  /* rotation matrix from t = 0 to the present */
+    real force[DIM_MAX];          /* contact force on the body in the last step [N] */
+    real moment[DIM_MAX];         /* and its moment about the centre [N m] */
+    real force_most;              /* largest |force| so far [N] */
+    real increment[DIM_MAX];      /* displacement in the last step [m] */
+    real force_previous[DIM_MAX]; /* force at the last call of rigid_book [N] */
+    real work;                    /* work of the drive up to the last call of rigid_book [J] */
+    /* kinetic energy of the last step as leap-frog conserves it, 1/2 m v_old . v_new with the rotation likewise [J] */
+    real kinetic;
 };
 
-/* mass: FREE [kg], 0: none. REFUSED where a free body has no volume or no bounds. */
+/* Initialises a rigid body whose name is set and whose other members are 0. shape: kept by reference; mass: of a free
+ * body [kg], 0: fixed or driven; velocity: initial, or of the drive [dim, m/s]; spacing: of particles [m]. REFUSED if a
+ * moving body is unbounded or a bounded body has no volume. */
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing);
 
-/* May a point within `reach` of x be in it? A quick answer [m]. */
+/* Returns false if no point of the body is within `reach` of x [m]: a test by bounding spheres. */
 static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
@@ -48,35 +56,43 @@ static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, re
     return r->motion == RIGID_FIXED || far2 <= square(r->radius + reach);
 }
 
-/* Distance of the point x from its surface, negative inside [m]; outward unit normal there. */
+/* Returns the distance of point x [DIM_MAX] from the surface, negative inside [m]; normal: outward unit normal of the
+ * nearest surface point. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 
-/* Where its point of t = 0 is now [m]. */
-void rigid_place(const struct rigid_body *r, const real *X, real *x);
+/* Computes the present position x of the material point of the body that was at X at t = 0 [m]. */
+void rigid_point_position(const struct rigid_body *r, const real *X, real *x);
 
-/* Velocity of the body at the point x [m/s]. */
+/* Computes the velocity v of the body at point x [m/s]. */
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v);
 
-/* Sets v to the velocity that a driven body has at time t [m/s]. */
+/* Computes the velocity v of a driven body at time t [m/s]. */
 void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
 
-/* Way of a driven body up to time t, 0 of others; returns its length [m]. */
-real rigid_shift(const struct rigid_body *r, real t, real *way);
-/* Puts a driven body where it is at time t [s]; its way from where it was is booked with its work. */
+/* Computes the displacement u [dim] of a driven body up to time t, 0 for other bodies; returns its length [m]. */
+real rigid_displacement(const struct rigid_body *r, real t, real *u);
+
+/* Moves a driven body to its position at time t [s]; the displacement counts for the work of the drive. */
 void rigid_put(struct rigid_body *r, real t);
 
-/* One step under `force` and `moment`. middle: t + dt/2 [s]; dt_velocity: since the time of the velocities [s]. */
+/* Advances the body by one step of length dt under `force` and `moment` (leap-frog). middle: time in the middle of the
+ * step [s]; dt_velocity: time by which velocities advance [s]. */
 void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
 
-/* Books the work of what drives it since the last call, up to the force of now. */
+/* Adds the work of the drive since the last call to r->work, with the mean of the old and the present force. */
 void rigid_book(struct rigid_body *r);
-void rigid_note(struct rigid_body *r);       /* this force counts for the largest so far */
-real rigid_work(const struct rigid_body *r); /* the same without booking it [J] */
+void rigid_note(struct rigid_body *r); /* includes the present force in force_most */
 
-/* Kinetic energy by the velocities of now [J], and what half a step under the force adds to it. */
+/* Returns the work of the drive, and of the weight, up to the present force [J]. */
+real rigid_work(const struct rigid_body *r);
+
+/* Returns the kinetic energy of the present velocities [J]. */
 real rigid_kinetic(const struct rigid_body *r);
+
+/* Returns the kinetic energy that half a step under the present force and moment adds to first order [J]. */
 real rigid_kick(const struct rigid_body *r, real dt);
 
+/* Saves or restores the motion of rigid body number `number`. */
 status rigid_archive(struct rigid_body *r, int number, struct archive *a);
 
 #endif

@@ -11,7 +11,7 @@
 static real rigid_way2(const struct rigid_set *r, int n, real t)
 {
     real sum = 0, way[DIM_MAX];
-    for (int k = 0; k < n; k++) sum += square(rigid_shift(&r->body[k], t, way));
+    for (int k = 0; k < n; k++) sum += square(rigid_displacement(&r->body[k], t, way));
     return sum;
 }
 

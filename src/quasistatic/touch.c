@@ -57,7 +57,7 @@ int statics_strides(const struct scene *s, const struct rigid_set *rigid, real t
     for (int k = 0; k < s->rigids; k++) {
         const struct rigid_body *r = &rigid->body[k];
         real way[DIM_MAX];
-        rigid_shift(r, t, way);
+        rigid_displacement(r, t, way);
         for (int d = 0; d < r->dim; d++) most = real_max(most, fabs(r->centre[d] + way[d] - r->x[d]));
     }
     return (int)real_min(STRIDES_MOST, real_max(1, ceil(most / (STRIDE_MOST * s->spacing))));
@@ -123,8 +123,8 @@ real statics_touch_end(struct run *e, real work, real lost)
     for (int k = 0; k < e->scene->rigids; k++) {
         const real before = e->rigid->body[k].work;
         for (int d = 0; d < e->part.dim; d++)
-            range +=
-                0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_before[d]) * e->rigid->body[k].way[d]);
+            range += 0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_previous[d]) *
+                                e->rigid->body[k].increment[d]);
         rigid_book(&e->rigid->body[k]);
         work += e->rigid->body[k].work - before;
     }

@@ -38,8 +38,8 @@ static void products(const struct run *e, real t, real u, real *product)
     }
     for (int k = 0; k < e->scene->rigids; k++) {
         real x[DIM_MAX], y[DIM_MAX];
-        rigid_shift(&e->rigid->body[k], t, x);
-        rigid_shift(&e->rigid->body[k], u, y);
+        rigid_displacement(&e->rigid->body[k], t, x);
+        rigid_displacement(&e->rigid->body[k], u, y);
         product[WAYS] += dot(x, y, dim);
     }
 }

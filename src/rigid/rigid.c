@@ -1,4 +1,4 @@
-/* Motion of rigid bodies, and the points of their surface. */
+/* Motion of rigid bodies, and distances from their surface. */
 #include "rigid/rigid.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
-/* to = A b, or its transpose times b. */
+/* Computes to = A b, or to = A^T b if `back`. */
 static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
@@ -16,7 +16,7 @@ static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real
     }
 }
 
-/* Turns A by the rotation vector w: Rodrigues. */
+/* Rotates the columns of A by the rotation vector w (Rodrigues' formula). */
 static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
 {
     const real angle = sqrt(dot(w, w, DIM_MAX));
@@ -30,7 +30,7 @@ static void rotate_further(real A[DIM_MAX][DIM_MAX], const real *w)
     }
 }
 
-/* x = A^-1 b of a symmetric, positive 3 x 3 matrix, by cofactors. */
+/* Solves A x = b for a symmetric positive definite 3 x 3 matrix by cofactors. */
 static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
 {
     real cofactor[DIM_MAX][DIM_MAX], determinant = 0;
@@ -44,7 +44,7 @@ static void solve_three(real A[DIM_MAX][DIM_MAX], const real *b, real *x)
     for (int r = 0; r < DIM_MAX; r++) x[r] /= determinant;
 }
 
-/* Spin of the body with the rotation `turn` and its angular momentum. */
+/* Computes the angular velocity of the body from the rotation matrix `turn` and the angular momentum. */
 static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spin)
 {
     real own[DIM_MAX], own_spin[DIM_MAX];
@@ -59,15 +59,18 @@ static void spin_of(struct rigid_body *r, real turn[DIM_MAX][DIM_MAX], real *spi
 
 /* ---- at t = 0 ---------------------------------------------------------------------------------------------------- */
 
-enum { SAMPLES = 200, SAMPLES_SPACE = 80 }; /* points of a body along its longest edge, for its inertia */
+/* sampling points along the longest edge of the bounding box, in the plane and in space */
+enum { SAMPLES = 200, SAMPLES_SPACE = 80 };
 
-#define ON_FACE 1e-9 /* points of slanting faces count on either side alike [longest edge] */
+/* tolerance of points on inclined faces, so that opposite faces are treated alike [longest edge] */
+#define ON_FACE 1e-9
 
 struct box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Volume, centre and second moments of a region by its points on a grid. */
+/* Integrates over the sampling points of a region: sets its centre [m] and second moments [m^2] about the centre, and
+ * returns its volume [m^dim]. */
 static real region_moments(const struct region *shape, int dim, const struct box *b, real *centre,
                            real second[DIM_MAX][DIM_MAX])
 {
@@ -97,7 +100,7 @@ static real region_moments(const struct region *shape, int dim, const struct box
     return sum * step[0] * step[1] * step[2];
 }
 
-/* Inertia about the centre from second moments. */
+/* Computes the tensor of inertia about the centre from the second moments. */
 static void inertia_make(struct rigid_body *r, real second[DIM_MAX][DIM_MAX])
 {
     const real trace = second[0][0] + second[1][1] + second[2][2];
@@ -148,7 +151,7 @@ real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
     return distance;
 }
 
-void rigid_place(const struct rigid_body *r, const real *X, real *x)
+void rigid_point_position(const struct rigid_body *r, const real *X, real *x)
 {
     real arm[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX], turned[DIM_MAX];
     memcpy(turn, r->turn, sizeof turn);
@@ -169,8 +172,9 @@ void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* The spin in the middle of a step needs the rotation there, which needs the spin: the third is exact to round-off of
- * any step that contact allows. */
+/* Rotates the body by a step. The angular velocity in the middle of the step depends on the rotation there, which
+ * depends on the angular velocity: a fixed-point iteration, whose third value is exact to round-off for any step that
+ * contact allows. */
 static void turn_on(struct rigid_body *r, real dt)
 {
     real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];
@@ -200,8 +204,8 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
         if (r->motion == RIGID_DRIVEN) r->v[d] = driven[d];
         if (r->motion == RIGID_FREE) r->v[d] += (r->force[d] + r->weight[d]) / r->mass * dt_velocity;
         kinetic += 0.5 * r->mass * before * r->v[d];
-        r->way[d] = r->v[d] * dt;
-        r->x[d] += r->way[d];
+        r->increment[d] = r->v[d] * dt;
+        r->x[d] += r->increment[d];
     }
     if (r->turns) {
         const real before[] = {r->angular[0], r->angular[1], r->angular[2]};
@@ -212,32 +216,32 @@ void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity)
     r->kinetic = kinetic;
 }
 
-real rigid_shift(const struct rigid_body *r, real t, real *way)
+real rigid_displacement(const struct rigid_body *r, real t, real *u)
 {
     const real full = t < r->ramp ? 0.5 * square(t) / r->ramp : t - 0.5 * real_max(0, r->ramp);
-    for (int d = 0; d < DIM_MAX; d++) way[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
-    return sqrt(dot(way, way, r->dim));
+    for (int d = 0; d < DIM_MAX; d++) u[d] = r->motion == RIGID_DRIVEN ? r->speed[d] * full : 0;
+    return sqrt(dot(u, u, r->dim));
 }
 
 void rigid_put(struct rigid_body *r, real t)
 {
-    real way[DIM_MAX];
-    rigid_shift(r, t, way);
+    real u[DIM_MAX];
+    rigid_displacement(r, t, u);
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++) {
-        const real x = r->centre[d] + way[d];
-        r->way[d] += x - r->x[d];
+        const real x = r->centre[d] + u[d];
+        r->increment[d] += x - r->x[d];
         r->x[d] = x;
     }
 }
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Work of what drives it in the last step [J]. */
+/* Returns the work of the drive in the last step [J], with the mean of the old and the present force. */
 static real work_of_step(const struct rigid_body *r)
 {
     real work = 0;
     for (int d = 0; d < r->dim && r->motion == RIGID_DRIVEN; d++)
-        work -= 0.5 * (r->force_before[d] + r->force[d]) * r->way[d];
+        work -= 0.5 * (r->force_previous[d] + r->force[d]) * r->increment[d];
     return work;
 }
 
@@ -256,8 +260,8 @@ void rigid_note(struct rigid_body *r)
 void rigid_book(struct rigid_body *r)
 {
     r->work += work_of_step(r);
-    memcpy(r->force_before, r->force, sizeof r->force_before);
-    memset(r->way, 0, sizeof r->way);
+    memcpy(r->force_previous, r->force, sizeof r->force_previous);
+    memset(r->increment, 0, sizeof r->increment);
 }
 
 real rigid_kinetic(const struct rigid_body *r)
@@ -274,7 +278,7 @@ real rigid_kick(const struct rigid_body *r, real dt)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* All that changes stands behind `radius`. */
+/* The members from `x` on change in steps. */
 status rigid_archive(struct rigid_body *r, int number, struct archive *a)
 {
     char name[64];

@@ -1,4 +1,5 @@
-/* What rigid bodies cannot do: stand in other bodies, cross a mirror, outrun their contact, meet each other. */
+/* Checks of rigid bodies: overlaps with particles and mirrors at the start, too large a motion in a step, overlaps with
+ * each other. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,10 +7,10 @@
 #include "rigid/rigid_part.h"
 #include "run/say.h"
 
-#define DEEP_MOST 0.6 /* of a particle's centre in a rigid body at the start [spacings] */
-#define WAY_MOST 0.5  /* in a step [spacings]: contact pushes over one */
+#define DEEP_MOST 0.6      /* allowed depth of the centre of a particle in a rigid body at the start [spacings] */
+#define INCREMENT_MOST 0.5 /* allowed motion in a step [spacings]: contact acts over a distance of one spacing */
 
-/* REFUSED where a rigid body holds particles. */
+/* Returns REFUSED if particles are inside rigid body r. */
 static status check_room(const struct rigid_body *r, const struct scene *s, const struct particles *p)
 {
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};
@@ -25,7 +26,7 @@ static status check_room(const struct rigid_body *r, const struct scene *s, cons
                       p->dim > 2 ? p->x[2][at] : 0, -deepest);
 }
 
-/* REFUSED where the image of a body that flies would be another one. */
+/* Returns REFUSED if free body r touches a mirror: its image would be another body. */
 static status check_mirrors(const struct rigid_body *r, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -52,24 +53,23 @@ status rigids_check(const struct rigid_set *rigid, const struct scene *s, const 
     return OK;
 }
 
-/* FAILED for a body that would pass through particles between two steps. */
 status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock)
 {
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
         const real turning = sqrt(dot(r->spin, r->spin, DIM_MAX)) * r->radius;
-        const real way = (sqrt(dot(r->v, r->v, DIM_MAX)) + turning) * clock->dt / s->spacing;
-        if (way <= WAY_MOST) continue;
+        const real increment = (sqrt(dot(r->v, r->v, DIM_MAX)) + turning) * clock->dt / s->spacing;
+        if (increment <= INCREMENT_MOST) continue;
         return status_set(FAILED,
                           "rigid body %s at step %lld, t = %.3g s: it moves %.3g spacings a step, and particles would "
                           "be inside it before they feel it; see whether its speed and mass are meant, or choose a "
                           "smaller time.safety (now %.2g)",
-                          r->name, (long long)clock->step, clock->t, way, s->safety);
+                          r->name, (long long)clock->step, clock->t, increment, s->safety);
     }
     return OK;
 }
 
-/* Is a point of a lattice in r, a spacing inside it, also inside the other? */
+/* Returns true if a sampling point of r is more than half a spacing deep in `other`. */
 static bool have_met(const struct rigid_body *r, const struct rigid_body *other, real spacing)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];
@@ -86,13 +86,12 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
         for (int d = 0; d < dim; d++)
             X[d] = from[d] + 0.5 * (to[d] - from[d] - (real)(n[d] - 1) * step) + (real)at[d] * step;
         if (!region_contains(r->shape, X, dim, 0)) continue;
-        rigid_place(r, X, x);
+        rigid_point_position(r, X, x);
         if (rigid_distance(other, x, normal) < -0.5 * spacing) return true;
     }
     return false;
 }
 
-/* Says once that two of them, one of which flies, are inside each other. */
 void rigids_meet(struct rigid_set *rigid, real spacing, real t, struct warnings *to)
 {
     for (int a = 0; a < rigid->n && !rigid->met; a++)

@@ -1,4 +1,4 @@
-/* Rigid bodies of a run: forces from contact, motion, energies, and their columns in history.csv. */
+/* All rigid bodies of a run: set-up, bookkeeping of contact forces, motion, energies, and columns of history.csv. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,7 +11,7 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
     rigid->n = s->rigids, rigid->dim = s->dim, rigid->moves = scene_moves(s);
     rigid->shape = NEW("engine.shape", s->bodies, const struct region *);
     for (int b = 0; b < s->bodies; b++) rigid->shape[b] = s->body[b].file ? NULL : &s->body[b].shape;
-    for (int b = 0; b < s->bodies; b++) /* of several solids side by side nobody knows the surface */
+    for (int b = 0; b < s->bodies; b++) /* the common surface of several joined solids is not known */
         if (s->body[b].joined != b) rigid->shape[s->body[b].joined] = NULL;
     rigid->body = NEW("engine.rigid", s->rigids, struct rigid_body);
     for (int k = 0; k < s->rigids; k++) {
@@ -25,7 +25,6 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
     return OK;
 }
 
-/* Their forces on particles are loads to the balance of momentum. */
 void rigids_book(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
@@ -63,7 +62,6 @@ static int add_column(struct column *column, int at, const char *body, const cha
     return at + 1;
 }
 
-/* Force on the body, moment about its centre, place of the centre, velocity. */
 int rigids_columns(const struct run *e, struct column *column)
 {
     static const char *const force[] = {"force_x", "force_y", "force_z"}, *const place[] = {"x", "y", "z"};

@@ -1,4 +1,4 @@
-/* Rigid bodies, as a part of a run. */
+/* Row of the rigid bodies in the table of parts. */
 #include "rigid/rigid_part.h"
 #include "base/memory.h"
 #include "run/part.h"

@@ -156,18 +156,18 @@ static void test_points_move(void **state)
         memcpy(r.force, force, sizeof force), memcpy(r.moment, moment, sizeof moment);
         if (k == 0)
             for (int d = 0; d < 3; d++) r.force[d] = r.moment[d] = r.weight[d] = 0;
-        rigid_place(&r, X, before);
+        rigid_point_position(&r, X, before);
         rigid_move(&r, 0, dt, dt);
-        rigid_place(&r, X, after);
+        rigid_point_position(&r, X, after);
         if (k == 0) start = r.kinetic, memcpy(r.weight, weight, sizeof weight);
         for (int d = 0; d < 3 && k > 0; d++) /* the kinetic energy is that before the last step's motion */
-            work += (force[d] * r.way[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
+            work += (force[d] * r.increment[d] + moment[d] * r.spin[d] * dt) * (k == 4999 ? 0.5 : 1);
     }
     rigid_velocity(
         &r, (const real[]){0.5 * (before[0] + after[0]), 0.5 * (before[1] + after[1]), 0.5 * (before[2] + after[2])},
         v);
     for (int d = 0; d < 3; d++) assert_near((after[d] - before[d]) / dt, v[d], 3e-3); /* the centre is dt/2 older */
-    for (int d = 0; d < 3; d++) work += weight[d] * (r.x[d] - r.centre[d] - 0.5 * r.way[d]);
+    for (int d = 0; d < 3; d++) work += weight[d] * (r.x[d] - r.centre[d] - 0.5 * r.increment[d]);
     assert_near(r.kinetic, start + work, 2e-3 * work);
     assert_true(work > 0.5);
 }
@@ -267,7 +267,7 @@ static void test_ramp(void **state)
     for (int k = 0; k < 1000; k++) {
         real way[DIM_MAX];
         rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, 2e-3);
-        assert_near(rigid_shift(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
+        assert_near(rigid_displacement(&r, (k + 1) * 2e-3, way), hypot(r.x[0] - 1, r.x[1] - 2), 1e-9);
         for (int d = 0; d < 2; d++) assert_near(way[d], r.x[d] - r.centre[d], 1e-9);
     }
 }
