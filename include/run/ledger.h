@@ -1,24 +1,24 @@
-/* Room `run`: what all parts of a run share. It knows scenes, particles, bonds and loads, but no part; the parts, the
- * step and the engine call it.
+/* Room `run`: what all parts of a run share. The room uses scenes, particles, bonds and loads, and no part of a run;
+ * the parts, the step and the engine use it.
  *
- * The energies of a run, one a row, and the work done on it. */
+ * This header: the energies of a run as a table, and the work done on the run. */
 #ifndef CLEAVE_LEDGER
 #define CLEAVE_LEDGER
 
 #include "base/base.h"
 
-/* X(name, colour, column) for each energy [J]: its name in history.csv, summary.json and struct energy, its colour in
- * pictures (Okabe & Ito 2008, and greys for what leaves), its column in history.csv. Sums run in this order. A new
- * energy is a row here, and its value in sample_energies (sample.c).
+/* X(name, colour, column) for each energy [J]: its name in history.csv, summary.json and struct energy; its colour in
+ * pictures (Okabe & Ito 2008, greys for energies that leave the body); its column in history.csv. Sums are taken in
+ * this order. A new energy needs a row here and its value in sample_energies (sample.c).
  *
- *     kinetic    1/2 m v_before . v_after of the velocity update
+ *     kinetic    1/2 m v_old . v_new of the velocity update
  *     strain     of bonds and material points
- *     plastic    work of their flow
- *     fracture   of bonds broken
+ *     plastic    plastic work of bonds and material points
+ *     fracture   of broken bonds
  *     contact    of pairs in contact (contact.h)
- *     damped     taken by damping, friction and conversion
- *     absorbed   left through absorbing faces (loads/absorbing.h)
- *     viscous    taken by bulk viscosity (step/viscosity.h) */
+ *     damped     dissipated by damping, friction and conversion
+ *     absorbed   lost through absorbing faces (loads/absorbing.h)
+ *     viscous    dissipated by bulk viscosity (step/viscosity.h) */
 #define ENERGY_ROWS(X)                                                                                                 \
     X(kinetic, "#0072b2", 2)                                                                                           \
     X(strain, "#009e73", 3)                                                                                            \
@@ -33,7 +33,7 @@
 #define ENERGY_MEMBER(name, colour, column) real name;
 enum { ENERGIES = ENERGY_ROWS(ENERGY_COUNT) };
 
-/* Energies by name, and the same by row [J]. */
+/* All energies, by name or by row [J]. */
 struct energy {
     union {
         struct {
@@ -43,17 +43,20 @@ struct energy {
     };
 };
 
-/* `name`: of the column and the figure; `label`: the same in words. */
+/* A row of the balance. name: of the column and of the key in the summary; label: the name in words. */
 struct ledger_row {
     const char *name, *label, *colour;
     int column;
 };
-/* The energies, and behind them the work of loads and supports. */
+
+/* Rows: the energies, then the work of loads and supports. */
 enum { LEDGER_WORK = ENERGIES, LEDGER_ROWS };
 extern const struct ledger_row ledger[LEDGER_ROWS];
 
-/* Sum of all energies, and of their sizes [J]. */
+/* Returns the sum of all energies [J]. */
 real energy_sum(const struct energy *u);
+
+/* Returns the sum of the magnitudes of all energies [J]. */
 real energy_size(const struct energy *u);
 
 #endif

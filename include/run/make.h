@@ -1,4 +1,4 @@
-/* What a run makes of its scene and its particles before any part is there. */
+/* Steps of the set-up of a run that need its scene and particles, and no part of the run. */
 #ifndef CLEAVE_RUN_MAKE
 #define CLEAVE_RUN_MAKE
 
@@ -18,18 +18,21 @@ bool run_voids_list(struct material_tables *tables, const struct scene *s, const
 /* Returns the distance up to which bonds (of reach `cutoff` [m]) or cells join particles [m]. */
 real voids_reach(const struct scene *s, real cutoff);
 
-/* Have a body and what is joined to it a surface that is known, none of lists and images? */
+/* Returns true if the surface of a body and of all bodies joined to it is known: no body is made from a list or an
+ * image. */
 bool surface_known(const struct scene *s, int body);
-/* Makes the weights w of bonds near faces, of which `source` keeps the address. REFUSED where particles are on no
- * lattice. */
+
+/* Computes the weights w of bonds near faces (pd.surface moments), which `source` refers to afterwards. REFUSED if the
+ * particles of a body are not on one lattice. */
 status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                         const struct loads *loads, const struct scene *s);
 
-/* REFUSED where bodies that the scene joins are farther apart than `cutoff` [m]. */
+/* Returns REFUSED if two bodies that the scene joins are farther apart than `cutoff` [m]. */
 status joined_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
 
-/* REFUSED for what is driven by place on a grid that knows no reference places, and for displacements that jump or, at
- * the `start` of a run, are not from where particles are. */
+/* Checks prescribed velocities and displacements. REFUSED for values that depend on reference positions, which the grid
+ * of the current frame does not store; for displacements that jump or grow faster than waves; and, at the `start` of a
+ * run, for displacements of particles that are not at their reference positions. */
 status driving_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start);
 
 #endif

@@ -1,6 +1,5 @@
-/* Bookkeeping of the parts of a run. What a part does in a step is called by name (step.c); what each of them has to
- * do for a run as a whole stands in a row here, and the engine's table of parts (engine/parts.c) goes through the rows.
- */
+/* Table of the parts of a run. The step calls a part by the names of its functions (step.c); what every part does for
+ * the run as a whole is a row of this type, and the engine loops over the rows (engine/parts.c). */
 #ifndef CLEAVE_PART
 #define CLEAVE_PART
 
@@ -10,20 +9,22 @@
 #include "output/json.h"
 #include "run/run.h"
 
-/* Any function may be NULL. */
+/* A row of the table. Every function may be NULL. */
 struct part {
     const char *name;
-    size_t at, size;               /* of its pointer in struct run; of what that points to [byte] */
-    void (*free)(struct run *run); /* what it owns, but not itself */
-    /* saves or restores what steps have changed; what follows from the scene is made anew before */
+    size_t at, size;               /* offset in struct run of the pointer to the part; size of the part [byte] */
+    void (*free)(struct run *run); /* releases the arrays of the part, not the part */
+    /* Saves or restores what steps have changed; what follows from the scene is rebuilt before. */
     status (*state)(struct run *run, struct archive *a);
-    int (*columns)(const struct run *run, struct column *column); /* of history.csv; column NULL: only how many */
-    void (*record)(struct run *run, real *value);                 /* their values, at the time of a sample */
-    void (*warn)(const struct run *run, struct warnings *to);     /* of what is allowed but probably not meant */
-    void (*summary)(const struct run *run, struct json *json);    /* its figures in summary.json */
+    /* describes its columns of history.csv; column NULL: counts only; returns the number */
+    int (*columns)(const struct run *run, struct column *column);
+    void (*record)(struct run *run, real *value); /* writes their values at the time of a sample */
+    /* warns of settings that are allowed but probably not intended */
+    void (*warn)(const struct run *run, struct warnings *to);
+    void (*summary)(const struct run *run, struct json *json); /* writes its results to summary.json */
 };
 
-/* Place and size of a part: the member of struct run, and the type that it points to. */
+/* Initialisers of name, offset and size of a part. member: of struct run; type: of the part. */
 #define PART(member, type) .name = #member, .at = offsetof(struct run, member), .size = sizeof(struct type)
 
 #endif

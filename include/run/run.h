@@ -12,50 +12,54 @@
 #include "run/ledger.h"
 #include "scene/scene.h"
 
-/* Where a run is in time. */
+/* Time and steps of a run. */
 struct run_clock {
-    real t, dt, dt_critical; /* [s] */
-    int64_t step, steps;     /* done; of the whole run */
-    int64_t load_step;       /* the one at hand or just done; 0: none */
-    real dt_bears;           /* step in time that the body would bear; of load steps, too [s] */
-    int stride;              /* steps after which all levels of cells are at one time: samples, frames */
+    real t, dt, dt_critical; /* time, time step, critical time step [s] */
+    int64_t step, steps;     /* steps done; steps of the whole run */
+    int64_t load_step;       /* number of the load step in progress or just done; 0: none */
+    real dt_bears;           /* stable time step of the body, also if the run takes load steps [s] */
+    /* steps after which all levels of cells are at the same time: interval of samples and frames */
+    int stride;
 };
 
-/* Constants by material, and the arrays that `source` of the bonds points to. */
+/* Constants of the materials, and the arrays that `source` of the bonds refers to. */
 struct material_tables {
-    struct elastic *elastic;           /* [materials] */
-    struct state_modulus *modulus;     /* [materials] of state-based models, else NULL */
-    real *pair_stretch;                /* [materials^2] critical stretch of a pair of materials */
-    real *pair_yield, *pair_hardening; /* [materials^2] of bonds between two materials; NULL: elastic */
-    int *mirror_axis;                  /* [boundaries] -1: clamped */
-    struct mirror_plane *mirror;       /* planes of symmetry */
-    struct crack_list cracks;          /* pre-cracks with their images in these */
-    struct voids voids;                /* of bodies that are not convex */
-    struct mirror_plane *void_mirror;  /* planes beyond which bodies have images, clamped ones among them */
-    real *neighbour_volume;            /* [n_all] V^H of every particle, volume method only */
-    struct surface_weights surface;    /* of bonds near faces, pd.surface moments only */
-    struct impedance *impedance;       /* [movers][materials] of absorbing faces; NULL: there are none */
-    real wave_speed;                   /* fastest of the materials [m/s] */
+    struct elastic *elastic;       /* [materials] */
+    struct state_modulus *modulus; /* [materials] of state-based models, else NULL */
+    real *pair_stretch;            /* [materials^2] critical stretch of bonds between two materials */
+    /* [materials^2] yield stretch and hardening of bonds between two materials; NULL: elastic */
+    real *pair_yield, *pair_hardening;
+    int *mirror_axis;                 /* [boundaries] axis of a mirror; -1: clamped */
+    struct mirror_plane *mirror;      /* planes of symmetry */
+    struct crack_list cracks;         /* pre-cracks and their mirror images */
+    struct voids voids;               /* of bodies that are not convex */
+    struct mirror_plane *void_mirror; /* planes beyond which bodies have images, clamped ones included */
+    real *neighbour_volume;           /* [n_all] V^H of every particle, pd.surface volume only */
+    struct surface_weights surface;   /* weights of bonds near faces, pd.surface moments only */
+    struct impedance *impedance;      /* [MOVERS][materials] of absorbing faces; NULL: no such faces */
+    real wave_speed;                  /* largest longitudinal wave speed of the materials [m/s] */
 };
 
-/* What all parts of a run work on, by value, and its parts, each of which only those files look into that include its
- * header. Made and freed by the engine (make.c); a part is NULL until then. */
+/* Data of a run: the members that all parts work on, by value, and the parts of the run, each a pointer to a type whose
+ * definition only files that include its header see. Made and released by the engine (make.c); a part is NULL
+ * before. */
 struct run {
-    const struct scene *scene; /* borrowed */
+    const struct scene *scene; /* kept by reference */
     struct kernels kernels;
     struct run_clock clock;
     struct particles part;
-    int optional;       /* WITH_* arrays of the particles */
-    struct cells cells; /* search over reference positions */
+    int optional;       /* WITH_* arrays of the particles (data/particles.h) */
+    struct cells cells; /* neighbour search in the reference configuration */
     struct material_tables tables;
     struct bond_source source;
     struct bonds bonds;
     struct loads loads;
-    struct boundary *boundary;   /* of a static problem, in its pseudo-time (loads_static.c) */
-    enum coupling coupling_kind; /* of the scene; hand-shake where nothing meets */
+    struct boundary *boundary;   /* [boundaries] of a static problem, in its pseudo-time (loads_static.c) */
+    enum coupling coupling_kind; /* of the scene; hand-shake unless the method is adaptive */
     real mass;                   /* of the body [kg] */
-    real damped;                 /* energy that damping and conversion of moving cells took so far [J] */
-    struct warnings warnings;    /* what engine_warn and the run found */
+    /* energy dissipated so far by damping, friction on the grid, and conversion and splitting of cells [J] */
+    real damped;
+    struct warnings warnings; /* of the set-up and of the run */
     struct laps laps;
     struct grid_method *grid;        /* material points on the grid of the current frame: grid/grid_part.h */
     struct reference_frame *frame;   /* bodies in the reference frame: mesh/mesh_part.h */
@@ -71,7 +75,7 @@ struct run {
     struct stability *stability;     /* step/stability.h */
     struct run_report *report;       /* step/report.h */
     struct statics *statics;         /* load steps: quasistatic/statics.h */
-    const struct part *const *parts; /* all of them, up to NULL: run/part.h */
+    const struct part *const *parts; /* table of all parts, terminated by NULL: run/part.h */
     status (*save)(void *run, struct archive *a); /* saves or restores the state between two steps */
 };
 

@@ -1,17 +1,18 @@
-/* Impedances of absorbing faces: by the elastic constants that bonds on the lattice, points on the grid and cells of
- * the mesh have. */
+/* Impedances of absorbing faces, from the elastic constants of bonds on the lattice, points on the grid and cells of
+ * the mesh. */
 #include <math.h>
 
 #include "run/make.h"
 #include "base/memory.h"
 
-/* rho c_p and rho c_s are the roots of rho c11 and rho G. */
+/* Returns rho c_p = sqrt(rho c11) and rho c_s = sqrt(rho shear) [kg/m^2/s]. */
 static struct impedance impedance_of(const struct material *m, real c11, real shear)
 {
     return (struct impedance){sqrt(m->density * c11), sqrt(m->density * shear)};
 }
 
-/* State-based families have the constants of their material, bonds those of the lattice. */
+/* Returns the impedance by the constants of a family on the lattice: those of the material for state-based models,
+ * those of the lattice sums for bond-based ones. */
 static struct impedance impedance_lattice(const struct bond_source *source, const struct scene *scene,
                                           const struct material *m)
 {

@@ -7,9 +7,9 @@
 #include "base/eigenvalue.h"
 #include "base/memory.h"
 
-#define STRAIN 1e-7 /* strain of the trial motion: its square is negligible, round-off is 1e-9 of it */
-/* The iteration ends some parts in a thousand below omega_max^2, and blocks of lattice have 1 or 2 % less than larger
- * blocks. */
+#define STRAIN 1e-7 /* strain of the trial motion: its square is negligible, round-off relative to it about 1e-9 */
+/* Reduction of 2/omega_max, empirical: the iteration ends a few parts in a thousand below omega_max^2, and omega_max^2
+ * of the block of lattice is 1 to 2 % below that of larger blocks. */
 #define MARGIN 0.98
 
 struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
@@ -22,7 +22,7 @@ struct bond_body bond_body_make(struct bonds *b, struct particles *p, bond_force
 
 void bond_body_free(struct bond_body *body) { memory_free(body->root); }
 
-/* Largest component of a displacement u / sqrt(m), u: [dim n]. */
+/* Returns the largest component of the displacement u / sqrt(m); u: [dim][n]. */
 static real largest_motion(const struct bond_body *body, const real *u)
 {
     const struct particles *p = body->p;
@@ -66,17 +66,19 @@ real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force
     return omega2 > 0 ? MARGIN * 2 / sqrt(omega2) : INFINITY;
 }
 
-#define BONDS_DEAR 1e7 /* [bonds] of a block: larger blocks are cut to the size of the body */
+/* limit of the number of bonds of a block, for its cost: larger blocks get the size of the body */
+#define BLOCK_BONDS_MOST 1e7
 
-/* Particles along the edges of a block of lattice: enough for particles with full families and for waves as long as a
- * small cost allows. longest: extent of the body [m]. Returns the number of particles of the block. */
+/* Computes the numbers of particles along the edges of a block of lattice: large enough for particles with full
+ * families and, within a small cost, for long waves. longest: extent of the body [dim, m]. Returns the number of
+ * particles. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};
     const int dim = space_dim(f->space);
     int64_t n = 1;
     for (int d = 0; d < dim; d++) n *= edge[d] = (2 * (int64_t)ceil(f->cutoff / f->spacing) + 4) * times[dim];
-    if ((real)n * f->full / f->cell_volume < BONDS_DEAR) return n;
+    if ((real)n * f->full / f->cell_volume < BLOCK_BONDS_MOST) return n;
     n = 1;
     for (int d = 0; d < dim; d++) {
         if (longest[d] / f->spacing + 2 < (real)edge[d]) edge[d] = (int64_t)(longest[d] / f->spacing) + 2;

@@ -1,10 +1,10 @@
-/* Which prescribed velocities and displacements a run bears. */
+/* Checks of prescribed velocities and displacements. */
 #include <math.h>
 
 #include "run/make.h"
 
-/* REFUSED for what goes by place on the grid of the current frame. */
-static status placed_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
+/* Returns REFUSED if boundary b depends on reference positions and drives points on the grid of the current frame. */
+static status position_dependent_on_grid(const struct boundary *b, const struct particles *p, const struct load *l)
 {
     for (int64_t k = 0; k < l->n && !b->rotates && drives_by_place(b); k++)
         if (particle_on_grid(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
@@ -15,15 +15,16 @@ static status placed_on_grid(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-#define AT_PLACE 1e-9 /* of a spacing: a displacement so small is none */
+#define DISPLACEMENT_TOLERANCE 1e-9 /* tolerance of displacements at the start [spacings] */
 
-/* REFUSED for particles that a displacement drives from reference places and that start elsewhere. */
-static status starts_at_place(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
+/* Returns REFUSED if a particle driven by a displacement does not start at its reference position. */
+static status starts_at_reference(const struct boundary *b, const struct particles *p, const struct load *l,
+                                  real spacing)
 {
     for (int64_t k = 0; k < l->n; k++)
         for (int d = 0; d < p->dim; d++) {
             const real off = p->x[d][l->particle[k]] - p->X[d][l->particle[k]];
-            if (b->components >> d & 1 && !(fabs(off) <= AT_PLACE * spacing))
+            if (b->components >> d & 1 && !(fabs(off) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
                                   "boundary %s: a displacement is from the reference place, and `initial` begins with "
                                   "one of %.4g m along %c there; a velocity, or no initial state there, is expected",
@@ -32,14 +33,14 @@ static status starts_at_place(const struct boundary *b, const struct particles *
     return OK;
 }
 
-/* REFUSED for a displacement at t = 0, which would be a jump within the first step. */
+/* Returns REFUSED if the displacement at t = 0 is not 0, which would be a jump within the first step. */
 static status starts_at_rest(const struct boundary *b, const struct particles *p, const struct load *l, real spacing)
 {
     for (int64_t k = 0; k < l->n; k++) {
         real u[DIM_MAX];
         load_displacement_at(l, p, k, 0, u);
         for (int d = 0; d < p->dim; d++)
-            if (!(fabs(u[d]) <= AT_PLACE * spacing))
+            if (!(fabs(u[d]) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
                                   "boundary %s: its displacement is %.4g m at t = 0 already, a jump within the first "
                                   "step; one that grows from 0 is expected, as with time: {ramp: {until: 100 us}}",
@@ -56,9 +57,9 @@ status driving_check(const struct loads *loads, const struct particles *p, const
         const struct load *l = &loads->load[k];
         const struct boundary *b = l->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        TRY(status_at(b->place, placed_on_grid(b, p, l)));
+        TRY(status_at(b->place, position_dependent_on_grid(b, p, l)));
         if (!b->displaces) continue;
-        if (start) TRY(status_at(b->place, starts_at_place(b, p, l, s->spacing)));
+        if (start) TRY(status_at(b->place, starts_at_reference(b, p, l, s->spacing)));
         if (s->solver != SOLVER_EXPLICIT) continue;
         TRY(status_at(b->place, starts_at_rest(b, p, l, s->spacing)));
         const real speed = load_displacing_speed(l, p, s->duration);

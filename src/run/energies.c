@@ -9,8 +9,7 @@
 
 /* ---- sums over particles ----------------------------------------------------------------------------------------- */
 
-/* Particles or nodes: masses [kg] and velocities [m/s]; entries with FLAG_MESHED do not count, `flag` NULL: all
- * count. */
+/* Masses [kg] and velocities [m/s] of particles or nodes. flag: entries with FLAG_MESHED are skipped; NULL: none. */
 struct movers {
     int dim;
     const real *mass;
@@ -18,10 +17,11 @@ struct movers {
     const uint8_t *flag;
 };
 
-/* Sums skip particles moved by the nodes of a mesh this many at a time: few that do not count are visited. */
+/* Size of the pieces in which the sums test flags: pieces whose particles are all moved by the nodes of a mesh are
+ * skipped as a whole. */
 enum { MOTION_PIECE = 64 };
 
-/* Are particles first .. end - 1 all moved by the nodes of a mesh? */
+/* Returns true if particles first .. end - 1 are all moved by the nodes of a mesh. */
 static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
 {
     uint8_t all = FLAG_MESHED;
@@ -29,12 +29,12 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
-/* Kinetic energy [J], momentum by component and the sum of |m v| [kg m/s]; the sums of a piece stay in registers. */
+/* Kinetic energy [J], momentum by component and sum of |m v| [kg m/s]. Sums of a piece are kept in registers. */
 struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the motion of entries first .. end - 1; `meshed`: flags are tested, `all`: momentum and |m v|, too. */
+/* Adds the motion of entries first .. end - 1 to *to. meshed: flags are tested; all: also momentum and |m v|. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const bool all)
 {
@@ -74,7 +74,7 @@ static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, in
     }
 }
 
-/* Have nodes first .. end - 1 no mass? Coarse cells leave most of those of level 0 so. */
+/* Returns true if nodes first .. end - 1 have no mass, as most nodes of level 0 inside coarse cells. */
 static bool none_has_mass(const real *mass, int64_t first, int64_t end)
 {
     real most = 0;
@@ -83,7 +83,8 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Motion of entries first .. end - 1: all sums, or the kinetic energy alone, which needs no roots. */
+/* Returns the motion of entries first .. end - 1. all: all sums; else the kinetic energy alone, without square
+ * roots. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
 {
     struct motion sum = {0};
@@ -116,8 +117,8 @@ struct kick {
     real dt;
 };
 
-/* Adds a quarter of m (change of velocity)^2 of particles first .. end - 1 to the sum [J]. Driven particles are left
- * out: they move as prescribed, and their work is booked as they move. */
+/* Returns sum plus 1/4 m (change of velocity)^2 of particles first .. end - 1 [J]. Driven particles do not contribute:
+ * their motion is prescribed and their work is booked with it. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -131,7 +132,7 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* That of a block. What is moved by nodes does not count. */
+/* Adds the excess of a block of particles to *sum; points of a mesh do not contribute. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -149,7 +150,7 @@ real diagnostics_kick(const struct particles *p, real *const *before, real dt)
     return sum;
 }
 
-/* Momentum by component, and behind them the sum of |m v|. */
+/* Adds the momentum by component, then the sum of |m v|, to sum [dim + 1]. */
 static void momentum_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct movers *m = context;
@@ -165,7 +166,7 @@ struct strain_sum {
     const struct material *m;
     const struct partial_stress *partial;
     const int32_t *list;
-    real (*compliance)[SYM_MAX * SYM_MAX]; /* by material */
+    real (*compliance)[SYM_MAX * SYM_MAX]; /* [materials] C^-1 in symmetric components */
 };
 
 real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
@@ -178,8 +179,8 @@ real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
     return 1 - trace / n;
 }
 
-/* Additional strain energy in plane strain after plastic flow [J]: with sigma_zz = nu (sigma_xx + sigma_yy) + delta the
- * energy per volume has the additional term delta^2/(2E). */
+/* Returns the additional strain energy of point i in plane strain after plastic flow [J]: for sigma_zz = nu (sigma_xx +
+ * sigma_yy) + delta the energy density has the additional term delta^2/(2E). */
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
@@ -187,7 +188,7 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
-/* Strain energy of the k-th listed particle on the grid [J]; 0 of peridynamic particles. */
+/* Returns the strain energy of the k-th listed particle if it is a material point, else 0 [J]. */
 static real strain_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -199,7 +200,7 @@ static real strain_term(const void *context, int64_t k)
     for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
     stress_given(p, s->partial, i, given, p->dim);
     for (int a = 0; a < n; a++) {
-        real strain = 0, times = a < p->dim ? 1 : 2; /* a shear component stands for two */
+        real strain = 0, times = a < p->dim ? 1 : 2; /* a shear component occurs twice in the tensor */
         for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
         sum += times * given[a] * strain;
     }
@@ -225,7 +226,7 @@ real diagnostics_strain(const struct particles *p, const struct material *m, con
     return diagnostics_strain_of(p, m, partial, p->list_free, p->n_free);
 }
 
-/* Plastic work of a point, V times the integral of (sigma_y + H a) da [J]. */
+/* Returns the plastic work of the k-th listed particle: V times the integral of (sigma_y + H a) da [J]. */
 static real plastic_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
@@ -259,8 +260,8 @@ real diagnostics_momentum_of(const struct particles *p, const struct grid *const
     return sum[p->dim];
 }
 
-/* State precompute is anew at the current positions: a step moves particles after its forces, so that stresses in a
- * turning body would else include the rotation of a step. */
+/* The states are recomputed at the present positions: a step moves particles after its forces, and the stress in a
+ * rotating body would otherwise contain the rotation of a step. */
 void run_stress(struct bonds *b, struct particles *p, const struct bond_source *s, const struct kernels *kernels)
 {
     states_precompute(b, p, s);

@@ -1,8 +1,8 @@
-/* Are bodies that the scene joins near enough to have bonds? */
+/* Check that bodies joined by the scene are near enough for bonds. */
 #include "base/memory.h"
 #include "run/make.h"
 
-/* Does a particle of one lie within the horizon of a particle of the other, by their shapes? */
+/* Returns true if a particle inside shape `one` has a neighbour within `cutoff` [m] inside shape `other`. */
 static bool are_near(const struct particles *p, const struct cells *cells, real cutoff, const struct region *one,
                      const struct region *other, real tolerance)
 {

@@ -1,11 +1,12 @@
-/* Warns how bonds that yield differ from von Mises' law. */
+/* Warning how yielding bonds differ from von Mises plasticity. */
 #include "run/say.h"
 
-/* What a body of bonds bears that yield one by one, over von Mises' law, without hardening: bonds of all directions
- * carry K s_y each per angle, stretched within an angle a of the pull and shortened beyond; sides without stress fix
- * a. Plane: a - sin(2a)/2 = pi/4, sigma = K s_y (2a + sin(2a) - pi/2), K = 3E/pi; in plane strain 16/15 of it beside
- * a limit of 2/sqrt(3) sigma_y. Space: c - c^3/3 = 1/3 for c = cos a, sigma = 2 (1 - 2 c^3) sigma_y. Shear: the mean
- * of the same bonds beside sigma_y/sqrt(3). across: cot(a)^2, the ratio of plastic strains. */
+/* Strength of a body of bonds that yield one by one, relative to von Mises' law without hardening. Bonds of all
+ * directions carry K s_y per unit angle, tensile within an angle a of the load direction and compressive beyond; zero
+ * lateral stress determines a. Plane stress: a - sin(2a)/2 = pi/4, sigma = K s_y (2a + sin(2a) - pi/2), K = 3E/pi;
+ * plane strain: 16/15 of this value relative to 2/sqrt(3) sigma_y. Space: c - c^3/3 = 1/3 for c = cos a, sigma = 2 (1 -
+ * 2 c^3) sigma_y. shear: mean over the same bonds relative to sigma_y/sqrt(3). across: cot(a)^2, ratio of the plastic
+ * strains. */
 static const struct {
     const char *body;
     real pull, shear, across;

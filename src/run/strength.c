@@ -1,5 +1,5 @@
-/* Where strength scatters: bounds of stresses are compared with the trigger of the weakest point of a material, the
- * points themselves with their own (point_trigger). */
+/* Scattered strength: bounds of stresses are compared with the trigger of the weakest point of a material, the points
+ * themselves with their own trigger (point_trigger). */
 #include "run/make.h"
 
 void strength_found(struct elastic *elastic, const struct particles *p)

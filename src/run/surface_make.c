@@ -1,4 +1,4 @@
-/* Weights of bonds near faces, and where the lattice that they require ends. */
+/* Weights of bonds near faces, with messages where the lattice that they require is interrupted. */
 #include <math.h>
 #include <stdio.h>
 
@@ -6,7 +6,7 @@
 
 enum { TEXT_LONGEST = 96 };
 
-/* Writes numbers as (a, b, c). */
+/* Writes a [dim] to text as "(a, b, c)". Returns text. */
 static const char *vector_in_words(char *text, const real *a, int dim)
 {
     for (int d = 0, used = 0; d < dim; d++)
@@ -15,7 +15,7 @@ static const char *vector_in_words(char *text, const real *a, int dim)
     return text;
 }
 
-/* Number of the mirror that lies half-way between two places along an axis; -1: none. */
+/* Returns the number of the mirror midway between two positions along an axis, or -1. */
 static int mirror_between(const struct loads *loads, const real *X, const real *Y, int axis)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -36,7 +36,7 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* REFUSED: the rows of particle i are not on, nor half a spacing beside, the plane of mirror m. */
+/* Refuses a body whose mirror m is neither on a row of its lattice nor half a spacing from one. i: a particle of it. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
@@ -50,7 +50,7 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
                       "xyz"[m->axis]);
 }
 
-/* REFUSED: particles i < n and j are not whole spacings apart. */
+/* Refuses two particles i < n and j whose distance is not a whole number of spacings along each axis. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

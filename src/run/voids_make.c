@@ -1,11 +1,11 @@
-/* Voids of the bodies of a run: what bonds do not cross, and what cuts the mesh. */
+/* Voids of the bodies of a run, which bonds do not cross and which cut the mesh. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "run/make.h"
 
-/* Cells of the mesh around one node hold points no farther apart along an axis [cells]. */
+/* Largest distance along an axis of points in the cells of the mesh around one node, plus a margin [cells]. */
 #define CELLS_REACH 1.515
 
 real voids_reach(const struct scene *s, real cutoff)
@@ -30,7 +30,8 @@ bool surface_known(const struct scene *s, int body)
     return known;
 }
 
-/* Lists the solids of bodies that may have voids and whose surface is known: of bodies joined to others all. */
+/* Lists in v the shapes of bodies that may have voids and whose surface is known; with a body, all bodies joined to
+ * it. */
 static void list_shapes(const struct scene *s, struct voids *v)
 {
     uint8_t *wanted = NEW("voids.wanted", s->bodies, uint8_t);
