@@ -1,10 +1,9 @@
-/* The active set of material points: maps between points and grid leave out the cells that no wave has reached. A
- * point is inactive where its velocity, velocity gradient, stress and force are 0 to the last bit, no load acts on
- * it and no bond reaches it. A cell of inactive points gives and takes zeros only, and mass to nodes that do not
- * move: leaving it out changes no bit. In one step motion spreads from cell to cell through shared nodes, once per
- * map. Every ACTIVE_POINTS_STEPS steps the cells within that many steps' reach of an active point become active.
- * Once all cells are active the search ends; after points are sorted anew all cells are active until the next
- * search. */
+/* The active set of material points: transfers between points and grid skip the cells of a region still at rest. A
+ * point is inactive if its velocity, velocity gradient, stress and force are exactly 0, no load acts on it and it has
+ * no bond. A cell of inactive points contributes zeros, and mass to nodes that do not move: skipping the cell changes
+ * no bit of the result. In one step motion spreads from cell to cell through shared nodes, once per transfer. Every
+ * ACTIVE_POINTS_STEPS steps the cells that motion can enter within as many steps become active. Once all cells are
+ * active the search ends; after points are sorted anew all cells are active until the next search. */
 #ifndef CLEAVE_ACTIVE_POINTS
 #define CLEAVE_ACTIVE_POINTS
 
@@ -14,20 +13,22 @@
 #include "data/transfer_order.h"
 
 struct active_points {
-    bool over; /* all cells are active, for the rest of the run */
+    bool over; /* all cells are active for the rest of the run */
     int64_t nodes;
-    uint8_t *active_cell, *near; /* [nodes] by the lowest node of the cell; near: reached next */
+    uint8_t *active_cell, *near; /* [nodes] indexed by the lowest node of the cell; near: becomes active */
     struct transfer_order active;
 };
 
-enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between searches */
+enum { ACTIVE_POINTS_STEPS = 4 }; /* steps between two searches */
 
-/* The order of the active points, a part of `all`; `all` itself where all are active. `now`: the order used until
- * now. Walls of `grid` are those of the previous step. */
+/* Returns the order of the active points, a subset of `all` that stays with r, or `all` itself if all are active. now:
+ * the order used up to this step; grid: with the walls of the previous step. */
 const struct transfer_order *active_points_update(struct active_points *r, const struct transfer_order *all,
                                                   const struct transfer_order *now, const struct particles *p,
                                                   const struct grid *grid, const struct bonds *b, const struct loads *l,
                                                   enum shape shape, enum transfer transfer);
+
+/* Releases all arrays. */
 void active_points_free(struct active_points *r);
 
 #endif

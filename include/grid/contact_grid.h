@@ -1,4 +1,5 @@
-/* Contact of material points: bodies with a grid each, which meet at nodes that points of two of them reach. */
+/* Contact of material points between bodies, each of which has a grid of its own: at nodes that points of two bodies
+ * reach. */
 #ifndef CLEAVE_CONTACT_GRID
 #define CLEAVE_CONTACT_GRID
 
@@ -7,47 +8,63 @@
 #include "data/transfer_order.h"
 #include "data/particles.h"
 
-/* The grid of a body, its points, and the nodes that they can reach, counted from the anchor. */
+/* The grid of a body, its points, and the range of nodes that the points reach, counted from the anchor of the grid. */
 struct grid_side {
     struct grid *grid;
     const struct transfer_order *order;
     int64_t from[DIM_MAX], to[DIM_MAX];
 };
 
-/* A node that two of them reach. */
+/* A node that points of two bodies reach. */
 struct grid_contact_node {
     int side[2];
-    int64_t at[2];                         /* in their grids */
-    real leaning[DIM_MAX];                 /* difference of the gradients of both masses [kg] */
-    real normal[DIM_MAX];                  /* from the first to the second */
-    real impulse[DIM_MAX], after[DIM_MAX]; /* given to the second in this step [N s]; relative velocity then [m/s] */
-    real reach[2];                         /* along it: largest of the first's points, least of the second's [m] */
+    int64_t at[2]; /* index of the node in the two grids */
+    /* difference of the gradients of the nodal masses, second minus first body [kg] */
+    real mass_slope[DIM_MAX];
+    real normal[DIM_MAX]; /* unit normal from the first to the second body */
+    /* impulse on the second body in this step [N s]; relative velocity after it [m/s] */
+    real impulse[DIM_MAX], after[DIM_MAX];
+    /* along the normal: largest coordinate of points of the first body, smallest of the second [m] */
+    real reach[2];
 };
 
 struct grid_contact {
-    real friction, spacing, half_width; /* [1]; distance of points in touch [m]; of their shapes beyond a cell [m] */
-    real smallest_mass;                 /* of a node that moves [kg] */
+    /* coefficient of friction [1]; distance of points at contact, reach of their shapes beyond a cell [m] */
+    real friction, spacing, half_width;
+    real smallest_mass; /* of a node that moves [kg] */
     int64_t nodes;
-    struct grid_contact_node *node; /* [nodes] of this step */
-    real begun;                     /* work over the velocities before the step, half of it [J] */
+    struct grid_contact_node *node; /* [nodes] of the present step */
+    real begun;                     /* work of the impulses over half the velocities before the step [J] */
     int sides;
-    real *taken;                  /* [sides^2] energy that contact of two bodies has taken so far [J] */
-    int64_t touching, nodes_most; /* in touch: in the last step, most so far */
-    real began, ended;            /* of all contact so far, NAN: none yet [s] */
+    real *dissipated;             /* [sides^2] energy that contact of two bodies has dissipated so far [J] */
+    int64_t touching, nodes_most; /* nodes in contact: in the last step, most so far */
+    real began, ended;            /* first and last time of contact, NAN: none so far [s] */
 };
 
-/* An account for each two of so many sides. */
+/* Allocates the energy accounts for contact between `sides` bodies. */
 void grid_contact_make(struct grid_contact *c, int sides);
+
+/* Initialises *a with the grid, the sorted points and their range of nodes. g and order are kept by reference. */
 void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p);
-/* Nodes at which any two of the sides, [c->sides], may meet in this step, by masses and points. */
+
+/* Lists the nodes that points of any two of the sides [c->sides] reach, with normals and gaps. */
 void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
-/* Exchanges momentum where they touch and approach: of the velocities that points receive, and their change. Returns
- * the energy taken [J]; remapped: what FLIP takes beyond that, whose points have the velocities of the second map. */
+
+/* Exchanges momentum at listed nodes whose bodies touch and approach: changes the nodal velocities and their
+ * increments. Returns the energy dissipated [J]. */
 real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side);
+
+/* Returns the energy that contact dissipates further [J] because FLIP strains points by the velocities of the second
+ * map. */
 real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side);
-/* Notes that the time is t [s]. */
+
+/* Records t [s] as time of contact if nodes are in contact. */
 void grid_contact_clock(struct grid_contact *c, real t);
+
+/* Saves or restores accounts and times of contact. */
 status grid_contact_archive(struct grid_contact *c, struct archive *a);
+
+/* Releases all arrays. */
 void grid_contact_free(struct grid_contact *c);
 
 #endif

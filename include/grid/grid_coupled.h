@@ -1,7 +1,7 @@
-/* The couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells
- * at the interface (PM, PG), or all of them (PMG, PGG: one unified grid). Grid-coupled particles give mass, momentum
- * and the force of their bonds to the nodes and take velocity and position from them, but give no stress: their bonds
- * are their stress. */
+/* Couplings of Zeng et al. 2021, in which the grid also moves peridynamic particles: those in the cells at the
+ * interface (PM, PG) or all of them (PMG, PGG: one unified grid). These grid-coupled particles contribute mass,
+ * momentum and bond forces to the nodes and receive velocity and position from them, but contribute no stress: their
+ * bonds replace the stress. */
 #ifndef CLEAVE_GRID_COUPLED
 #define CLEAVE_GRID_COUPLED
 
@@ -10,19 +10,22 @@
 #include "scene/requests.h"
 
 struct grid_coupled {
-    struct transfer_order order; /* of the grid-coupled particles */
-    int32_t *list;               /* [n] their numbers, ascending */
-    uint8_t *occupied;           /* cells of the grid that hold a material point */
+    struct transfer_order order; /* cell order of the grid-coupled particles */
+    int32_t *list;               /* [n] grid-coupled particles in ascending order */
+    uint8_t *occupied;           /* [nodes] 1: the cell holds a material point */
     int64_t n;
 };
 
-/* Before the forces of a step: lists and flags (FLAG_GRID_COUPLED) the peridynamic particles that the grid moves, and
- * sorts them. At the interface these are the particles in cells that share a node with a cell that holds a material
- * point; so the choice does not depend on the shape functions. The grid must cover all material points, in a unified
- * grid all. */
+/* Selects the peridynamic particles that the grid moves in this step, before its forces: lists, flags
+ * (FLAG_GRID_COUPLED) and sorts them. At the interface these are the particles in cells that share a node with a cell
+ * holding a material point, whatever the shape functions. g must cover all material points, in a unified grid all
+ * particles. */
 void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
-/* None: no material point is left. */
+
+/* Clears the selection, if no material points are left. */
 void grid_coupled_none(struct grid_coupled *c, struct particles *p);
+
+/* Releases all arrays. */
 void grid_coupled_free(struct grid_coupled *c);
 
 #endif

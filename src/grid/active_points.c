@@ -1,11 +1,11 @@
-/* Which cells of material points nothing has reached. */
+/* Search for the active cells of material points. */
 #include "grid/active_points.h"
 
 #include <string.h>
 
 #include "base/memory.h"
 
-/* A plane of symmetry moves no particle that is at rest. */
+/* Returns true if a load may move a particle at rest, as planes of symmetry do not. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
 static bool active_points_is_inactive(const struct loads *l, const struct particles *p, const struct bonds *b,
@@ -26,14 +26,14 @@ static int64_t active_points_cell_of(const struct grid *g, const struct particle
     return I;
 }
 
-/* Every cell within `reach` of a marked one along an axis is marked. */
+/* Marks in `to` every cell within `reach` cells along an axis of a cell marked in `from`. */
 static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int axis, int64_t reach)
 {
     const int64_t stride = g->stride[axis], count = g->count[axis], lines = g->n / count;
 #pragma omp parallel for schedule(static)
     for (int64_t line = 0; line < lines; line++) {
         const int64_t start = line / stride * stride * count + line % stride;
-        int64_t last = -reach - 1; /* marked so far */
+        int64_t last = -reach - 1; /* last marked cell so far */
         for (int64_t k = 0; k < count; k++) {
             if (from[start + k * stride]) last = k;
             to[start + k * stride] = k - last <= reach;
@@ -46,15 +46,16 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
     }
 }
 
-/* Cells that a map joins share a node: the next one, or, where shapes reach over a cell, the third; FLIP maps twice.
- * Planes of symmetry join the nodes on both sides of them. */
+/* Returns the number of cells over which motion spreads in a step. Cells are connected through a shared node: to the
+ * next cell, or to the third if shapes reach beyond a cell; FLIP maps twice. Planes of symmetry connect nodes on both
+ * sides. */
 static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
 {
     const int shared = shape == SHAPE_LINEAR ? 1 : 3;
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Cells that were left out until now are still inactive. */
+/* Marks the active cells in r->active_cell. Cells outside the order `now` are still at rest. */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -78,7 +79,7 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* The cells of `all` that are marked, in their order. */
+/* Makes r->order from the marked cells of `all`, in the same order. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

@@ -1,28 +1,29 @@
-/* Bodies that meet on grids of their own: at nodes that points of two bodies reach, what approaches is held back, and
- * rubs (Bardenhagen, Brackbill & Sulsky 2000). The normal n at a node, from a to b, is that of the difference of the
- * gradients of both masses (of bodies in touch what leans aside cancels); the gap is that of their points,
- *     g = min over b of x . n - max over a of x . n - D,   of points whose shapes reach the node,
- * since masses reach one another as soon as bodies share a cell. Where g <= 0 and (v_a - v_b) . n > 0
+/* Contact of bodies with grids of their own (Bardenhagen, Brackbill & Sulsky 2000). At nodes that points of two bodies
+ * a and b reach, approach is prevented and sliding has friction. The normal n at a node, from a to b, has the direction
+ * of the difference of the gradients of both nodal masses (tangential parts cancel for bodies in contact). The gap is
+ * that of the points whose shapes reach the node, since masses overlap as soon as bodies share a cell:
+ *     g = min over b of x . n - max over a of x . n - D
+ * If g <= 0 and (v_a - v_b) . n > 0 the impulse
  *     J_n = m_a m_b/(m_a + m_b) (v_a - v_b) . n,   |J_t| <= friction J_n
- * is taken from a and given to b: momentum is kept to round-off, and energy is taken only. The velocities of the second
- * map (FLIP), which strain points, are left alone: changed too, discs that meet gained 9 % of energy. Nodes in contact
- * are few: serial. */
+ * acts on b, and its negative on a: momentum is conserved to round-off and energy only dissipated. The velocities of
+ * the second map (FLIP), which strain points, are unchanged: with contact in them, too, colliding discs gained 9 % of
+ * energy. Few nodes are in contact: the loops are serial. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "grid/contact_grid.h"
 
-#define AROUND 2 /* cells, over which normals are smoothed */
+#define AROUND 2 /* range over which normals are smoothed [cells] */
 
-/* ---- where two bodies meet --------------------------------------------------------------------------------------- */
+/* ---- nodes shared by two bodies ---------------------------------------------------------------------------------- */
 
-/* Nodes that two grids share, counted from the anchor. */
+/* Range of nodes that two grids share, counted from the anchor. */
 struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
 
-/* Nodes that points of both may have reached; none: false. */
+/* Finds the range of nodes that points of both sides may reach. Returns false if there are none. */
 static bool shared_find(struct shared *s, const struct grid_side *a, const struct grid_side *b)
 {
     s->n = 1;
@@ -37,7 +38,7 @@ static bool shared_find(struct shared *s, const struct grid_side *a, const struc
     return true;
 }
 
-/* Index of shared node k in a grid. */
+/* Returns the index in grid g of node number k of the range. */
 static int64_t shared_node(const struct shared *s, const struct grid *g, int64_t k)
 {
     int64_t I = 0;
@@ -48,17 +49,19 @@ static int64_t shared_node(const struct shared *s, const struct grid *g, int64_t
     return I;
 }
 
+/* Returns the difference of the masses of the two neighbours of node I along axis d [kg]. */
 static real slope_of(const struct grid *g, int64_t I, int d)
 {
     return g->mass[I + g->stride[d]] - g->mass[I - g->stride[d]];
 }
 
-/* Difference of the gradients of both masses, from a to b [kg]. */
-static void leaning_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
+/* Computes the difference of the gradients of both masses, b minus a [kg]. */
+static void mass_slope_find(struct grid_contact_node *node, const struct grid *a, const struct grid *b)
 {
-    for (int d = 0; d < a->dim; d++) node->leaning[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
+    for (int d = 0; d < a->dim; d++) node->mass_slope[d] = slope_of(b, node->at[1], d) - slope_of(a, node->at[0], d);
 }
 
+/* Appends an empty node to the list. */
 static struct grid_contact_node *node_add(struct grid_contact *c)
 {
     GROW("contact.nodes", c->node, c->nodes + 1);
@@ -67,39 +70,40 @@ static struct grid_contact_node *node_add(struct grid_contact *c)
     return node;
 }
 
-/* Lists nodes with mass of both from `first` on, and where each stands: place[shared node], -1: not listed. */
+/* Appends the nodes on which both sides have mass. slot: [s->n] position in the list of each node of the range, -1: not
+ * listed. */
 static void shared_nodes_find(struct grid_contact *c, const struct shared *s, const struct grid_side *side, int a,
-                              int b, int32_t *place)
+                              int b, int32_t *slot)
 {
     const struct grid *g = side[a].grid, *h = side[b].grid;
     const real least = real_max(c->smallest_mass, g->light_mass);
     for (int64_t k = 0; k < s->n; k++) {
         const int64_t I = shared_node(s, g, k), J = shared_node(s, h, k);
-        place[k] = -1;
+        slot[k] = -1;
         if (!(g->mass[I] > least && h->mass[J] > least)) continue;
         struct grid_contact_node *node = node_add(c);
         node->side[0] = a, node->side[1] = b, node->at[0] = I, node->at[1] = J;
-        leaning_find(node, g, h);
-        place[k] = (int32_t)(c->nodes - 1);
+        mass_slope_find(node, g, h);
+        slot[k] = (int32_t)(c->nodes - 1);
     }
 }
 
-/* Unit normals: leanings of the nodes up to two cells away are added, as single ones follow the lattices of both bodies
- * and are 10 degrees off on curved faces. */
-static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *place)
+/* Computes unit normals from mass gradients summed over nodes up to two cells away: single gradients follow the
+ * lattices of both bodies and are up to 10 degrees off on curved faces. */
+static void normals_find(struct grid_contact *c, const struct shared *s, int dim, const int32_t *slot)
 {
     for (int64_t k = 0; k < s->n; k++) {
         const int64_t x = k % s->count[0], y = k / s->count[0] % s->count[1], z = k / s->count[0] / s->count[1];
         real sum[DIM_MAX] = {0}, size2 = 0;
-        if (place[k] < 0) continue;
+        if (slot[k] < 0) continue;
         for (int64_t w = z - AROUND; w <= z + AROUND; w++)
             for (int64_t v = y - AROUND; v <= y + AROUND; v++)
                 for (int64_t u = x - AROUND; u <= x + AROUND; u++) {
                     if (u < 0 || v < 0 || w < 0 || u >= s->count[0] || v >= s->count[1] || w >= s->count[2]) continue;
-                    const int32_t at = place[(w * s->count[1] + v) * s->count[0] + u];
-                    for (int d = 0; d < dim && at >= 0; d++) sum[d] += c->node[at].leaning[d];
+                    const int32_t at = slot[(w * s->count[1] + v) * s->count[0] + u];
+                    for (int d = 0; d < dim && at >= 0; d++) sum[d] += c->node[at].mass_slope[d];
                 }
-        struct grid_contact_node *node = &c->node[place[k]];
+        struct grid_contact_node *node = &c->node[slot[k]];
         for (int d = 0; d < dim; d++) size2 += square(sum[d]);
         for (int d = 0; d < dim; d++) node->normal[d] = size2 > 0 ? sum[d] / sqrt(size2) : 0;
     }
@@ -107,9 +111,9 @@ static void normals_find(struct grid_contact *c, const struct shared *s, int dim
 
 /* ---- gaps -------------------------------------------------------------------------------------------------------- */
 
-/* Point i of side 0 or 1 at shared nodes that its shape reaches. */
+/* Extends the reach of side 0 or 1 along the normal by point i, at all listed nodes that its shape reaches. */
 static void point_reach(struct grid_contact *c, const struct shared *s, const struct grid *g, const struct particles *p,
-                        int32_t i, int side, const int32_t *place)
+                        int32_t i, int side, const int32_t *slot)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, k[DIM_MAX];
     for (int d = 0; d < g->dim; d++) {
@@ -121,7 +125,7 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
     for (k[2] = low[2]; k[2] <= high[2]; k[2]++)
         for (k[1] = low[1]; k[1] <= high[1]; k[1]++)
             for (k[0] = low[0]; k[0] <= high[0]; k[0]++) {
-                const int32_t at = place[(k[2] * s->count[1] + k[1]) * s->count[0] + k[0]];
+                const int32_t at = slot[(k[2] * s->count[1] + k[1]) * s->count[0] + k[0]];
                 if (at < 0) continue;
                 struct grid_contact_node *node = &c->node[at];
                 real along = 0;
@@ -130,8 +134,9 @@ static void point_reach(struct grid_contact *c, const struct shared *s, const st
             }
 }
 
+/* Extends the reach of side 0 or 1 along the normals by all points of the side (point_reach). */
 static void points_reach(struct grid_contact *c, const struct shared *s, const struct grid_side *a,
-                         const struct particles *p, int side, const int32_t *place)
+                         const struct particles *p, int side, const int32_t *slot)
 {
     const struct transfer_order *o = a->order;
     for (int32_t cell = 0; cell < o->cells; cell++) {
@@ -142,7 +147,7 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
             near = at >= -2 && at <= s->count[d] + 1;
         }
         for (int32_t k = o->cell_start[cell]; near && k < o->cell_start[cell + 1]; k++)
-            point_reach(c, s, a->grid, p, o->particle[k], side, place);
+            point_reach(c, s, a->grid, p, o->particle[k], side, slot);
     }
 }
 
@@ -150,15 +155,15 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 void grid_contact_make(struct grid_contact *c, int sides)
 {
-    memory_free(c->taken);
+    memory_free(c->dissipated);
     c->sides = sides;
-    c->taken = NEW("contact.taken", sides * sides, real);
+    c->dissipated = NEW("contact.taken", sides * sides, real);
 }
 
 void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p)
 {
     *a = (struct grid_side){.grid = g, .order = order};
-    for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN; /* nothing yet */
+    for (int d = 0; d < DIM_MAX; d++) a->from[d] = INT32_MAX, a->to[d] = INT32_MIN; /* empty range */
     for (int32_t cell = 0; cell < order->cells; cell++)
         for (int d = 0; d < g->dim; d++) {
             const int64_t k = grid_cell(g, d, p->x[d][order->particle[order->cell_start[cell]]]);
@@ -175,41 +180,43 @@ void grid_contact_find(struct grid_contact *c, const struct grid_side *side, con
             struct shared s;
             const int64_t before = c->nodes;
             if (!shared_find(&s, &side[a], &side[b])) continue;
-            int32_t *place = BARE("contact.place", s.n, int32_t);
-            shared_nodes_find(c, &s, side, a, b, place);
+            int32_t *slot = BARE("contact.slot", s.n, int32_t);
+            shared_nodes_find(c, &s, side, a, b, slot);
             if (c->nodes > before) {
-                normals_find(c, &s, side[a].grid->dim, place);
-                points_reach(c, &s, &side[a], p, 0, place);
-                points_reach(c, &s, &side[b], p, 1, place);
+                normals_find(c, &s, side[a].grid->dim, slot);
+                points_reach(c, &s, &side[a], p, 0, slot);
+                points_reach(c, &s, &side[b], p, 1, slot);
             }
-            memory_free(place);
+            memory_free(slot);
         }
 }
 
 /* ---- exchange ---------------------------------------------------------------------------------------------------- */
 
-/* Points of FLIP do not take all of what nodes get: the work of an impulse is over the mean of the velocities before
- * and after the step, of which the second is only smoothed. Where nodes part before the step, an impulse that just
- * stopped their approach would give energy; it leaves them this share of their parting speed as approach. That is no
- * proof: while contact of two bodies has given more energy than taken, impulses act on what approaches before the step,
- * too, which only takes. */
-#define RETURNED 1.6
+/* Share of the parting speed before the step that an impulse leaves as approach [1]. Points in FLIP receive less than
+ * the nodes: the work of an impulse is over the mean of the velocities before and after the step, the latter smoothed
+ * by the map. If a node parts before the step, an impulse that just stops the approach would add energy. The value is
+ * empirical: discs and blocks dissipate with it. Where contact of two bodies has nevertheless added energy, impulses
+ * act only on nodes that approach already before the step, which always dissipates. */
+#define PARTING_SHARE 1.6
 
-/* Speed along the direction `along` that an impulse may take, by the relative velocities before and now [m/s]. */
+/* Returns the speed along the unit vector `along` that an impulse may remove, from the relative velocities before and
+ * after the forces of the step [m/s]. strict: 0 unless the sides approach before the step. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
     const real parting = dot(before, along, dim);
     if (strict && parting < 0) return 0;
-    return real_max(0, dot(now, along, dim) + RETURNED * real_min(0, parting));
+    return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Impulse per reduced mass that takes the approach and rubs [m/s]; false: they part, or do not touch. */
+/* Computes the impulse per reduced mass [dim, m/s] that removes approach and, up to friction, sliding. Returns false if
+ * the sides part or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
     real slide[DIM_MAX] = {0}, speed = 0;
     if (node->reach[1] - node->reach[0] - c->spacing > 0) return false;
-    const bool strict = c->taken[node->side[0] * c->sides + node->side[1]] < 0;
+    const bool strict = c->dissipated[node->side[0] * c->sides + node->side[1]] < 0;
     const real approach = speed_taken(before, now, node->normal, strict, dim), along = dot(now, node->normal, dim);
     if (!(approach > 0)) return false;
     for (int d = 0; d < dim; d++) {
@@ -223,15 +230,15 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Marks the nodes that walls hold, or takes the marks away. */
+/* Marks the nodes held by walls with `mark`. */
 static void walls_mark(const struct grid_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Mass that node I sets against an impulse along the normal [kg]: infinite where walls hold it. Its velocities before
- * and now are then those of the walls. */
+/* Returns the inertia of node I against an impulse along the normal [kg], infinite if walls hold the node; replaces its
+ * velocities in directions held by walls by those of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;
@@ -267,7 +274,7 @@ real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side)
         for (int d = 0; d < dim; d++) {
             node->impulse[d] = reduced * taken[d];
             const real own = 0.5 * node->impulse[d] * (before[d] + relative[d] - taken[d]);
-            lost += own, c->taken[node->side[0] * c->sides + node->side[1]] += own;
+            lost += own, c->dissipated[node->side[0] * c->sides + node->side[1]] += own;
             c->begun += 0.5 * node->impulse[d] * before[d];
             node->after[d] = relative[d] - taken[d];
             for (int s = 0; s < 2; s++) {
@@ -290,7 +297,7 @@ real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side)
         for (int d = 0; d < g[0]->dim; d++) {
             const real mapped = g[0]->momentum[d][node->at[0]] - g[1]->momentum[d][node->at[1]];
             const real own = 0.5 * node->impulse[d] * (mapped - node->after[d]);
-            lost += own, c->taken[node->side[0] * c->sides + node->side[1]] += own;
+            lost += own, c->dissipated[node->side[0] * c->sides + node->side[1]] += own;
         }
     }
     return lost;
@@ -308,11 +315,11 @@ status grid_contact_archive(struct grid_contact *c, struct archive *a)
     ARCHIVE_VALUE(a, "contact/grid_began", c->began);
     ARCHIVE_VALUE(a, "contact/grid_ended", c->ended);
     ARCHIVE_VALUE(a, "contact/grid_most", c->nodes_most);
-    return a->exchange(a, "contact/grid_taken", c->taken, (size_t)(c->sides * c->sides) * sizeof *c->taken);
+    return a->exchange(a, "contact/grid_taken", c->dissipated, (size_t)(c->sides * c->sides) * sizeof *c->dissipated);
 }
 
 void grid_contact_free(struct grid_contact *c)
 {
     memory_free(c->node);
-    memory_free(c->taken);
+    memory_free(c->dissipated);
 }

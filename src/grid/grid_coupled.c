@@ -1,4 +1,4 @@
-/* Selection of the peridynamic particles that the grid moves (grid-coupled particles). */
+/* Selection of the grid-coupled peridynamic particles. */
 #include "grid/grid_coupled.h"
 
 #include <math.h>
@@ -6,7 +6,8 @@
 
 #include "base/memory.h"
 
-/* Index of the grid cell of particle i by its lowest node, -1 outside the box. */
+/* Returns the index of the grid cell of particle i, by its lowest node, and its position k [dim] in the box, or -1
+ * outside the box. */
 static int64_t grid_coupled_cell_of(const struct particles *p, const struct grid *g, int64_t i, int64_t *k)
 {
     int64_t cell = 0;
@@ -30,7 +31,7 @@ static void mark_occupied(struct grid_coupled *c, const struct particles *p, con
     }
 }
 
-/* Does the cell at k, or one that shares a node with it, hold a material point? */
+/* Returns true if the cell at k, or one that shares a node with it, holds a material point. */
 static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct grid *g, const int64_t *k)
 {
     int64_t low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, stride[DIM_MAX] = {0};

@@ -1,12 +1,13 @@
-/* The background grid of the engine: where its nodes are. */
+/* Set-up of the background grids: positions of the nodes, masses, contact. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Coordinate of a node [m]: mpm.origin, else the first mirror across this axis, else the lower corner of the body.
- * Nodes beyond a mirror move as exact images only if the mirror is on a node or half-way between two. */
-static real node_place(const struct scene *s, int axis, real corner)
+/* Returns the coordinate of a node along an axis [m]: mpm.origin, else the first mirror across the axis, else the lower
+ * corner of the body. Nodes beyond a mirror move as exact images only if the mirror is on a node or midway between
+ * two. */
+static real node_coordinate(const struct scene *s, int axis, real corner)
 {
     if (s->has_grid_origin) return s->grid_origin[axis];
     for (int b = 0; b < s->boundaries; b++)
@@ -14,8 +15,8 @@ static real node_place(const struct scene *s, int axis, real corner)
     return corner;
 }
 
-/* The anchor, moved by at most half a spacing to lie midway between particles of a lattice with a place at `site`
- * [m]. */
+/* Returns the anchor, shifted by at most half a spacing to be midway between particles of a lattice with a particle at
+ * `site` [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;
@@ -25,7 +26,7 @@ static real between_particles(real anchor, real site, real spacing)
 void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor)
 {
     for (int d = 0; d < s->dim; d++) {
-        anchor[d] = node_place(s, d, from[d]);
+        anchor[d] = node_coordinate(s, d, from[d]);
         if (meshed && anchor[d] == from[d]) anchor[d] = between_particles(anchor[d], site[d], s->spacing);
     }
 }
@@ -37,7 +38,7 @@ int body_apart(const struct scene *s, int k)
     return -1;
 }
 
-/* A grid for each body where material points of several meet, else one. */
+/* Allocates a grid for each body if material points of several bodies may be in contact, else one. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
@@ -47,7 +48,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
-/* How far shapes reach beyond the neighbours of their cell [m]. */
+/* Returns how far shapes reach beyond the neighbours of their cell [m]. */
 static real shape_reach(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;

@@ -1,10 +1,10 @@
-/* A step of the grids of the current frame: what they take from their points, how nodes move, what points receive. */
+/* A step of the grids of the current frame: transfer to nodes, motion of nodes, transfer to points. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "grid/grid_part.h"
 
-/* Widens the box from..to [m] to the positions of the listed particles. */
+/* Extends the box from..to [m] to the positions of the listed particles. */
 static void bounds_widen(const struct particles *p, const int32_t *list, int64_t n, real *from, real *to)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -19,7 +19,7 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* The points of a field whose body is one of several. */
+/* Lists the points of the body of a field. */
 static void field_list(struct grid_field *f, const struct particles *p)
 {
     if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
@@ -28,7 +28,8 @@ static void field_list(struct grid_field *f, const struct particles *p)
         if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
 }
 
-/* Extends a grid over its particles and sorts the material points by cells; *lost: their places are not finite. */
+/* Extends the grid of a field over its particles and sorts its material points by cells. Sets *lost if positions are
+ * not finite. */
 static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -46,13 +47,13 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
             *lost = true;
             return OK;
         }
-    int64_t most = 64 * p->n + 1000000; /* far more than any sound run needs; an index is 32 bits */
+    int64_t most = 64 * p->n + 1000000; /* more than any run in sound condition needs; node indices have 32 bits */
     if (n > 0 || !f->list) TRY(grid_cover(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&f->order, p, list, n, &f->grid);
     return OK;
 }
 
-/* Does nothing while no particle has left its cell. */
+/* Sorts the points of all fields; does nothing while no particle has left its cell. */
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
     if (!mpm->sort_needed) return OK;
@@ -62,7 +63,7 @@ static status points_sort(struct grid_method *mpm, const struct particles *p, en
     return OK;
 }
 
-/* Leaves cells that no motion has reached out of the transfers. */
+/* Excludes cells that are still at rest from the transfers (active_points.h). */
 static void update_active_points(struct run *e)
 {
     const struct grid_method *mpm = e->grid;
@@ -88,7 +89,7 @@ status grid_sort(struct run *e, bool *lost)
     return OK;
 }
 
-/* Transfer of the grid-coupled peridynamic particles (coupling pm .. pgg). */
+/* Returns the transfer of the grid-coupled peridynamic particles (coupling pm .. pgg). */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
@@ -96,7 +97,7 @@ static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
     return grid_coupled;
 }
 
-/* Transfer of the points of field k. */
+/* Returns the transfer of the points of field k. */
 static struct transfer_data field_data(const struct grid_method *mpm, int k)
 {
     struct transfer_data own = mpm->transfer;
@@ -104,11 +105,11 @@ static struct transfer_data field_data(const struct grid_method *mpm, int k)
     return own;
 }
 
-/* Does anything move on the grid? */
+/* Returns true if particles move with the grid. */
 static bool grid_holds(const struct particles *part) { return part->n_free + part->n_grid_coupled > 0; }
 
 /* Maps mass, momentum and force of all particles on the grids to their nodes. */
-static void grid_take(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
+static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
     if (mpm->turning.groups > 0) turning_begin(&mpm->turning, p, mpm->spacing);
@@ -120,7 +121,8 @@ static void grid_take(struct grid_method *mpm, struct particles *p, const struct
     if (p->n_grid_coupled > 0) kernels->p2g(&mpm->field[0].grid, p, &grid_coupled);
 }
 
-/* Where bodies on grids of their own may meet in this step; [fields] sides, NULL of a single grid. */
+/* Lists the nodes at which bodies with grids of their own may be in contact in this step. Returns [fields] sides, which
+ * the caller frees, or NULL for a single grid. */
 static struct grid_side *meeting_find(struct grid_method *mpm, struct particles *part)
 {
     if (mpm->fields < 2) return NULL;
@@ -130,7 +132,8 @@ static struct grid_side *meeting_find(struct grid_method *mpm, struct particles 
     return side;
 }
 
-/* Nodes move under forces, contact, walls and mirrors; dt: of velocities [s]. */
+/* Moves the nodes under forces, contact, walls and mirrors. middle: time in the middle of the step; dt: by which
+ * velocities advance [s]. */
 static void grids_move(struct run *e, const struct grid_side *side, real middle, real dt)
 {
     struct grid_method *mpm = e->grid;
@@ -146,7 +149,7 @@ static void grids_move(struct run *e, const struct grid_side *side, real middle,
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
 
-/* Points receive the change of nodal velocities, and give their momentum back to the nodes. */
+/* Adds the change of the nodal velocities to the points and maps their momentum to the nodes again (MUSL). */
 static void grids_remap(struct run *e, const struct grid_side *side)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(e->grid);
@@ -175,7 +178,7 @@ void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels
         for (int k = 0; k < mpm->fields; k++) grid_idle(&mpm->field[k].grid);
         return;
     }
-    grid_take(mpm, p, kernels);
+    grid_receive(mpm, p, kernels);
     lap(laps, LAP_SCATTER);
 }
 
@@ -186,11 +189,11 @@ void grid_step(struct run *e, real middle)
     int64_t moved = 0;
     if (!grid_holds(&e->part)) return;
     struct grid_side *side = meeting_find(e->grid, &e->part);
-    grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: nodes move */
+    grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
     lap(&e->laps, LAP_GRID);
-    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocity; momentum back to nodes */
+    if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
     if (side) grid_contact_clock(&e->grid->contact, e->clock.t);
-    for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: position, strain, stress */
+    for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */
         const struct transfer_data own = field_data(e->grid, k);
         moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
     }
@@ -199,13 +202,13 @@ void grid_step(struct run *e, real middle)
     e->grid->sort_needed = moved > 0;
 }
 
-/* Sum of P . f/m of the nodes before they move, over the change that forces, contact and walls make. */
+/* The power is the sum of P . f/m over the nodes before they move, f being the change by forces, contact and walls. */
 real grid_power(struct run *e, real middle)
 {
     real power = 0;
     bool lost;
     if (!grid_holds(&e->part) || grid_sort(e, &lost) != OK || lost) return 0;
-    grid_take(e->grid, &e->part, &e->kernels);
+    grid_receive(e->grid, &e->part, &e->kernels);
     real **momentum = NEW("engine.momenta", e->grid->fields, real *);
     for (int k = 0; k < e->grid->fields; k++) {
         const struct grid *g = &e->grid->field[k].grid;
@@ -218,7 +221,8 @@ real grid_power(struct run *e, real middle)
     e->damped = damped;
     for (int k = 0; k < e->grid->fields; k++) {
         const struct grid *g = &e->grid->field[k].grid;
-        for (int d = 0; d < g->dim; d++) /* once per run; serial, so that the sum does not depend on threads */
+        /* once a run; serial, so that the sum does not depend on the number of threads */
+        for (int d = 0; d < g->dim; d++)
             for (int64_t I = 0; I < g->n; I++) power += momentum[k][d * g->n + I] * g->force[d][I] / e->clock.dt;
         memory_free(momentum[k]);
     }

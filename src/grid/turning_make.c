@@ -1,16 +1,15 @@
-/* Points that turn in groups (data/turning.h), in the step. */
+/* Set-up of the groups of points with a common rotation (data/turning.h). */
 #include "base/memory.h"
 #include "grid/grid_part.h"
 #include "data/turning.h"
 
-/* The first of the bodies that are one with body b on the grid: joined ones, or all of a single grid. */
+/* Returns the first of the bodies that share a grid with body b: joined bodies, or all bodies of a single grid. */
 static int first_of(const struct grid_method *grid, const struct scene *scene, int b)
 {
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Marks the bodies (by the first that they are `one` with) whose particles a support holds; one that turns them keeps
- * no body from turning. */
+/* Marks the bodies held by a support: held[one[b]] for a particle of body b. Supports that rotate hold no body. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {
@@ -20,8 +19,8 @@ static void mark_held(const struct loads *loads, const struct particles *p, cons
     }
 }
 
-/* Where groups are counted from, so that bodies that mirror each other have groups that do: planes of symmetry, else
- * the middle of all bodies. */
+/* Computes the origin of the groups [dim, m] such that bodies that mirror each other have mirrored groups: planes of
+ * symmetry, else the middle of all bodies. */
 static void turning_middle(const struct particles *part, const struct scene *scene, real *middle)
 {
     for (int d = 0; d < part->dim; d++) {
@@ -48,7 +47,7 @@ void grid_turning_make(struct grid_method *mpm, const struct particles *p, const
     for (int b = 0; b < s->bodies; b++) all &= held[one[b]];
     if (!all) turning_make(&mpm->turning, p, s->spacing, middle, one, held);
     for (int c = 0; c < 3; c++) mpm->transfer.turn[c] = mpm->turning.turn[c];
-    /* with it hand-shake gains 1e-7 of its energy a step */
+    /* with the second map the hand-shake coupling gains 1e-7 of its energy a step */
     mpm->transfer.second_map = mpm->turning.groups > 0 && coupling != COUPLING_HANDSHAKE;
     memory_free(held), memory_free(one);
 }
