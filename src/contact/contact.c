@@ -1,4 +1,4 @@
-/* Forces and energies of pairs in contact. */
+/* Contact forces and energies. */
 #include "contact_internal.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define REFERENCE_HORIZON 3.015 /* of the stiffness [spacings] */
+#define REFERENCE_HORIZON 3.015 /* horizon in the stiffness k [spacings] */
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
@@ -66,8 +66,8 @@ void contact_free(struct contact *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Square of the frequency of particles of a material between which and a rigid body that flies contact acts [1/s^2]:
- * one for each spacing of both faces of the body, 2 k each (contact_rigid.c), against its mass. */
+/* Returns the square of the frequency [1/s^2] of a free rigid body against particles in contact on both sides: one
+ * particle per spacing of both faces, stiffness 2 k each (contact_rigid.c), and the mass of the body. */
 static real rigid_swing(const struct contact *c, const struct particles *p, const struct material *m, real stiffness,
                         real volume)
 {
@@ -81,11 +81,11 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Two particles under contact k swing with 2 k/m. On a flat face a particle has half its bonds, and of the particles of
- * the other face one stands opposite, or in the plane two and in space three beside it, at 60 degrees or more to the
- * face: in all 1, 1.5 and 2 of k across it. Rubble, which may have eight contacts, needs 0.61 of the step of the bonds
- * in the plane, and has 0.5 of it where bonds may break. The rule of LAMMPS adds contact with all of 2, 8 or 26
- * neighbours to whole families. */
+/* Two particles in contact have the squared frequency 2 k/m. A particle of a flat face has half of its bonds; of the
+ * other face one particle is opposite, or in 2D two and in 3D three are beside it, at 60 degrees or more to the face: a
+ * normal stiffness of 1, 1.5 and 2 k in all. Rubble, with up to eight contacts a particle, needs 0.61 of the critical
+ * step of the bonds in 2D; the safety where bonds may break is 0.5. (The rule of LAMMPS adds contact with all 2, 8 or
+ * 26 neighbours to full families.) */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds)
 {
     static const real opposite[DIM_MAX + 1] = {0, 1, 1.5, 2}, squeezed[DIM_MAX + 1] = {0, 2, 4, 26.0 / 3};
@@ -112,11 +112,11 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Rows in parallel: what they feel, if faces meet; else their forces. */
+/* Computes for all rows in parallel: form `surface`, the contact with faces; form `pair`, the forces. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
-    const real reach = CONTACT_FLATNESS * c->way / c->law.spacing;
+    const real reach = CONTACT_FLATNESS * c->moved / c->law.spacing;
 #pragma omp parallel
     {
         struct contact_found own = {0, 0, INT32_MAX};
@@ -124,7 +124,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_follows(c, row) || (faces && !c->touch && c->face[row].far > reach)) continue;
             if (faces)
-                contact_face_feel(c, p, row, dt, &own);
+                contact_face_evaluate(c, p, row, dt, &own);
             else
                 contact_pair_row(c, p, row, &own);
         }
@@ -133,7 +133,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
     }
 }
 
-/* Both passes of faces, and of their friction. */
+/* Computes the forces of form `surface`, friction included, in two passes over the rows. */
 static void faces_force(struct contact *c, struct particles *p, real dt)
 {
 #pragma omp parallel
@@ -156,7 +156,7 @@ void contact_record(struct contact *c, const struct particles *p)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
-/* Forces after contact less those before. */
+/* Records the negative forces before contact, then adds the forces after it. */
 static void record(struct contact *c, const struct particles *p, bool after)
 {
     for (int d = 0; d < p->dim; d++)
@@ -214,7 +214,7 @@ status contact_stored(struct archive *a, const char *name, void **array, int64_t
     return count > 0 ? a->exchange(a, name, *array, (size_t)count * size) : OK;
 }
 
-/* Indices of a restored list must point into the arrays that there are. */
+/* Returns FAILED if an index of a restored list is out of range. */
 static status contact_check(const struct contact *c, const struct particles *p)
 {
     bool good = c->rows <= c->n && c->first[0] == 0 && c->first[c->rows] == c->pairs;
@@ -224,7 +224,7 @@ static status contact_check(const struct contact *c, const struct particles *p)
     return good ? OK : status_set(FAILED, "cannot resume: pairs in contact of the checkpoint are none of this body");
 }
 
-/* The list decides which pairs push, and their distances; it is restored as it was. */
+/* The list determines which pairs act and at which distance; it is restored without a search. */
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,

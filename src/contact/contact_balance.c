@@ -1,17 +1,18 @@
-/* What leap-frog gives and takes where contact begins and ends between two of its steps, and what takes it back.
+/* Energy error of leap-frog when contact begins and ends between two steps, and its compensation.
  *
- * With the gap g of a row and its stiffness K, energy 1/4 K g^2 where g < 0, the work of the force over two steps is
- * 1/2 K g_n (g_n+1 - g_n-1)/2. Its sum over a contact differs from the change of the energy by
+ * With the gap g of a row, stiffness K and energy 1/4 K g^2 for g < 0, the work of the force over two steps is 1/2 K
+ * g_n (g_n+1 - g_n-1)/2. Summed over a contact it differs from the change of energy by
  *
- *     1/4 K g_n g_n+1    given at the last step with g_n < 0 (g_n+1 > 0), and taken at the first one,
+ *     1/4 K g_n g_n+1    added at the last step with g_n < 0 (g_n+1 > 0), removed at the first such step.
  *
- * as likely the one as the other, so that faces that rest on each other and ring get warm: to three times their energy
- * in 1e5 automatic steps. Each row keeps the account of what it was given less what was taken from it. While that is
- * more than nothing, its force in contact has a part against the rate of its gap, which takes it back. Giving back what
- * was taken, by a force along the rate, makes bodies that ring unstable. */
+ * Both signs are equally likely, so that faces in contact that vibrate gain energy: up to three times their energy in
+ * 1e5 automatic steps. Each row therefore keeps an account of the energy added minus the energy removed. While the
+ * account is positive, the force in contact has a part against the rate of the gap, which removes energy. (Adding
+ * energy by a force along the rate when the account is negative makes vibrating bodies unstable.) */
 #include "contact_internal.h"
 
-#define BALANCE_DRAG 0.1 /* of the force per overlap that comes within a step */
+/* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
+#define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
 real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance)
 {

@@ -1,19 +1,19 @@
-/* Contact of faces: each particle feels the density of the particles beside it, a smooth field although they stand on a
- * lattice, and from it how deep the face below it lies.
+/* Contact of faces. The height of a particle above a face follows from the density of the particles of the face, which
+ * is smooth along the face although its particles are on a lattice.
  *
- *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q)       (Wendland 1995: C2, 0 from q = 1 on)
+ *     density_i = sum_j m_j W(r_ij/(2 D_ij)),   W(q) = (1 - q)^4 (1 + 4 q)       (Wendland 1995: C2, 0 for q >= 1)
  *     gap_i     = depth(density_i) - mean_i - zero_i,   mean_i = sum_j m_j W rise_j/density_i,
- *                 depth(density_i) - 1.9 at least
+ *                 at least depth(density_i) - 1.9
  *     energy    = sum_i 1/4 k_i gap_i^2  where gap < 0
  *
- * D_ij: mean of the two spacings, m_j = (D_j/D_ij)^(dim-1). depth is the function that finds the height s, in
- * spacings, of a particle above the first layer of a lattice. rise_j: how much higher than half a spacing above
- * particle j the surface of its body is (a curved face has steps on a lattice, this one not). zero = 1 + rise_i, or
- * less for particles that the reference state has closer. Where both surfaces stand high above their particles,
- * contact would begin farther off than the field reaches, with a finite overlap as soon as a particle enters it: the
- * least gap lets it begin with none. Each face of two that meet feels the other: together 1/2 k g^2, that of the pair
- * law. Energies depend on distances alone: forces are central, momentum and angular momentum are kept, and along a
- * flat face of a square lattice nothing above 0.7 % of the pressure resists (0.54 of it with the pair law). */
+ * D_ij: mean of the two spacings; m_j = (D_j/D_ij)^(dim-1). depth: the function that returns the height s of a particle
+ * above the first layer of a square lattice [spacings]. rise_j: height of the surface of the body above particle j
+ * minus 1/2 [spacings] (a curved face has steps on a lattice, the surface has none). zero = 1 + rise_i, or less for
+ * particles that are closer in the reference configuration. If both surfaces are high above their particles, contact
+ * would begin beyond the range of the field, with a finite overlap as soon as a particle enters the field; the lower
+ * bound of the gap prevents it. Each of two faces in contact contributes: together 1/2 k g^2, as the form `pair`.
+ * Energies depend on distances alone: forces are central, momentum and angular momentum are conserved. Along a flat
+ * face of a square lattice the tangential force is at most 0.7 % of the pressure (54 % with the form `pair`). */
 #include <math.h>
 
 #include "contact_internal.h"
@@ -23,7 +23,8 @@ static real kernel_slope(real q) { return -20 * q * (1 - q) * square(1 - q); }
 
 /* ---- depth of a face by the density above it --------------------------------------------------------------------- */
 
-/* Density s spacings above a particle of a layer of a square lattice, and its derivative by s. */
+/* Computes the density at height s [spacings] above a particle of a layer of a square lattice, and its derivative
+ * by s. */
 static void layer_density(int dim, real s, real *density, real *slope)
 {
     *density = *slope = 0;
@@ -36,7 +37,7 @@ static void layer_density(int dim, real s, real *density, real *slope)
         }
 }
 
-#define DEPTH_LEAST 0.2 /* where the table begins and ends [spacings] */
+#define DEPTH_LEAST 0.2 /* range of the table [spacings] */
 #define DEPTH_MOST 1.9
 
 void contact_profile_make(struct contact_profile *profile, int dim)
@@ -48,8 +49,8 @@ void contact_profile_make(struct contact_profile *profile, int dim)
     }
 }
 
-/* Depth [spacings] and its derivative by the density: cubic between nodes, straight beyond the first, and the last
- * where there is less. */
+/* Returns the depth [spacings] and its derivative by the density: cubic between nodes, linear for higher densities,
+ * constant for lower ones. */
 static real table_depth(const struct contact_profile *profile, real density, real *slope)
 {
     int low = 0, high = PROFILE_NODES - 1;
@@ -71,9 +72,9 @@ static real table_depth(const struct contact_profile *profile, real density, rea
     return from * (1 - t) + to * t + t * (1 - t) * (a * (1 - t) + b * t);
 }
 
-/* ---- what a particle feels --------------------------------------------------------------------------------------- */
+/* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Share of entry l in the field that entry k feels; *reach: of the field [m]. */
+/* Returns m_l of entry l in the field at entry k. *reach: range of the field [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -81,14 +82,16 @@ static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, 
     return dim == 3 ? square(ratio) : dim == 2 ? ratio : 1;
 }
 
-/* Density and mean rise. */
-struct felt {
+/* Density and mean rise of the faces at a particle. */
+struct face_field {
     real density, mean;
 };
 
-static struct felt felt_by(const struct contact *c, const struct particles *p, real *const *place, int64_t row)
+/* Computes the field at the particle of a row from positions x [dim]. */
+static struct face_field face_field_at(const struct contact *c, const struct particles *p, real *const *place,
+                                       int64_t row)
 {
-    struct felt felt = {0, 0};
+    struct face_field field = {0, 0};
     const int32_t i = c->particle[row];
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
         const int32_t l = c->other[q], j = c->particle[l];
@@ -97,50 +100,51 @@ static struct felt felt_by(const struct contact *c, const struct particles *p, r
         for (int d = 0; d < p->dim; d++) r2 += square(place[d][i] - place[d][j]);
         if (r2 >= square(reach)) continue;
         const real weight = share * kernel(sqrt(r2) / reach);
-        felt.density += weight, felt.mean += weight * c->rise[l];
+        field.density += weight, field.mean += weight * c->rise[l];
     }
-    if (felt.density > 0) felt.mean /= felt.density;
-    return felt;
+    if (field.density > 0) field.mean /= field.density;
+    return field;
 }
 
-/* Height of a particle above the surface that it feels, and the gap to its own [spacings]; derivative of both by the
- * density. leans: the gap falls by as much as the mean rise grows, else not at all. */
+/* Height of a particle above the face, and gap between the surfaces [spacings]; derivative of both by the density.
+ * leans: the gap depends on the mean rise; false at the lower bound of the gap. */
 struct face_gap {
     real height, gap, slope;
     bool leans;
 };
 
-static struct face_gap face_gap(const struct contact *c, const struct felt *felt, real zero)
+static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
-    const real depth = table_depth(&c->law.profile, felt->density, &at.slope), least = depth - DEPTH_MOST;
-    at.height = depth - felt->mean;
+    const real depth = table_depth(&c->law.profile, field->density, &at.slope), least = depth - DEPTH_MOST;
+    at.height = depth - field->mean;
     at.leans = at.height - zero >= least;
     at.gap = at.leans ? at.height - zero : least;
     return at;
 }
 
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt, struct contact_found *found)
+void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
+                           struct contact_found *found)
 {
     struct contact_face *face = &c->face[row];
     face->push = face->lift = 0;
     if (!contact_touches(contact_marks(c), row, true)) return;
-    const struct felt felt = felt_by(c, p, p->x, row);
-    const struct face_gap at = face_gap(c, &felt, face->zero);
+    const struct face_field field = face_field_at(c, p, p->x, row);
+    const struct face_gap at = face_gap(c, &field, face->zero);
     const bool touches = contact_touches(contact_marks(c), row, at.gap < 0);
     const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
                        contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
-    face->mean = felt.mean;
+    face->mean = field.mean;
     if (!touches) return;
     face->push = force * at.slope;
-    face->lift = at.leans ? force / felt.density : 0;
+    face->lift = at.leans ? force / field.density : 0;
     contact_found_add(found, -at.gap * c->size[row], c->particle[row]);
 }
 
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row)
 {
-    const struct felt felt = felt_by(c, p, p->x, row);
-    return face_gap(c, &felt, c->face[row].zero).gap;
+    const struct face_field field = face_field_at(c, p, p->x, row);
+    return face_gap(c, &field, c->face[row].zero).gap;
 }
 
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row)
@@ -149,7 +153,7 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
     return contact_touches(contact_marks(c), row, gap < 0) ? 0.25 * c->face[row].stiffness * square(gap) : 0;
 }
 
-/* Derivative of the energy of what entry k feels by the weight of entry l. */
+/* Returns the derivative of the energy of entry k by the weight of entry l. */
 static real face_pull(const struct contact *c, int64_t k, int64_t l)
 {
     const struct contact_face *face = &c->face[c->root[k]];
@@ -173,7 +177,8 @@ struct contact_weight contact_weight(const struct contact *c, const struct parti
     return w;
 }
 
-/* Force on the particle of a row: as one that feels, and as one that others feel. */
+/* The force has two parts: by the energy of the row, and by the energies of the rows whose fields contain its
+ * particle. */
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -193,8 +198,8 @@ void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
 
 void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term)
 {
-    const struct felt felt = felt_by(c, p, p->x, row);
-    const struct face_gap at = face_gap(c, &felt, c->face[row].zero);
+    const struct face_field field = face_field_at(c, p, p->x, row);
+    const struct face_gap at = face_gap(c, &field, c->face[row].zero);
     term->n = 1, term->stiffness = 0.5 * c->face[row].stiffness;
     term->particle[0] = c->particle[row];
     for (int d = 0; d < DIM_MAX; d++) term->along[0][d] = 0;
@@ -203,7 +208,7 @@ void contact_face_term(const struct contact *c, const struct particles *p, int64
         real apart[DIM_MAX], reach;
         const real share = field_share(c, p->dim, row, l, &reach), r = sqrt(contact_apart(c, p, row, l, apart));
         if (r >= reach || !(r > 0)) continue;
-        const real by_weight = at.slope - (at.leans ? (c->rise[l] - felt.mean) / felt.density : 0);
+        const real by_weight = at.slope - (at.leans ? (c->rise[l] - field.mean) / field.density : 0);
         const real pull = by_weight * share * kernel_slope(r / reach) / (reach * r);
         term->particle[term->n] = c->particle[l];
         for (int d = 0; d < p->dim; d++) {
@@ -214,9 +219,9 @@ void contact_face_term(const struct contact *c, const struct particles *p, int64
     }
 }
 
-/* ---- where contact begins ---------------------------------------------------------------------------------------- */
+/* ---- begin of contact -------------------------------------------------------------------------------------------- */
 
-/* k of a row [J]: of the softest of the pairs; of the particle beside one of its kind if there is none. */
+/* Returns the stiffness k of a row [J]: of the softest of its pairs; without pairs, of two particles of its kind. */
 static real face_stiffness(const struct contact *c, const struct particles *p, int64_t row)
 {
     real least = INFINITY;
@@ -227,7 +232,8 @@ static real face_stiffness(const struct contact *c, const struct particles *p, i
     return isfinite(least) ? least : contact_stiffness(c, p, row, row) * square(c->size[row]);
 }
 
-/* Widest notch between the particle and those that were near it in the reference state [spacings]. */
+/* Returns the largest width of a notch between the particle of a row and its neighbours in the reference configuration
+ * [spacings]. */
 static real face_notch(const struct contact *c, const struct particles *p, int64_t row)
 {
     real widest = 0;
@@ -241,17 +247,17 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Least gap of a row in the density that it feels now, whichever of its pairs it comes from: the mean rise changes at
- * once where a particle enters a field that is empty [spacings]. */
-static real least_gap(const struct contact *c, const struct felt *felt, int64_t row)
+/* Returns the smallest gap of a row for the present density, with the largest rise of its pairs [spacings]: the mean
+ * rise changes abruptly when a particle enters an empty field. */
+static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
-    struct felt highest = *felt;
+    struct face_field highest = *field;
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
         highest.mean = real_max(highest.mean, c->rise[c->other[q]]);
     return face_gap(c, &highest, c->face[row].zero).gap;
 }
 
-/* Has a row the pairs that it had as row `was` of the list before? Then it feels the same. */
+/* Returns true if a row has the same pairs as row `was` of the previous list, and thus the same field. */
 static bool same_pairs(const struct contact *c, const struct contact *before, int64_t was, int64_t row)
 {
     const int64_t n = c->first[row + 1] - c->first[row];
@@ -261,19 +267,20 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* In contact, the overlap stays such that the energy does; else contact begins where the surfaces of the scene meet, or
- * later where the reference state or the state now is closer. */
+/* For a row in contact the overlap is chosen such that the energy does not change. Otherwise contact begins where the
+ * surfaces of the scene meet, or later if the reference or the present configuration is closer. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row)
 {
     struct contact_face *face = &c->face[row];
     const bool pairs = c->first[row + 1] > c->first[row];
-    const struct felt now = felt_by(c, p, p->x, row), reference = pairs ? felt_by(c, p, p->X, row) : now;
+    const struct face_field now = face_field_at(c, p, p->x, row),
+                            reference = pairs ? face_field_at(c, p, p->X, row) : now;
     real overlap = 0;
     face->stiffness = face_stiffness(c, p, row);
     face->push = face->lift = 0, face->mean = now.mean;
     if (was >= 0) {
-        const struct felt then = same_pairs(c, before, was, row) ? now : felt_by(before, p, p->x, was);
+        const struct face_field then = same_pairs(c, before, was, row) ? now : face_field_at(before, p, p->x, was);
         overlap = real_max(0, -face_gap(before, &then, before->face[was].zero).gap);
         overlap *= sqrt(before->face[was].stiffness / face->stiffness);
     }

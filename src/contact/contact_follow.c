@@ -1,17 +1,17 @@
-/* Which rows something may push before the next search: their particles count as loaded, so that they move after
- * contact has pushed them, and their row blocks as active. Rows whose faces rest are found once something there moves:
- * contact wakes nothing that no wave has reached. */
+/* Rows that contact may push before the next search: their particles count as loaded, so that they move after contact
+ * has pushed them, and their row blocks as active. Rows at faces still at rest are added once particles there move:
+ * contact activates no region still at rest. */
 #include "base/memory.h"
 #include "contact_internal.h"
 
-/* Faces farther than this do not meet before the next search: both sides come nearer by half a skin at most, and
- * fields are not quite flat [spacings]. */
+/* Returns false if the faces beside a row are too far to come into contact before the next search: both sides approach
+ * by half a skin at most, and fields are nearly flat. */
 static bool may_meet(const struct contact *c, int64_t row)
 {
     return c->law.form == CONTACT_PAIR || c->face[row].far <= CONTACT_FLATNESS * 0.5 * CONTACT_SKIN;
 }
 
-/* Can it feel something, or something feel it? */
+/* Returns true if the row, or a row whose field contains its particle, may come into contact. */
 static bool row_is_near(const struct contact *c, int64_t row)
 {
     if (c->first[row + 1] == c->first[row]) return false;
@@ -28,7 +28,7 @@ static bool entry_has_moved(const struct contact *c, const struct particles *p, 
     return false;
 }
 
-/* What has never moved, beside what has never moved, pushes nothing. */
+/* Returns true if the particle of a row or one of its neighbours has ever moved; otherwise contact exerts no force. */
 static bool row_has_moved(const struct contact *c, const struct particles *p, int64_t row)
 {
     bool moved = entry_has_moved(c, p, row);
@@ -36,21 +36,22 @@ static bool row_has_moved(const struct contact *c, const struct particles *p, in
     return moved;
 }
 
-/* Returns true if a row near this one is marked ROW_FEELS. Other threads may turn ROW_NEAR of that row into ROW_FELT
- * meanwhile, which changes no answer; so both sides are atomic. */
-static bool is_felt(const struct contact *c, int64_t row)
+/* Returns true if a neighbouring row is marked ROW_ACTIVE. Other threads may change that row from ROW_NEAR to
+ * ROW_SOURCE meanwhile, which does not change the result; therefore both accesses are atomic. */
+static bool beside_active(const struct contact *c, int64_t row)
 {
-    bool felt = false;
-    for (int64_t q = c->first[row]; q < c->first[row + 1] && !felt; q++) {
+    bool beside = false;
+    for (int64_t q = c->first[row]; q < c->first[row + 1] && !beside; q++) {
         uint8_t state;
 #pragma omp atomic read
         state = c->followed[c->root[c->other[q]]];
-        felt = state == ROW_FEELS;
+        beside = state == ROW_ACTIVE;
     }
-    return felt;
+    return beside;
 }
 
-/* Finds rows that feel what has moved, then those that they feel; are there any new ones? */
+/* Marks rows near moving particles as ROW_ACTIVE, then their neighbours as ROW_SOURCE. Returns true if a row was marked
+ * ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
     int64_t found = 0;
@@ -58,13 +59,13 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     {
 #pragma omp for schedule(static) reduction(+ : found)
         for (int64_t row = 0; row < c->rows; row++)
-            if ((c->followed[row] == ROW_NEAR || c->followed[row] == ROW_FELT) && row_has_moved(c, p, row))
-                c->followed[row] = ROW_FEELS, found++;
+            if ((c->followed[row] == ROW_NEAR || c->followed[row] == ROW_SOURCE) && row_has_moved(c, p, row))
+                c->followed[row] = ROW_ACTIVE, found++;
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++)
-            if (c->followed[row] == ROW_NEAR && is_felt(c, row)) {
+            if (c->followed[row] == ROW_NEAR && beside_active(c, row)) {
 #pragma omp atomic write
-                c->followed[row] = ROW_FELT;
+                c->followed[row] = ROW_SOURCE;
             }
     }
     c->waiting -= found;
@@ -100,8 +101,8 @@ void contact_follow(struct contact *c, const struct particles *p, struct bonds *
     for (int a = 0; a < c->rigids; a++)
         for (int64_t q = 0; q < c->near[a].n; q++) {
             uint8_t *followed = &c->followed[c->near[a].row[q]];
-            if (*followed == ROW_NEAR || *followed == ROW_FELT) c->waiting--;
-            *followed = ROW_FEELS;
+            if (*followed == ROW_NEAR || *followed == ROW_SOURCE) c->waiting--;
+            *followed = ROW_ACTIVE;
         }
     rows_touch(c, p, b, l);
 }

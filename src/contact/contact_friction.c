@@ -1,6 +1,6 @@
-/* Friction of Coulomb: a spring along the face holds what touches, and gives way where it would pull harder than
- * friction times the pressure. Its energy counts as one of contact; what it loses by giving way or by parting is
- * friction's work. */
+/* Coulomb friction. A spring along the face holds a particle in contact and slides where its force would exceed the
+ * coefficient of friction times the normal force. Its energy counts as contact energy; the energy lost by sliding or
+ * separation is the work of friction. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 #include "data/derived_fields.h"
 #include "contact_internal.h"
 
-/* The spring lies in the face, which may have turned since: its length stays. */
+/* Rotates the spring into the plane of the face, which may have turned, at constant length. */
 static void lay_down(real *spring, const real *normal, int dim)
 {
     const real out = dot(spring, normal, dim), before = dot(spring, spring, dim), after = before - square(out);
@@ -16,12 +16,12 @@ static void lay_down(real *spring, const real *normal, int dim)
     for (int d = 0; d < dim; d++) spring[d] = (spring[d] - out * normal[d]) * sqrt(before / after);
 }
 
-void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *way, real k, real most)
+void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most)
 {
     real along[DIM_MAX], before[DIM_MAX], length2 = 0, stored = 0, work = 0;
     lay_down(s->length, normal, dim);
     for (int d = 0; d < dim; d++) {
-        along[d] = way[d] - dot(way, normal, dim) * normal[d];
+        along[d] = slid[d] - dot(slid, normal, dim) * normal[d];
         before[d] = s->length[d];
         s->length[d] += along[d];
         length2 += square(s->length[d]);
@@ -30,7 +30,8 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
     for (int d = 0; d < dim; d++) {
         s->length[d] *= share;
         s->drag[d] = -k * s->length[d];
-        work += 0.5 * k * (before[d] + s->length[d]) * along[d]; /* as leap-frog takes it from the motion */
+        /* over the mean elongation, as leap-frog computes work */
+        work += 0.5 * k * (before[d] + s->length[d]) * along[d];
         stored += 0.5 * k * square(s->length[d]);
     }
     s->lost += work + s->stored - stored;
@@ -39,25 +40,26 @@ void contact_slide(struct contact_spring *s, int dim, const real *normal, const 
 
 /* ---- faces ------------------------------------------------------------------------------------------------------- */
 
-/* The slip of particle i is measured against the rigid motion of the particles that it feels, extrapolated to x_i. With
- * their weights w_j, which sum to 1,
+/* The slip of particle i is measured relative to the rigid motion of the particles of the face, extrapolated to x_i.
+ * With their weights w_j, which sum to 1,
  *
  *     slip = v_i - v - omega x a,   v = sum_j w_j v_j,   a = x_i - sum_j w_j x_j,
  *     I omega = sum_j w_j r_j x v_j,   I = sum_j w_j (r_j^2 1 - r_j r_j),   r_j = x_j - sum_k w_k x_k
  *
- * and the forces that do work on this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum is 0
- * and so is the sum of their moments. Rotation about an axis is left out where the particles stand along it (a single
- * one, and in space a row of them): the moment of the drag about this axis then remains. */
-#define COUPLE_MOST 10     /* squares of the forces that balance the moment, over that of the drag */
-#define INERTIA_LEAST 1e-6 /* of the largest principal value of I and of a^2: round-off beyond takes no momentum */
+ * and the forces conjugate to this slip are the drag f on i and -w_j (f + (I^-1 (a x f)) x r_j) on j: their sum and the
+ * sum of their moments are 0. Rotation about an axis along which all particles lie is omitted (a single particle, in
+ * space a row of particles): the moment of the drag about this axis then remains. */
+/* limit of the sum of squares of the forces of the couple, over the square of the drag; empirical */
+#define COUPLE_MOST 10
+#define INERTIA_LEAST 1e-6 /* relative to the largest principal value of I and to a^2; smaller values are round-off */
 
-/* The particles that the particle of a row feels, as a rigid body. */
+/* The particles of the face beside a row, as a rigid body. */
 struct contact_partner {
     real force[DIM_MAX];                  /* normal force on the particle of the row [N] */
-    real density;                         /* sum of the weights before they are normalised */
+    real density;                         /* sum of the weights before normalisation */
     real arm[DIM_MAX], velocity[DIM_MAX]; /* a [m]; v [m/s] */
     real inverse[DIM_MAX][DIM_MAX];       /* pseudo-inverse of I [1/m^2] */
-    real slip[DIM_MAX];                   /* [m/s] */
+    real slip[DIM_MAX];                   /* slip [m/s] */
 };
 
 /* Computes the normal force, density, mean position and mean velocity at the positions x - lag v. */
@@ -132,7 +134,7 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Computes all that contact_partner holds at the positions x - lag v. */
+/* Computes all members of contact_partner at the positions x - lag v. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -143,7 +145,8 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Half of a step is measured where it began and half where it ends, as leap-frog lets the forces of both work on it. */
+/* Half of a step is measured at its start and half at its end, since leap-frog applies the forces of both times to
+ * it. */
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
@@ -153,13 +156,13 @@ void contact_face_slide(struct contact *c, const struct particles *p, int64_t ro
     const struct contact_partner now = partner_at(c, p, row, 0), before = partner_at(c, p, row, dt);
     const real force = sqrt(dot(now.force, now.force, p->dim));
     const real *first = before.density > 0 ? before.slip : now.slip;
-    real normal[DIM_MAX], way[DIM_MAX], moment[DIM_MAX];
+    real normal[DIM_MAX], slid[DIM_MAX], moment[DIM_MAX];
     for (int d = 0; d < p->dim; d++) {
         normal[d] = force > 0 ? now.force[d] / force : 0;
-        way[d] = 0.5 * (first[d] + now.slip[d]) * dt;
+        slid[d] = 0.5 * (first[d] + now.slip[d]) * dt;
     }
     s->density = now.density;
-    contact_slide(s, p->dim, normal, way, k, c->law.friction * force);
+    contact_slide(s, p->dim, normal, slid, k, c->law.friction * force);
     vector_product(now.arm, s->drag, moment);
     for (int d = 0; d < DIM_MAX; d++) {
         reaction->arm[d] = now.arm[d];
@@ -167,7 +170,7 @@ void contact_face_slide(struct contact *c, const struct particles *p, int64_t ro
     }
 }
 
-/* Adds to f the reaction of the spring of row l on the particle of `row`, which l feels. */
+/* Adds to f the reaction of the spring of row l on the particle of `row`, a part of the face of l. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -179,7 +182,7 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* No particle has images: scenes with mirrors have no friction. */
+/* Particles have no images: scenes with mirrors have no friction. */
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -212,7 +215,7 @@ void contact_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Springs of those that touch go on with their particles; what the others hold is lost. */
+/* Springs of particles still in contact are kept with their particles; the energy of other springs is lost. */
 void contact_springs_begin(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;

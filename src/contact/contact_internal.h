@@ -1,28 +1,29 @@
-/* Inside `contact`: the two forms of the law share the list of pairs. */
+/* Private header of the room: functions shared by the two forms of the law and by contact with rigid bodies. */
 #ifndef CLEAVE_CONTACT_INTERNAL
 #define CLEAVE_CONTACT_INTERNAL
 
 #include "contact/contact.h"
 
-#define CONTACT_REACH 2.0 /* of the field of a face [mean spacings] */
-#define CONTACT_SKIN 0.3  /* beyond the contact distance [spacings]: pairs that may come to it soon */
-#define STATIC_SKIN 1.5   /* the same for the corrections of an equilibrium [spacings] */
-#define FAR_LAMMPS 1.35   /* distance of pairs in LAMMPS' rule at the most [mean spacings] and ... */
-#define NEAR_LAMMPS 0.9   /* ... [their distance in the reference state] */
-#define CONTACT_FLATNESS                                                                                               \
-    3 /* a gap shrinks by this times the way of a particle: of both sides, and more                                    \
-         where fields are not flat */
+#define CONTACT_REACH 2.0 /* range of the field of a face [mean spacings] */
+#define CONTACT_SKIN 0.3  /* skin of the list beyond the contact distance [spacings] */
+#define STATIC_SKIN 1.5   /* skin for the corrections of an equilibrium [spacings] */
+#define FAR_LAMMPS 1.35   /* largest distance of pairs by the rule of LAMMPS [mean spacings] and ... */
+#define NEAR_LAMMPS 0.9   /* ... [distance in the reference configuration] */
+/* Reduction of a gap per displacement of a particle [1]: 2, as both sides move, and more where fields are curved. */
+#define CONTACT_FLATNESS 3
 
-/* What may push a row before the next search: nothing; something once it has moved; what feels it; what it feels. */
-enum row_state { ROW_FAR, ROW_NEAR, ROW_FELT, ROW_FEELS };
+/* State of a row until the next search: out of reach; in reach but at rest; neighbour of an active row, whose force
+ * acts on it; active, its own contact is evaluated. */
+enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
-/* What the rows of a step have found. */
+/* Sums over the rows of a step: pairs in contact, largest overlap. */
 struct contact_found {
     real overlap;
     int64_t touching;
     int32_t deepest;
 };
 
+/* Adds a contact with this overlap [m] of a particle. */
 static inline void contact_found_add(struct contact_found *to, real overlap, int32_t i)
 {
     const bool first = overlap == to->overlap && i < to->deepest;
@@ -30,7 +31,7 @@ static inline void contact_found_add(struct contact_found *to, real overlap, int
     to->touching++;
 }
 
-/* Vector from entry l of the list to entry k, and its square [m^2]. */
+/* Computes the vector from entry l of the list to entry k [m]. Returns its square [m^2]. */
 static inline real contact_apart(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real *apart)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -42,107 +43,162 @@ static inline real contact_apart(const struct contact *c, const struct particles
     return r2;
 }
 
-/* Stiffness of the pair of entries k, l [N/m]. */
+/* Returns the stiffness k of the pair of entries k, l [N/m]. */
 static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
-/* Is there anything that may meet? */
+/* Returns true if contact is possible in this run. */
 static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
 
-/* May something push the particle of the row? contact_follow_more, before each step without a search, has marked it. */
-static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_FELT; }
+/* Returns true if contact may push the particle of the row (contact_follow_more marks rows before each step). */
+static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
+
+/* Marks further rows as active after particles at rest have moved; to be called in steps without a search. */
 void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Marks that count: of faces or pairs, of what is near a rigid body; NULL: overlaps do. */
+/* Returns the marks that decide which contacts act, of faces, pairs or entries near a rigid body; NULL: overlaps
+ * decide. */
 static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
+
+/* Returns the marks of the entries near a rigid body; NULL: overlaps decide. */
 static inline const uint8_t *contact_near_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
 }
+
+/* Returns true if contact k acts, by its mark or, without marks, by its overlap. */
 static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlaps)
 {
     return marks ? marks[k] != 0 : overlaps;
 }
 
-/* Gaps by which marks are made: of a row of faces [spacings], of a pair, of an entry near a rigid body [m]. */
+/* Returns the gap of a row of form `surface` by which its mark is set [spacings]. */
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
+
+/* Returns the gap of pair q of a row [m]. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q);
+
+/* Returns the gap of entry q near a rigid body [m]. normal: of the surface of the body. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
-/* The term of a row of faces, with room for all of its pairs. */
+
+/* Computes the spring term of a row of form `surface`; term has room for all pairs of the row. */
 void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
-/* All that the list has may push. */
+
+/* Marks all listed rows as active. */
 void contact_marks_follow(struct contact *c);
+
+/* Saves or restores the marks. */
 status contact_marks_archive(struct contact *c, struct archive *a);
 
+/* Returns the skin of the list [m]. */
 static inline real contact_skin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
 
-/* Row of particle i, -1: none. */
+/* Returns the row of particle i, or -1. */
 int64_t contact_row_of(const struct contact *c, int64_t i);
 
-/* Width of the notch that lies between two entries in the reference state [m], 0: none. */
+/* Returns the width of the notch between two entries in the reference configuration [m], 0 without a notch. */
 real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
 
-/* Images and spacings of the entries of the list. */
+/* Computes root, size and rise of all entries of the list. */
 void contact_list_describe(struct contact *c, const struct particles *p);
 
-/* One row: adds its force to part.f. */
+/* Adds the force of the pairs of a row to p->f. */
 void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
+
+/* Returns half the energy of the pairs of a row [J]. */
 real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
-/* Distance d of a pair that is new on the list, or was there with distance `was` (NAN: not) [m]. */
+
+/* Returns the contact distance d of a pair [m]. was: its distance on the previous list, NAN if it was not listed. */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was);
 
+/* Computes the table of depth by density for a square lattice. */
 void contact_profile_make(struct contact_profile *profile, int dim);
-/* In two passes: what each particle feels, then the forces of all that feel something. */
-void contact_face_feel(struct contact *c, const struct particles *p, int64_t row, real dt, struct contact_found *found);
+
+/* Evaluates the contact of a row with the faces beside it: gap, derivatives of its energy. First of two passes, before
+ * contact_face_row. dt: step since the last call [s]. */
+void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
+                           struct contact_found *found);
+
+/* Adds the contact force on the particle of a row to p->f: second of two passes. */
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
+
+/* Returns the contact energy of a row [J]. */
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
-/* Where contact begins for the particle of a row that is new on the list, or was row `was` of the list `before` (-1:
- * not): its energy does not change. */
+
+/* Determines where contact begins for a row. was: its row on the list `before`, -1: not listed. The energy of a row
+ * that was listed does not change. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
 
-/* Force along the rate of the gap of a row of stiffness K and energy 1/4 K gap^2; units as of gap and K. advance: a
- * step has been made since the last call. */
+/* Returns the force along the rate of the gap for a row of stiffness K and energy 1/4 K gap^2, in the units of K gap.
+ * advance: a step was done since the last call. */
 real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance);
-/* The account of what has the gap `gap` and is new on the list, or was there with `before` (NULL: not). */
+
+/* Returns the account of a row with gap `gap`. before: its account on the previous list, NULL: new on the list. */
 struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
 
-/* What entry l adds to what entry k feels: its weight; derivative of the energy of k over r [N/m]; from l to k [m]. */
+/* Contribution of entry l to the field at entry k: weight; derivative of the energy of k by r over r [N/m]; vector from
+ * l to k [m]. */
 struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
-/* Computes these for the positions x - lag v [s]; the energy is the present one. */
+
+/* Computes the contribution at the positions x - lag v [s]; the energy is that of the present positions. */
 struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                                      real lag);
 
-/* A step of a spring: its face has the normal `normal` (0: left), the particle went `way` past it [m]; k [N/m]; most:
- * at which it gives way [N], 0 where both have parted. */
-void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *way, real k, real most);
-/* In two passes, as of faces. */
+/* Advances a friction spring by a step. normal: of the face (0: contact ended); slid: displacement of the particle
+ * relative to the face [m]; k [N/m]; most: force at which the spring slides [N], 0 after separation. */
+void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
+
+/* Advances the friction spring of a row by a step dt [s]; first of two passes, before contact_face_drag. */
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
+
+/* Adds friction on the particle of a row and the reactions of rows whose face contains it to p->f: second of two
+ * passes. */
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
+
+/* Returns the energy stored in all friction springs [J]. */
 real contact_friction_stored(const struct contact *c);
-/* Makes room for the reactions of all rows; what they hold is computed with the next forces. */
+
+/* Allocates the reactions of all rows; they are computed with the next forces. */
 void contact_reactions_make(struct contact *c);
+
+/* Allocates the springs of a new list and copies those of rows that were listed before. */
 void contact_springs_begin(struct contact *c, const struct contact *before);
+
+/* Copies spring number `at` of a previous list (NULL or -1: none) to *to. */
 void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at);
+
+/* Sets the work of friction of a new list to that of the list before, plus the energy of springs that no longer
+ * exist. */
 void contact_friction_settle(struct contact *c, const struct contact *before);
 
-/* Particles within `skin` of rigid bodies [m]. */
+/* Lists the particles within `skin` [m] of each rigid body. before: the previous list. */
 void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin);
+
+/* Releases the lists near rigid bodies. */
 void contact_rigid_free(struct contact *c);
-/* Has a point of a body come so far since the search [m]? */
-bool contact_rigid_has_come(const struct contact *c, real far);
+
+/* Returns true if a point of a rigid body has moved by `far` [m] or more since the last search. */
+bool contact_rigid_has_moved(const struct contact *c, real far);
+
+/* Computes the contact forces of all rigid bodies on particles and the reactions on the bodies. */
 void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all);
+
+/* Saves or restores the lists near rigid bodies. */
 status contact_rigid_archive(struct contact *c, struct archive *a);
-/* Stores an array, or makes room for it and restores it. */
+
+/* Saves an array [count] of elements of `size` bytes, or allocates and restores it. */
 status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size);
+
+/* Returns the energy of contact with all rigid bodies [J]. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);
 
 #endif

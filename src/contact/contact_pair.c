@@ -1,9 +1,10 @@
-/* Contact between pairs of particles: each is a sphere, or a disc, of its own. */
+/* Contact of pairs of particles, which act as spheres or discs. */
 #include <math.h>
 
 #include "contact_internal.h"
 
-/* A pair: overlap d - r [m], negative: none; distance r [m]; k [N/m]. The same bits from both its ends. */
+/* A pair: overlap d - r, negative without contact, and distance r [m]; stiffness k [N/m]. Bitwise equal from both
+ * rows. */
 struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
@@ -48,8 +49,8 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_apart(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* Least of the distance in the reference state and the mean of the spacings, and for a pair that is met closer, as it
- * is until it opens. The same bits from both ends. */
+/* The distance is the smaller of the distance in the reference configuration and the mean spacing; for a pair that is
+ * closer when it is found, its present distance until it opens. Bitwise equal from both rows. */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was)
 {
     const int32_t i = c->particle[k], j = c->particle[l];

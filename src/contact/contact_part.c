@@ -1,4 +1,4 @@
-/* Contact of peridynamic particles, as a part of a run. */
+/* Contact in the table of parts, its results in the summary, and the check of overlaps. */
 #include "contact/contact_part.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 static void contact_free_all(struct run *e) { contact_free(e->contact); }
 
-/* Pairs in contact at once and their largest overlap, in a run with contact. */
+/* Writes times, numbers of contacts and the largest overlap of a run with contact. */
 static void put_contact(const struct contact *c, const struct grid_method *mpm, struct json *j)
 {
     const struct grid_contact *g = &mpm->contact;
@@ -40,7 +40,7 @@ static status contact_state(struct run *e, struct archive *a)
     return OK;
 }
 
-/* Rigid bodies at the end, and the largest force on each. */
+/* Writes the final state of each rigid body and the largest force on it. */
 static void put_rigid(const struct rigid_set *rigid, const struct contact *c, const struct particles *p,
                       const struct run_clock *clock, struct json *j)
 {
@@ -68,8 +68,8 @@ static void put_contact_and_rigid(const struct run *e, struct json *j)
     put_rigid(e->rigid, e->contact, &e->part, &e->clock, j);
 }
 
-#define OVERLAP_DOUBTFUL 0.3 /* [spacings] */
-#define OVERLAP_MOST 0.9     /* beyond, particles pass each other */
+#define OVERLAP_DOUBTFUL 0.3 /* overlap from which a warning is given [spacings] */
+#define OVERLAP_MOST 0.9     /* overlap beyond which particles pass each other [spacings] */
 
 status contact_overlap_check(struct run *e)
 {

@@ -1,6 +1,6 @@
-/* Contact of particles with rigid bodies: a particle whose centre is nearer than half a spacing to the surface is
- * pushed off along its normal by 2 k times what is missing, k that of two particles of its material: the face has one
- * cell of material, not two. Energy: k missing^2. */
+/* Contact of particles with rigid bodies: a particle whose centre is closer than half a spacing to the surface is
+ * pushed along its normal by 2 k times the overlap, with k of two particles of its material: the face consists of one
+ * cell of material, not two. Energy: k overlap^2. */
 #include <math.h>
 #include <stdio.h>
 
@@ -23,7 +23,8 @@ void contact_rigid_free(struct contact *c)
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-/* Distance of the surface above the particle of a row from a body, negative: overlap [m]; normal of the surface. */
+/* Returns the gap between the surface above the particle of a row and rigid body r [m], negative: overlap. normal: of
+ * the surface of r. */
 static real gap_of(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                    real *normal)
 {
@@ -33,7 +34,8 @@ static real gap_of(const struct contact *c, const struct particles *p, const str
     return rigid_distance(r, x, normal) - (0.5 + c->rise[row]) * c->size[row];
 }
 
-/* Can the particle come near the body before the next search? A quick answer for the many that are far. */
+/* Returns true if the particle of a row may come into contact with r before the next search. Distant particles are
+ * rejected early. */
 static bool is_near(const struct contact *c, const struct particles *p, const struct rigid_body *r, int64_t row,
                     real skin)
 {
@@ -42,7 +44,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
     return rigid_may_reach(r, x, c->size[row] + skin) && gap_of(c, p, r, row, normal) < skin;
 }
 
-/* Its entry in the list before, -1: none. */
+/* Returns the entry of a particle on the previous list of a body, or -1. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
     const int64_t row = before->made ? contact_row_of(before, particle) : -1;
@@ -57,7 +59,8 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Where contact begins follows a particle that is met closer, until it opens: as of pairs. */
+/* Lists the particles near a body. As for pairs, contact of a particle that is closer when it is found begins at its
+ * present gap, until the gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -80,7 +83,8 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
         if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
-        const bool deep = c->marked && before->made && was < 0; /* a correction has gone so far: it is pushed back */
+        /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
+        const bool deep = c->marked && before->made && was < 0;
         near->zero[near->n] = deep ? 0 : real_min(0, real_max(zero, gap));
         near->balance[near->n] =
             contact_balance_begin(was >= 0 ? &before->near[body].balance[was] : NULL, gap - near->zero[near->n]);
@@ -99,29 +103,29 @@ void contact_rigid_find(struct contact *c, const struct contact *before, const s
     }
 }
 
-bool contact_rigid_has_come(const struct contact *c, real far)
+bool contact_rigid_has_moved(const struct contact *c, real far)
 {
     for (int b = 0; b < c->rigids && c->near; b++) {
         const struct rigid_body *r = &c->rigid[b];
-        real way2 = 0, turned2 = 0;
-        for (int d = 0; d < DIM_MAX; d++) way2 += square(r->x[d] - c->near[b].x[d]);
+        real moved2 = 0, turned2 = 0;
+        for (int d = 0; d < DIM_MAX; d++) moved2 += square(r->x[d] - c->near[b].x[d]);
         for (int k = 0; k < DIM_MAX * DIM_MAX; k++)
             turned2 += square(r->turn[k / DIM_MAX][k % DIM_MAX] - c->near[b].turn[k]);
-        if (!(sqrt(way2) + sqrt(turned2) * r->radius < far)) return true;
+        if (!(sqrt(moved2) + sqrt(turned2) * r->radius < far)) return true;
     }
     return false;
 }
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
-/* Gap of the particle of list entry q [m], negative: overlap; normal of the surface there. */
+/* Returns the gap of list entry q minus the gap at which contact begins [m], negative: overlap. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const struct contact_near *near = &c->near[body];
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Overlap [m] where it pushes, else 0. */
+/* Returns the overlap of list entry q if contact acts, else 0 [m]. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_near_marks(c, body);
@@ -143,7 +147,7 @@ real contact_patch(const struct contact *c, const struct particles *p, int body)
     return sqrt(width2);
 }
 
-/* After a step. */
+/* Updates the balance of list entry q after a step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -152,7 +156,7 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     contact_balance(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
-/* Its force on the particle [N]; returns the overlap. */
+/* Computes the force on the particle of list entry q [N]. Returns the overlap [m]. */
 static real push_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *force)
 {
     const struct contact_near *near = &c->near[body];
@@ -164,19 +168,19 @@ static real push_of(const struct contact *c, const struct particles *p, int body
     return overlap;
 }
 
-/* The spring of list entry q, after a step. */
+/* Advances the friction spring of list entry q by a step dt [s]. */
 static void spring_step(struct contact *c, const struct particles *p, int body, int64_t q, real dt)
 {
     const struct contact_near *near = &c->near[body];
     const int32_t i = c->particle[near->row[q]];
-    real normal[DIM_MAX] = {0}, x[DIM_MAX] = {0}, v[DIM_MAX], way[DIM_MAX];
+    real normal[DIM_MAX] = {0}, x[DIM_MAX] = {0}, v[DIM_MAX], slid[DIM_MAX];
     const real overlap = overlap_of(c, p, body, q, normal);
     const real k = 2 * contact_stiffness(c, p, near->row[q], near->row[q]);
     if (overlap == 0 && near->spring[q].stored == 0) return;
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     rigid_velocity(&c->rigid[body], x, v);
-    for (int d = 0; d < p->dim; d++) way[d] = (p->v[d][i] - v[d]) * dt;
-    contact_slide(&near->spring[q], p->dim, normal, way, k, c->law.friction * k * overlap);
+    for (int d = 0; d < p->dim; d++) slid[d] = (p->v[d][i] - v[d]) * dt;
+    contact_slide(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
 
 struct rigid_sum {
@@ -185,7 +189,7 @@ struct rigid_sum {
     int body;
 };
 
-/* Force and moment on the body: six sums. */
+/* Adds force and moment of list entries on the body to sum [6]. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -203,7 +207,7 @@ static void rigid_block(const void *context, int64_t first, int64_t end, real *s
 
 enum { RIGID_TERMS = 2 * DIM_MAX };
 
-/* Forces of one body; a particle may feel several, one after the other. */
+/* Computes the forces of one body; the bodies follow one another, since a particle may touch several. */
 static void body_force(struct contact *c, struct particles *p, int body, real dt, struct contact_found *all)
 {
     const struct contact_near *near = &c->near[body];
@@ -218,7 +222,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
         if (overlap == 0) continue;
         for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
         contact_found_add(all, overlap, i);
-        all->touching++; /* a pair of which only one row is here */
+        all->touching++; /* a pair with only one of its two rows */
     }
     team_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];

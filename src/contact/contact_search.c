@@ -1,31 +1,31 @@
-/* The search for pairs that may meet: which particles can, and which are near, where they are now. */
+/* Search for pairs that may come into contact: exposed particles, then neighbours at the present positions. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "contact_internal.h"
 
-#define RISE_MOST 0.6 /* surfaces are not looked for farther away [spacings] */
+#define RISE_MOST 0.6 /* range of the search for the surface above a particle [spacings] */
 #define ROUND_OFF 1e-6
-enum { BREAKS_WAIT = 32 }; /* steps between searches for broken bonds: they open before they can close */
+enum { BREAKS_WAIT = 32 }; /* steps between a broken bond and a search: faces open before they can close */
 
-/* ---- particles that can meet ------------------------------------------------------------------------------------- */
+/* ---- exposed particles ------------------------------------------------------------------------------------------- */
 
-/* Share of a full family below which a particle is in the first layer of a body: there it has 0.50 (line) to 0.67 (two
- * spacings in the plane), in the second layer 0.79 or more at 3 spacings. A family of nearest neighbours alone has up
- * to 5/6 in the first layer and all in the second. */
+/* Returns the share of a full family below which a particle counts as part of the first layer of a body. Particles of
+ * the first layer have 0.50 (1D) to 0.67 (two spacings in 2D), of the second layer 0.79 or more at 3 spacings. With
+ * nearest neighbours alone the first layer has up to 5/6 and the second a full family. */
 static real first_layer_share(const struct family *f)
 {
     return f->horizon < 1.5 * f->spacing ? 0.95 : space_dim(f->space) == 1 ? 0.6 : 0.78;
 }
 
-/* Has the particle of a row less of a family than `least` [m^3], less what it has lost? */
+/* Returns true if the family of a row has lost more than `lost` [m^3], or less than `least` is left. */
 static bool lacks_family(const struct bonds *b, int64_t row, real lost, real least)
 {
     return row < 0 || b->family_volume[row] - lost < least;
 }
 
-/* Is particle i of the body near a face, or peridynamic and wanted everywhere? */
+/* Returns true if particle i is near a face; `everywhere`: if it is peridynamic. */
 static bool is_exposed(const struct particles *p, const struct bonds *b, real least_volume, bool everywhere, int64_t i)
 {
     const int64_t row = b->row_of[i];
@@ -60,7 +60,8 @@ real contact_notch(const struct contact *c, const struct particles *p, int64_t k
     return widest;
 }
 
-/* Spacing of a particle [m]: that of the lattice, exactly, if its volume is that of the lattice but for round-off. */
+/* Returns the spacing of a particle [m]: exactly that of the lattice if its volume is the lattice volume up to
+ * round-off. */
 static real contact_spacing(const struct contact_law *law, const struct particles *p, int64_t i)
 {
     const real full = lattice_volume(law->section, law->spacing, p->dim), share = p->volume0[i] / full;
@@ -68,8 +69,8 @@ static real contact_spacing(const struct contact_law *law, const struct particle
     return law->spacing * pow(share, 1.0 / p->dim);
 }
 
-/* How much higher than half a spacing above the particle the surface of its body is, as the scene says it [spacings]:
- * particles of a lattice are where a curved face leaves them. Of faces that were inside, 0. */
+/* Returns the height of the surface of the body above a particle, by the shapes of the scene, minus 1/2 [spacings]; 0
+ * at faces that were inside the body. */
 static real contact_rise(const struct contact_law *law, const struct particles *p, int64_t i, real size)
 {
     const struct region *shape = law->shape[p->body[i]];
@@ -95,7 +96,7 @@ void contact_list_describe(struct contact *c, const struct particles *p)
     }
 }
 
-/* Lists them, and images of them: the peridynamic particles alone are looked at. */
+/* Lists the exposed peridynamic particles and their images. */
 static void list_exposed(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     const real least_volume = first_layer_share(f) * f->full;
@@ -121,18 +122,18 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
 
-/* What the pairs of rows are found from. */
+/* Input of the search for the pairs of rows. */
 struct contact_search {
     const struct contact_law *law;
     const struct particles *p;
     const struct bonds *b;
-    struct particles places; /* X: where those who may meet are now */
+    struct particles places; /* with the present positions of the listed particles as X */
     struct cells cells;
     const int32_t *particle;
-    real reach; /* [m] */
+    real reach; /* range of the search [m] */
 };
 
-/* Pairs of consecutive rows, as a thread finds them. */
+/* Pairs of consecutive rows, found by a thread. */
 struct pair_list {
     int64_t n;
     int32_t *other;
@@ -144,7 +145,7 @@ static void pair_add(struct pair_list *to, int32_t other)
     to->other[to->n++] = other;
 }
 
-/* Adds the pairs of row k; marks: a bit for each particle, clear before and after. */
+/* Appends the pairs of row k. marks: one bit per particle, 0 before and after. */
 static void row_pairs(const struct contact_search *s, struct near *near, uint64_t *marks, int64_t k,
                       struct pair_list *to)
 {
@@ -163,7 +164,7 @@ static void row_pairs(const struct contact_search *s, struct near *near, uint64_
     }
 }
 
-/* Numbers of pairs up to each row, and room for the pairs. */
+/* Sums the numbers of pairs up to each row and allocates the pairs. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -171,7 +172,7 @@ static void pairs_room(struct contact *c)
     c->other = BARE("contact.other", c->pairs, int32_t);
 }
 
-/* Pairs of all rows: each thread finds those of its rows, then puts them where they belong. */
+/* Finds the pairs of all rows: each thread finds the pairs of its rows, then copies them to their position. */
 static void pairs_find(struct contact *c, const struct contact_search *s)
 {
     c->first = NEW("contact.first", c->rows + 1, int64_t);
@@ -201,7 +202,7 @@ static void pairs_find(struct contact *c, const struct contact_search *s)
     }
 }
 
-/* Distance d of particles i, j if they were on the list before [m]; NAN: they were not. */
+/* Returns the contact distance of particles i and j on the previous list [m], or NAN. */
 static real distance_before(const struct contact *before, int64_t row, int32_t j)
 {
     if (row < 0) return NAN;
@@ -210,7 +211,7 @@ static real distance_before(const struct contact *before, int64_t row, int32_t j
     return NAN;
 }
 
-/* Where contact of each row, or of each of its pairs, begins. */
+/* Determines where contact of each row, or of each of its pairs, begins. */
 static void pairs_begin(struct contact *c, const struct contact *before, const struct particles *p)
 {
     if (c->law.form == CONTACT_SURFACE) {
@@ -230,7 +231,7 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
     }
 }
 
-/* Farthest pairs that can meet before the next search [m]. */
+/* Returns the largest distance of pairs that can come into contact before the next search [m]. */
 static real search_reach(const struct contact *c)
 {
     real most = 0;
@@ -258,15 +259,15 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     contact_springs_begin(c, &before);
     contact_rigid_find(c, &before, p, contact_skin(c));
     contact_friction_settle(c, &before);
-    before.law.stiffness = NULL; /* the new list keeps the law and the record of forces */
+    before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
 }
 
-/* ---- when -------------------------------------------------------------------------------------------------------- */
+/* ---- times of checks --------------------------------------------------------------------------------------------- */
 
-/* The farthest that one of them has come since the last search [m]; infinite where it is not known. */
-static real farthest_way(const struct contact *c, const struct particles *p)
+/* Returns the largest displacement of a listed particle since the last search [m], INFINITY if unknown. */
+static real largest_displacement(const struct contact *c, const struct particles *p)
 {
     real far2 = 0;
 #pragma omp parallel for schedule(static) reduction(max : far2)
@@ -278,14 +279,14 @@ static real farthest_way(const struct contact *c, const struct particles *p)
     return sqrt(far2);
 }
 
-/* Has one of them, or a rigid body, come half the skin far? */
+/* Returns true if a particle or rigid body has moved by half the skin. */
 static bool has_come_far(const struct contact *c)
 {
     const real far = 0.5 * contact_skin(c);
-    return !(c->way < far) || contact_rigid_has_come(c, far);
+    return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
-/* A lost bond or two make no face: what has them comes to the list with the next search. */
+/* Particles with few broken bonds form no face; they are listed by the next search. */
 void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n)
 {
     const real least_volume = first_layer_share(family) * family->full;
@@ -299,7 +300,7 @@ void contact_add(struct contact *c, const struct bonds *b, const struct family *
 
 bool contact_has_come(struct contact *c, const struct particles *p)
 {
-    if (c->made) c->way = farthest_way(c, p);
+    if (c->made) c->moved = largest_displacement(c, p);
     return !c->made || has_come_far(c);
 }
 
@@ -311,12 +312,12 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
     const bool come = contact_has_come(c, p);
     if (c->due || new_faces || come) {
         search_pairs(c, p, b, family);
-        c->made = true, c->due = false, c->way = 0;
+        c->made = true, c->due = false, c->moved = 0;
         c->searched = step, c->broken = broken;
     } else if (changed == c->changed) {
         contact_follow_more(c, p, b, l);
         return;
     }
     c->changed = changed;
-    contact_follow(c, p, b, l); /* also after changes of kind, which make row blocks anew */
+    contact_follow(c, p, b, l); /* also after conversions, which rebuild row blocks */
 }

@@ -1,6 +1,6 @@
-/* Contact in equilibria: which gaps are closed is found in turns with equilibrium (active sets: Hintermueller, Ito &
- * Kunisch 2003). While forces are in search of it, what is marked pushes or pulls, k times its overlap of either sign,
- * and nothing else does; then it is marked anew by what overlaps. */
+/* Contact in equilibria: the set of closed gaps is found in alternation with the equilibrium (active-set strategy:
+ * Hintermueller, Ito & Kunisch 2003). During the solution exactly the marked contacts act, with k times their overlap
+ * of either sign; afterwards contacts that overlap are marked anew. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 #define KEPT 1e-10 /* gaps and overlaps that change no mark [spacings] */
 
-/* Room for the marks of a new list. */
+/* Allocates the marks of a new list. */
 static void marks_room(struct contact *c)
 {
     memory_free(c->touch);
@@ -25,11 +25,12 @@ void contact_marks_follow(struct contact *c)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);
-    array_fill_bytes(c->followed, ROW_FEELS, c->rows, 1);
+    array_fill_bytes(c->followed, ROW_ACTIVE, c->rows, 1);
     c->waiting = 0;
 }
 
-/* Sets a mark by its gap and where contact begins, both in spacings; returns whether it has changed. */
+/* Sets a mark from a gap and the gap `close` at which contact counts [spacings]. Returns whether the mark has
+ * changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -37,7 +38,7 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* `close` counts for what another body may carry; the faces of a crack lie on each other and bear nothing. */
+/* Returns `close` for particles of different bodies; faces of a crack, which coincide without force, have 0. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_root(p, c->law.image, c->particle[l])] ? close : 0;
@@ -58,7 +59,7 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
     return changed;
 }
 
-/* What a step in time has left of its balance acts no more. */
+/* Clears the forces left by contact_balance in the last step in time. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
