@@ -1,17 +1,18 @@
-/* Material points that come near another body: they become peridynamic, and then meet it as particles do. */
+/* Conversion of material points that come near another body, so that they are in contact as peridynamic particles. */
 #ifndef CLEAVE_APPROACH
 #define CLEAVE_APPROACH
 
 #include "data/particles.h"
 #include "rigid/rigid.h"
 
-/* Steps between two searches, and how near a foreign particle is then [spacings]: contact begins at one, and faces that
- * meet at a tenth of the wave speed come nearer by a quarter of one in five steps. */
+/* Steps between two searches, and range of the search [spacings]: contact begins at one spacing, and faces that
+ * approach at a tenth of the wave speed come closer by a quarter of a spacing in five steps. */
 enum { APPROACH_STEPS = 5 };
 #define APPROACH_REACH 3.0
 
-/* Sets FLAG_NEAR of the material points within `reach` of a particle of another body or of a rigid body [m], and begins
- * the time anew at which peridynamic ones there may become material points. bodies: numbers of particles are below. */
+/* Sets FLAG_NEAR of the material points within `reach` [m] of a particle of another body or of a rigid body, and resets
+ * the time since which the stress of peridynamic particles there is low (reversion.h). bodies: number of bodies of the
+ * particles; rigid: [rigids]. */
 void approach_mark(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
 
 #endif

@@ -1,8 +1,9 @@
-/* Room `coupling`: where peridynamic particles and material points meet: conversion, reversion, partial stress,
- * interface damping, grid-coupled particles. It knows bonds, loads and kernels; the engine calls it.
+/* Room `coupling`: the coupling of peridynamic particles and material points: conversion, reversion, partial stress,
+ * interface damping, slits for pre-cracks. The room uses bonds, loads and kernels; the engine uses it.
  *
- * Material point -> peridynamic particle, one compacting pass at the end of the step, and the coupling data that
- * follow from the kinds: bond rows and partial stresses. */
+ * This header: conversion of material points to peridynamic particles, one pass at the end of a step, and the coupling
+ * data that depend on the kinds of particles: bond rows and partial stresses. PD-MPM bonds are the bonds between a
+ * peridynamic particle and a material point. */
 #ifndef CLEAVE_CONVERSION
 #define CLEAVE_CONVERSION
 
@@ -12,53 +13,59 @@
 #include "loads/loads.h"
 #include "scene/requests.h"
 
-/* What conversion has done so far. */
+/* Results of conversion and reversion so far. */
 struct conversion {
-    real first_time;                  /* [s], NAN before */
-    real first_place[DIM_MAX];        /* reference position of the first triggered particle [m] */
-    int64_t start, converted, events; /* peridynamic particles at t = 0; converted since; passes */
-    int64_t peak_bonds;               /* directed bonds stored, most at any time */
-    int64_t peak;                     /* peridynamic particles, most at any time */
-    int64_t reverted, reversions;     /* particles that became material points again; passes */
-    real reversion_energy;            /* all energy less that before, of these passes [J] */
+    real first_time;                  /* time of the first conversion [s], NAN: none so far */
+    real first_place[DIM_MAX];        /* reference position of the particle that triggered the first conversion [m] */
+    int64_t start, converted, events; /* peridynamic particles at t = 0; conversions since; passes with conversions */
+    int64_t peak_bonds;               /* largest number of stored directed bonds at a time */
+    int64_t peak;                     /* largest number of peridynamic particles at a time */
+    int64_t reverted, reversions;     /* particles that became material points again; passes with reversions */
+    real reversion_energy;            /* change of the total energy by these passes [J] */
 };
 
-/* What a pass asks of others. sync: updates particles whose motion is stored on the nodes of a mesh (mesh.h), before
- * bonds to them are made; the list names each particle once. converted (may be NULL): these have become peridynamic,
- * and their bonds are made. */
+/* Callbacks of a pass. sync: updates n listed particles whose motion is stored on the nodes of a mesh (mesh.h), before
+ * bonds to them are made; the list contains each particle once. converted (may be NULL): n listed particles have become
+ * peridynamic and have bonds now. context: first argument of both. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
     void (*converted)(void *context, const int32_t *list, int64_t n);
 };
 
-/* Converts every material point flagged FLAG_STRESSED or FLAG_LOST_BOND (as the criteria say), both ends of a bond that
- * broke, and with `block` their neighbours within the horizon; clears the flags of the step. Rows of bonds and
- * partial stresses (`partial` NULL: hand-shake without them) are rebuilt only if something converted. Bonds that are
- * past their limit when made are cut at once and their energy is booked as fracture. `sync` may be NULL. Returns the
- * number of particles converted. */
+/* Converts every material point flagged FLAG_STRESSED or FLAG_LOST_BOND (as rule->criteria select) and, with
+ * rule->block, its neighbours within the horizon; clears the flags of the step. Rows of bonds and partial stresses
+ * (`partial`, NULL: hand-shake without them) are rebuilt only if a particle is converted. Bonds beyond their limit when
+ * made are cut at once and their energy is booked as fracture. sync: NULL if no particle is in a mesh; t: time [s].
+ * Returns the number of particles converted. */
 int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
                 const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *sync,
                 real t);
 
-/* Marks as peridynamic, before step 0, every particle one of whose bonds a pre-crack cuts (Zeng et al. 2022,
- * eq. 28), and those in `region` (NULL: none). */
+/* Makes every particle peridynamic, before step 0, that has a bond cut by a pre-crack (Zeng et al. 2022, eq. 28), and
+ * the particles in `region` (NULL: none). */
 void convert_start(struct particles *p, const struct bond_source *source, const struct region *region);
 
-/* What is peridynamic before step 0 and stays so: the region that the scene gives (NULL: none), and `radius` [m]
- * round the ends of pre-cracks that lie in the body (in space: their edges). The caller frees `to`; one without
- * solids is none. */
+/* Computes the region `to` that is peridynamic from step 0 on: the region of the scene (`given`, NULL: none), and a
+ * ball of `radius` [m] round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller
+ * frees to->solid; a region without solids is empty. */
 void convert_region(struct region *to, const struct region *given, const struct particles *p,
                     const struct bond_source *source, real radius);
 
-/* Partial stress (partial_stress.c) of every material point whose cell a bond between a peridynamic particle and a
- * material point crosses: T = (1/V) sum K xi^2 l e e e e, l the share of the bond's reference segment inside the cell.
- * `changed`: particles converted since the last call, only their surroundings are made anew; NULL: everything. */
+/* Computes the partial stress (partial_stress.c) of every material point whose cell is crossed by PD-MPM bonds: T =
+ * (1/V) sum K xi^2 l e e e e, l being the share of the reference segment of the bond inside the cell. changed: n
+ * particles converted since the last call, only whose surroundings are recomputed; NULL: all points. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
-/* Sets particles.end_strain of points on the grid at the ends of state-based bonds, from their stress. */
-void partial_ends_update(const struct partial_stress *partial, struct particles *p, const struct material *material);
+
+/* Sets p->end_strain of the material points of state-based PD-MPM bonds on the grid, from their stress. material:
+ * [materials]. */
+void partial_points_update(const struct partial_stress *partial, struct particles *p, const struct material *material);
+
+/* Releases all arrays. */
 void partial_stress_free(struct partial_stress *partial);
+
+/* Saves or restores the results of conversion. */
 status conversion_archive(struct conversion *c, struct archive *a);
 
 #endif

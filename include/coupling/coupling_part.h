@@ -1,4 +1,4 @@
-/* Conversion and the coupling of peridynamic particles and material points, as a part of a run. */
+/* Conversion and coupling of peridynamic particles and material points in a run. */
 #ifndef CLEAVE_COUPLING_PART
 #define CLEAVE_COUPLING_PART
 
@@ -8,62 +8,77 @@
 #include "coupling/notch.h"
 #include "run/run.h"
 
-/* Where peridynamic particles and material points meet, and how one becomes the other. */
+/* State of the coupling. */
 struct coupling_state {
-    bool approaches; /* bodies meet: material points near others become peridynamic */
+    bool approaches; /* bodies may be in contact: material points near another body convert */
     struct partial_stress partial;
     bool flip;                  /* the transfer of the grid is FLIP */
-    bool uses_partial;          /* partial stresses and ends of state-based bonds are made */
-    uint8_t *bonded;            /* [n] 1: bonds meet this point of the grid (FLIP); NULL: they meet none */
-    struct interface_zone zone; /* damped beside peridynamic particles (FLIP, partial stress) */
-    real damping_share;         /* of the zone in a step; 0: not at all */
+    bool uses_partial;          /* partial stresses, or entries of state-based PD-MPM bonds, are made */
+    uint8_t *bonded;            /* [n] 1: material point with PD-MPM bonds (FLIP); NULL: none */
+    struct interface_zone zone; /* damped zone beside peridynamic particles (FLIP, partial stress) */
+    real damping_share;         /* strength of the damping of the zone in a step [1]; 0: none */
     struct conversion conversion;
-    struct notches notches;     /* what stands for pre-cracks */
-    struct region start_region; /* peridynamic from the start; no solid: none */
+    struct notches notches;     /* representation of pre-cracks: slits or cut bonds */
+    struct region start_region; /* peridynamic from the start; no solids: empty */
 };
 
-/* Which coupling there is; partial stresses and the interface zone for the bonds of now. */
+/* Sets the kind of coupling, and makes partial stresses and the interface zone for the present bonds. */
 void coupling_partial_make(struct run *e);
-/* Makes the mesh of the reference frame (frame_make) with the partial stresses and slits of now; still: the caller sets
- * the motion of its nodes. */
+
+/* Makes the mesh of the reference frame (frame_make) with the present partial stresses and slits. still: the caller
+ * sets the motion of the nodes. */
 status coupling_frame_make(struct run *e, bool still);
-/* Makes the interface zone and the list of material points that have bonds anew. */
+
+/* Rebuilds the interface zone and the marks of material points with PD-MPM bonds. */
 void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
                     const struct bond_source *source);
-/* Updates material points at the end of state-based bonds from their cells, or from their stress. */
-void ends_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
-                 const struct material *material);
 
-/* Pre-cracks as slits of the mesh or cut bonds, and what is peridynamic from the start. REFUSED where the scene wants
- * what cannot be. */
+/* Updates the material points of state-based PD-MPM bonds from the strain of their cells or, on the grid, from their
+ * stress. material: [materials]. */
+void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
+                          const struct material *material);
+
+/* Represents the pre-cracks by slits of the mesh or cut bonds, and converts the particles that are peridynamic from the
+ * start. REFUSED if the scene requires slits where they are impossible. */
 status notch_convert(struct run *e);
-/* What stands for pre-crack number `crack`, in words. */
+
+/* Writes the representation of pre-crack number `crack` in words to text [room]. */
 void notch_text(const struct notches *n, int crack, real spacing, char *text, size_t room);
-/* Marks points at faces of slits that meet. False: nothing was looked at in this step. */
+
+/* Marks material points beside slits whose faces approach each other (FLAG_NEAR). Returns false if faces are not
+ * evaluated in this step. */
 bool notch_approach(struct run *e);
-/* Marks as peridynamic the particles on both sides of narrow voids that cut no mesh: a grid would close them. */
+
+/* Makes the particles on both sides of narrow voids peridynamic where a grid would join them. v: NULL, no voids; uncut:
+ * voids do not cut the mesh (mesh_uncut). */
 void voids_convert(struct particles *p, const struct voids *v, bool uncut);
-/* Do no voids cut the mesh with nodes of grid g? A cut parts a line; where a mirror lies between nodes there are no
- * extra ones. */
+
+/* Returns true if voids do not cut the mesh with the nodes of grid g: in 1D, where a cut separates a line by itself,
+ * and with mirrors between nodes, for which extra nodes of cuts are not made. */
 bool mesh_uncut(const struct grid *g, const struct scene *s);
-/* Warns of voids that the run closes: narrow ones on the grid of the current frame, and in lists and images. */
+
+/* Warns of voids that the run joins: narrow ones on the grid of the current frame, and in bodies made from lists and
+ * images. */
 void voids_warn(const struct run *e, struct warnings *to);
 
-/* Warns of bodies that pass through each other or stick together, and of voids that are closed. */
+/* Warns of bodies that pass through each other or stick together, and of voids that are joined. */
 void warn_of_bodies(const struct run *e, struct warnings *to);
 
-/* Conversion (step 8 of the algorithm). Marks what bodies and faces have come near, and follows waves in the active
- * set; true: points may have been marked at faces of slits. */
+/* Prepares conversion (step 8 of the algorithm): marks material points near other bodies and slits, and extends the
+ * active rows. Returns true if points beside slits may have been marked. */
 bool conversion_mark(struct run *e);
-/* Converts what is marked, with all that follows from it and from `broken` directed bonds; marked: what conversion_mark
- * returned; fades: bonds are fading. Returns the number of particles converted. */
+
+/* Converts the marked material points, with all consequences of conversion and of `broken` directed bonds. marked:
+ * result of conversion_mark; fades: bonds of growing cracks fade. Returns the number of particles converted. */
 int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades);
-/* The mesh, and points at ends of bonds, after so many particles have converted. */
+
+/* Updates the mesh and the material points of PD-MPM bonds after `converted` particles have changed their kind. */
 void conversion_follow(struct run *e, int64_t converted);
 
-/* REFUSED for scenes that do not allow reversion. */
+/* Returns REFUSED if a scene with reversion has settings that exclude it. */
 status reversion_check(const struct scene *s);
-/* Reverts particles that are due, before a step. */
+
+/* Reverts the particles that are due to material points, before a step. */
 void revert(struct run *e);
 
 #endif

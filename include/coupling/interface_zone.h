@@ -1,17 +1,17 @@
-/* The interface zone: material points beside peridynamic particles, and the damping of motion there that the
- * grid cannot see.
+/* The interface zone: material points beside peridynamic particles, and the damping of motion there that the grid does
+ * not resolve.
  *
- * A wave that crosses from material points to bonds leaves motion behind that FLIP keeps for ever: points of a cell at
- * the edge moving against each other, or a light node at the edge swinging, since forces on single points are not
- * smooth in space. Measured in a bar, that is most of what a short pulse loses to the interface. The remedy is
- * fourth-order viscosity on the interface zone alone:
+ * A wave that passes from material points to bonds leaves motion behind that FLIP never damps: points of a cell at the
+ * edge that move against each other, or a light node at the edge that oscillates, since bond forces on single points
+ * are not smooth in space. Measured in a bar, this is most of the energy that a short pulse loses at the interface. The
+ * remedy is fourth-order viscosity in the interface zone alone:
  *
  *     d_i = s sum_j ((v_j - v_i) . e_ij) e_ij                  for i in the zone, j its nearest neighbours
  *     m_j dv_j = -k sum_i m_i s ((d_i - d_j) . e_ij) e_ij      (d = 0 outside the zone),  dv = -k B^T B v
  *
- * All exchanges are central and in pairs: the exchange itself keeps momentum and angular momentum to the last digits, a
- * rigid motion and in whole neighbourhoods a uniform strain rate are not touched, energy only falls. Long waves lose
- * (wave number x spacing)^4. */
+ * All exchanges are central and in pairs: they conserve momentum and angular momentum to round-off, leave rigid motion
+ * and, in full neighbourhoods, uniform strain rates unchanged, and only dissipate. The loss of long waves is
+ * proportional to (wave number x spacing)^4. */
 #ifndef CLEAVE_INTERFACE_ZONE
 #define CLEAVE_INTERFACE_ZONE
 
@@ -19,25 +19,29 @@
 #include "data/particles.h"
 
 struct interface_zone {
-    int64_t n, points;  /* particles in it or next to it; the points of the interface zone stand first */
-    int32_t *particle;  /* [n] */
+    int64_t n, points;  /* points of the zone and their neighbours, the points first; number of points */
+    int32_t *particle;  /* [n] particle of each member */
     int64_t *start;     /* [n + 1] neighbours of member k: neighbour[start[k] .. start[k+1]-1] */
-    int32_t *neighbour; /* members, as places in `particle` */
-    real *difference;   /* [points dim] d [m/s] */
-    real *change;       /* [n dim] of momentum [kg m/s] */
-    real scale;         /* s: the largest eigenvalue of B is 4 or less [1] */
+    int32_t *neighbour; /* members, as indices in `particle` */
+    real *difference;   /* [points][dim] d [m/s] */
+    real *change;       /* [n][dim] change of momentum [kg m/s] */
+    real scale;         /* s, such that the largest eigenvalue of B is at most 4 [1] */
 };
 
-/* The points within the cutoff and one spacing of a peridynamic particle of their body, and their neighbours within one
- * and a half spacings in the reference configuration; pairs that a pre-crack cuts and driven particles are left out. */
+/* Finds the points of the zone, within the cutoff plus one spacing of a peridynamic particle of their body, and their
+ * neighbours within 1.5 spacings in the reference configuration. Pairs cut by a pre-crack and driven particles are left
+ * out. */
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source);
+
+/* Releases all arrays. */
 void interface_zone_free(struct interface_zone *r);
 
-/* One step of damping of strength k = `share` [1], at most 1/16 (motion that alternates from point to point would
- * then stop in one step). Impulses J that change velocities from v to v' over a leap-frog step, together with the
- * forces in it, take -J . (v + v')/2: returns the first half of that, and interface_damp_end the other once the step
- * has been made [J]. */
+/* Damps the zone in a step, before the forces. share: strength k [1], at most 1/16 (with which motion that alternates
+ * from point to point stops in one step). Impulses J that change velocities from v to v' over a leap-frog step,
+ * together with the forces in it, remove the energy -J . (v + v')/2. Returns the half with v [J]. */
 real interface_damp_begin(struct interface_zone *r, struct particles *p, real share);
+
+/* Returns the half with v' of the energy that damping removed [J], after the step. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p);
 
 #endif

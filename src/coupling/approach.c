@@ -1,4 +1,5 @@
-/* Search of particles near other bodies: by the boxes of bodies first, then by cells of what lies in two of them. */
+/* Search for particles near other bodies: by bounding boxes of the bodies first, then by cells of the particles inside
+ * two boxes. */
 #include "coupling/approach.h"
 
 #include <math.h>
@@ -11,7 +12,7 @@ struct body_box {
     real from[DIM_MAX], to[DIM_MAX];
 };
 
-/* Boxes of the particles of each body, [bodies]. */
+/* Returns the bounding boxes of the particles of each body [bodies], which the caller frees. */
 static struct body_box *body_boxes(const struct particles *p, int bodies)
 {
     struct body_box *all = NEW("approach.boxes", bodies, struct body_box);
@@ -39,7 +40,7 @@ static struct body_box *body_boxes(const struct particles *p, int bodies)
     return all;
 }
 
-/* Is particle i within `reach` of the box of another body? */
+/* Returns true if particle i is within `reach` of the box of another body. */
 static bool in_foreign_box(const struct particles *p, const struct body_box *box, int bodies, int64_t i, real reach)
 {
     for (int b = 0; b < bodies; b++) {
@@ -68,7 +69,7 @@ static void mark(struct particles *p, int64_t i)
         p->low_since[i] = INFINITY;
 }
 
-/* Marks those of the n listed that are near one of another body. */
+/* Marks those of n listed particles that are within `reach` of a listed particle of another body. */
 static void mark_listed(struct particles *p, const int32_t *list, int64_t n, real reach)
 {
     struct particles places = {.n = n, .n_all = n, .dim = p->dim};

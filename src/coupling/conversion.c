@@ -19,7 +19,7 @@ static void list_add(struct index_list *l, int64_t i)
     l->at[l->n++] = (int32_t)i;
 }
 
-/* Particles and images within the cutoff of particle i; map: of the bonds, NULL: there is none yet. */
+/* Finds the particles and images within the cutoff of particle i. map: of the bonds, NULL: none. */
 static void family_find(struct near *near, const struct bond_source *s, const struct site_map *map,
                         const struct particles *p, int64_t i)
 {
@@ -36,7 +36,7 @@ static void family_find(struct near *near, const struct bond_source *s, const st
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
 
-/* Does a pre-crack cut a bond of particle i? */
+/* Returns true if a pre-crack cuts a bond of particle i. */
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -70,13 +70,13 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
-    /* a material point that lost a bond converts whatever the criteria are: damage is stored in bonds only; and one
-     * that another body comes near, as particles meet those of any body */
+    /* whatever the criteria, material points convert that lost a bond, as damage is stored in bonds alone, and that are
+     * near another body, as contact needs particles */
     unsigned wanted = FLAG_LOST_BOND | FLAG_NEAR | (rule->criteria & CONVERT_ON_STRESS ? FLAG_STRESSED : 0u);
     return p->kind[i] == KIND_MPM && (p->flag[i] & wanted);
 }
 
-/* Does a bond of particle i, intact or not, end at a material point? */
+/* Returns true if particle i has a bond, intact or not, to a material point. */
 static bool conversion_meets_points(const struct bonds *b, const struct particles *p, int64_t i)
 {
     for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);)
@@ -84,8 +84,8 @@ static bool conversion_meets_points(const struct bonds *b, const struct particle
     return false;
 }
 
-/* Lists peridynamic particles whose bonds to material points become stiffer as other bonds break (normalisation local):
- * the partial stress there changes. */
+/* Lists peridynamic particles whose PD-MPM bonds become stiffer as other bonds break (normalisation local): the partial
+ * stress there changes. */
 static void list_stiffened(struct index_list *l, const struct bond_source *s, const struct particles *p,
                            const struct bonds *b)
 {
@@ -106,8 +106,8 @@ static void become_peridynamic(struct particles *p, struct index_list *changed, 
     list_add(changed, i);
 }
 
-/* Converts the particles that trigger and, with rule->block, their neighbours within the cutoff; adds them to `changed`
- * and clears the flags of the step. */
+/* Converts the marked particles and, with rule->block, their neighbours within the cutoff; appends all of them to
+ * `changed` and clears the flags of the step. */
 static void convert_marked(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                            const struct bond_source *source, const struct site_map *map, struct index_list *changed,
                            real t)
@@ -146,8 +146,8 @@ static void list_once(struct index_list *l, struct particles *p, int64_t i)
     list_add(l, i);
 }
 
-/* Updates position and velocity of all particles within the cutoff of those just converted, since bonds to them are
- * made next. Each particle is listed once: threads that share the list then write different particles. */
+/* Updates positions and velocities of all particles within the cutoff of the converted ones, before bonds to them are
+ * made. Each particle is listed once, so that threads sharing the list write different particles. */
 static void sync_near(const struct conversion_sync *sync, struct particles *p, const struct bond_source *source,
                       const struct site_map *map, const struct index_list *changed)
 {

@@ -1,4 +1,4 @@
-/* Conversion, and what follows from it, as a part of a step. */
+/* Conversion and its consequences in a step. */
 #include "coupling/coupling_part.h"
 
 #include "base/memory.h"
@@ -7,28 +7,30 @@
 #include "mesh/mesh_part.h"
 #include "rigid/rigid_part.h"
 
-void ends_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
-                 const struct material *material)
+void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
+                          const struct material *material)
 {
     if (!p->end_strain) return;
-    partial_ends_update(partial, p, material);
+    partial_points_update(partial, p, material);
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-/* May a point have been marked for conversion in this step, or a bond have changed? Points on the grid say nothing of
- * it; of the mesh its cells say that their points may be. */
+/* Returns true if a point may have been marked for conversion in this step, or a bond may have changed. Points on the
+ * grid give no information; cells of the mesh record whether a point of theirs is marked. */
 static bool may_convert(const struct scene *s, const struct particles *p, const struct reference_frame *r)
 {
     return p->n_free > 0 || p->n_grid_coupled > 0 || s->growths > 0 || scene_in_steps(s) || p->low_since ||
            r->levels.returned || mesh_stressed(&r->mesh);
 }
 
+/* Updates the motion of n listed points of the mesh. context: the run. */
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
     frame_sync_listed(e->frame, &e->part, &e->loads, list, n);
 }
 
+/* Requests a search for contact of n listed particles, which have become peridynamic. context: the run. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
@@ -51,7 +53,7 @@ void conversion_follow(struct run *e, int64_t converted)
     const bool due = converted > 0 || partial->touches > 0;
     const bool anew = due && frame_follow(e->frame, &e->part, converted, partial, &e->damped);
     if (anew) frame_follow_points(e->frame, &e->part, &e->bonds, &e->loads);
-    if (converted > 0 || (due && !anew)) ends_update(partial, e->frame, &e->part, e->scene->material);
+    if (converted > 0 || (due && !anew)) bonded_points_update(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
@@ -64,17 +66,17 @@ int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades)
     const int64_t converted = convert(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
                                       c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
     if (converted > 0) interface_make(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
-    /* where bonds fade; convert() has updated the stress share of points for broken bonds */
+    /* where bonds fade; for broken bonds convert() has updated the partial stresses */
     if (c->uses_partial && e->scene->growths > 0 && (broken > 0 || converted > 0 || fades))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
     conversion_follow(e, converted);
     return converted;
 }
 
-/* Marks material points with bonds, c->bonded [n], for FLIP. */
+/* Marks the material points with PD-MPM bonds in c->bonded [n] (FLIP only). */
 static void bonded_make(struct coupling_state *c, const struct particles *p, const struct bonds *b)
 {
-    if (b->rows == 0) { /* all have reverted: no point is beside bonds */
+    if (b->rows == 0) { /* all particles have reverted: no material point has bonds */
         memory_free(c->bonded);
         c->bonded = NULL;
         return;
@@ -110,6 +112,6 @@ status coupling_frame_make(struct run *e, bool still)
     const struct mesh_source cuts = {
         .partial = c->uses_partial ? &c->partial : NULL, .slit = c->notches.slit, .slits = c->notches.slits};
     TRY(frame_make(e, &cuts, still));
-    c->partial.touches = 0; /* the mesh is of the partial stresses of now */
+    c->partial.touches = 0; /* the mesh includes the present partial stresses */
     return OK;
 }

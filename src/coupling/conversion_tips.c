@@ -1,6 +1,6 @@
-/* Particles around the ends of pre-cracks that are peridynamic from the start. A crack starts there, and where bonds
- * carry the load from the first step on they break when those of full peridynamics do; bonds of particles that convert
- * under load break later at a tip, and sooner at a free surface. */
+/* Particles round the ends of pre-cracks, which are peridynamic from the start. Cracks start to grow there; bonds that
+ * carry the load from the first step on break at the load at which full peridynamics breaks them, while bonds of
+ * particles that convert under load break later at a tip and earlier at a free surface. */
 #include <string.h>
 
 #include "coupling/conversion.h"
@@ -12,16 +12,16 @@ static void region_add(struct region *r, const struct solid *s)
     r->solid[r->n++] = *s;
 }
 
-/* Is a particle within one spacing of X, a place at an end of the crack? An end outside the body is the mouth of a
- * notch. */
+/* Returns true if a particle is within one spacing of X, a position at an end of the crack. An end outside the body is
+ * the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
     return !mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
            cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
-/* Adds a ball of `radius` [m] around end k of a pre-crack to the region; in space a cylinder around the edge from
- * corner k to the next. */
+/* Adds a ball of `radius` [m] round end k of a pre-crack to the region; in 3D a cylinder round the edge from corner k
+ * to the next. */
 static void conversion_tip_add(struct region *r, const struct particles *p, const struct bond_source *s,
                                const struct crack *c, int k, real radius)
 {

@@ -1,4 +1,4 @@
-/* Conversion and coupling, as a part of a run. */
+/* Row of the coupling in the table of parts, and its results in the summary. */
 #include "coupling/coupling_part.h"
 #include "base/memory.h"
 #include "run/part.h"
@@ -10,7 +10,7 @@ static void coupling_free_all(struct run *e)
     memory_free(c->bonded), memory_free(c->start_region.solid);
 }
 
-/* Most reversions of one particle. */
+/* Returns the largest number of reversions of a particle. */
 static int reversions_most(const struct particles *p)
 {
     int most = 0;
@@ -18,7 +18,7 @@ static int reversions_most(const struct particles *p)
     return most;
 }
 
-/* What stands for each of the first pre-cracks. */
+/* Writes the representation of each of the first pre-cracks. */
 static void put_notches(struct json *j, const struct notches *n, real spacing)
 {
     enum { SAID = 16 };
@@ -54,10 +54,10 @@ static void put_conversion(const struct run *e, struct json *j)
     json_close(j, '}');
 }
 
-/* Of the mesh points at ends of bonds follow, which is no state. */
+/* The material points of PD-MPM bonds follow from the mesh; they are no part of the state. */
 static status coupling_state_of(struct run *e, struct archive *a)
 {
-    if (!a->saving) ends_update(&e->coupling->partial, e->frame, &e->part, e->scene->material);
+    if (!a->saving) bonded_points_update(&e->coupling->partial, e->frame, &e->part, e->scene->material);
     return conversion_archive(&e->coupling->conversion, a);
 }
 

@@ -1,4 +1,4 @@
-/* Warnings of several bodies: which of them meet, and how. */
+/* Warnings for several bodies: which of them are in contact, and how. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,8 +7,7 @@
 #include "grid/grid_part.h"
 #include "mesh/mesh_part.h"
 
-/* A list of names in words, `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: number of names
- * to come. */
+/* Names as text: `a`, `a and b`, `a, b and c`; names beyond the first few are counted. all: total number of names. */
 struct name_list {
     int n, all;
     char text[320];
@@ -26,7 +25,7 @@ static void name_add(struct name_list *l, const char *name)
         snprintf(l->text + used, sizeof l->text - used, "%s%.64s", l->n == 1 ? "" : last ? " and " : ", ", name);
 }
 
-/* Several bodies of which some are in the reference frame. */
+/* Warns of bodies in the reference frame, which are in contact with no other body. */
 static void warn_of_reference(const struct scene *s, const struct reference_frame *reference, struct warnings *to)
 {
     struct name_list names = {0};
@@ -41,7 +40,7 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
         names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
 }
 
-/* Contact between several bodies, by method. */
+/* Warns of missing contact between several bodies, depending on the method. */
 static void warn_of_contact(const struct scene *s, const struct reference_frame *reference, bool approaches,
                             struct warnings *to)
 {
@@ -59,7 +58,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                          "contact.convert and the coupling partial stress or handshake");
 }
 
-/* True if two particles start with one velocity, as parts of joined bodies; bodies about to collide do not. */
+/* Returns true if two particles start with the same velocity, as parts of joined bodies; colliding bodies do not. */
 static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
 {
     real apart2 = 0, most2 = 0;
@@ -70,9 +69,8 @@ static bool start_as_one(const struct particles *p, int64_t i, int64_t j)
     return apart2 <= 1e-6 * most2;
 }
 
-/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are nearer than `reach` at the start and move
- * together.
- * Returns the number of such pairs of bodies. */
+/* Sets touch[a * bodies + b], a < b, if particles of bodies a and b are closer than `reach` at the start and move
+ * together. Returns the number of such pairs of bodies. */
 static int touching(const struct particles *p, const struct cells *cells, int bodies, real reach, bool *touch)
 {
     struct near near = {0};
@@ -91,7 +89,7 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     return pairs;
 }
 
-/* Bodies that touch at the start. */
+/* Warns of bodies in contact at the start that are not joined. */
 static void warn_of_touch(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

@@ -1,4 +1,4 @@
-/* The interface zone of the material points and its damping. It has few particles; each is written by one thread. */
+/* The interface zone of the material points and its damping. The zone has few particles, each written by one thread. */
 #include "coupling/interface_zone.h"
 
 #include <math.h>
@@ -6,20 +6,21 @@
 
 #include "base/memory.h"
 
-#define NEIGHBOUR_SPACINGS 1.5 /* nearest along axes and face diagonals */
+#define NEIGHBOUR_SPACINGS 1.5 /* nearest neighbours along axes and face diagonals */
 
-enum mark { OUTSIDE, BESIDE, POINT }; /* outside the interface zone; neighbour of one of its points; point of it */
+/* outside the interface zone; neighbour of one of its points; point of the zone */
+enum mark { OUTSIDE, BESIDE, POINT };
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Can the damping of the interface zone move particle j? */
+/* Returns true if damping may change the velocity of particle j. */
 static bool interface_zone_is_free(const struct particles *p, int32_t j)
 {
     return j < p->n && !(p->flag[j] & (FLAG_DRIVEN | FLAG_MESHED));
 }
 
-/* Marks the free particles within `radius` [m] of the n listed ones and of their body that have no mark: material
- * points alone (`as` POINT) or all. Threads that find one particle write one value. */
+/* Marks the unmarked free particles within `radius` [m] of n listed ones of their body: material points (`as` POINT) or
+ * all particles. Threads that reach the same particle write the same value. */
 static void mark_near(uint8_t *mark, const struct particles *p, const struct bond_source *s, const int32_t *list,
                       int64_t n, real radius, enum mark as)
 {
@@ -45,29 +46,29 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* Appends the particles with mark `as` to the members; place[i] is their index. */
-static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *place, int64_t n, enum mark as)
+/* Appends the particles with mark `as` to the members. slot: index of each particle among the members [n]. */
+static void members_add(struct interface_zone *r, const uint8_t *mark, int32_t *slot, int64_t n, enum mark as)
 {
     for (int64_t i = 0; i < n; i++)
-        if (mark[i] == as) place[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
+        if (mark[i] == as) slot[i] = (int32_t)r->n, r->particle[r->n++] = (int32_t)i;
 }
 
-/* Finds the members: the points of the interface zone, then the neighbours of these points outside it. */
+/* Finds the members: the points of the interface zone, then their neighbours outside it. */
 static void members_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                         uint8_t *mark, int32_t *place)
+                         uint8_t *mark, int32_t *slot)
 {
     const real spacing = s->family.spacing;
     mark_near(mark, p, s, p->list[KIND_PD], p->n_of[KIND_PD], s->family.cutoff + spacing * (1 + 1e-9), POINT);
-    members_add(r, mark, place, p->n, POINT);
+    members_add(r, mark, slot, p->n, POINT);
     r->points = r->n;
     mark_near(mark, p, s, r->particle, r->points, NEIGHBOUR_SPACINGS * spacing, BESIDE);
-    members_add(r, mark, place, p->n, BESIDE);
+    members_add(r, mark, slot, p->n, BESIDE);
 }
 
-/* Neighbours of member k, in pairs of which at least one is a point of the interface zone, as members, ascending into
- * `to` (NULL: only counted). Returns their number. */
+/* Finds the neighbours of member k in pairs with at least one point of the interface zone. to: NULL, or set to them, as
+ * members in ascending order. Returns their number. */
 static int64_t pairs_of(const struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                        const uint8_t *mark, const int32_t *place, int64_t k, struct near *near, int32_t *to)
+                        const uint8_t *mark, const int32_t *slot, int64_t k, struct near *near, int32_t *to)
 {
     const int32_t i = r->particle[k];
     int64_t n = 0;
@@ -77,15 +78,15 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
         if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT))
             continue;
         if (cracks_part(s->crack, s->cracks, p, i, j)) continue;
-        if (to) to[n] = place[j];
+        if (to) to[n] = slot[j];
         n++;
     }
     return n;
 }
 
-/* Counts the pairs of each member, or writes them; returns the largest number that a member has. */
+/* Counts the pairs of each member, or writes them. Returns the largest number of a member. */
 static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                          const uint8_t *mark, const int32_t *place, bool count)
+                          const uint8_t *mark, const int32_t *slot, bool count)
 {
     int64_t most = 1;
 #pragma omp parallel reduction(max : most)
@@ -93,7 +94,7 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
         struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) {
-            const int64_t n = pairs_of(r, p, s, mark, place, k, &near, count ? NULL : r->neighbour + r->start[k]);
+            const int64_t n = pairs_of(r, p, s, mark, slot, k, &near, count ? NULL : r->neighbour + r->start[k]);
             if (count) r->start[k + 1] = n;
             if (n > most) most = n;
         }
@@ -103,29 +104,30 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
 }
 
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
-                                      const uint8_t *mark, const int32_t *place)
+                                      const uint8_t *mark, const int32_t *slot)
 {
-    const int64_t most = pairs_pass(r, p, s, mark, place, true);
+    const int64_t most = pairs_pass(r, p, s, mark, slot, true);
     for (int64_t k = 0; k < r->n; k++) r->start[k + 1] += r->start[k];
     r->neighbour = NEW("interface_zone.neighbour", r->start[r->n], int32_t);
-    pairs_pass(r, p, s, mark, place, false);
-    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim)); /* the sum of e e of n neighbours has a norm of about n/dim */
+    pairs_pass(r, p, s, mark, slot, false);
+    /* the norm of the sum of e e over n neighbours is about n/dim */
+    r->scale = 4 / ((real)most * (1 + 1.0 / p->dim));
 }
 
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source)
 {
     interface_zone_free(r);
     uint8_t *mark = NEW("interface_zone.mark", p->n, uint8_t);
-    int32_t *place = BARE("interface_zone.place", p->n, int32_t); /* [n] index of members */
+    int32_t *slot = BARE("interface_zone.slot", p->n, int32_t); /* [n] index among the members */
     r->particle = NEW("interface_zone.particle", p->n, int32_t);
-    members_make(r, p, source, mark, place);
+    members_make(r, p, source, mark, slot);
     r->particle = memory_resize("interface_zone.particle", r->particle, p->n, r->n, sizeof *r->particle);
     r->start = NEW("interface_zone.start", r->n + 1, int64_t);
-    interface_zone_pairs_make(r, p, source, mark, place);
+    interface_zone_pairs_make(r, p, source, mark, slot);
     r->difference = NEW("interface_zone.difference", r->n * p->dim, real);
     r->change = NEW("interface_zone.change", r->n * p->dim, real);
     memory_free(mark);
-    memory_free(place);
+    memory_free(slot);
 }
 
 void interface_zone_free(struct interface_zone *r)
@@ -140,7 +142,7 @@ void interface_zone_free(struct interface_zone *r)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Adds factor ((b - a) . e) e, e along the line between particles i and j. */
+/* Adds factor ((b - a) . e) e to sum; e: unit vector from particle i to j. */
 static void add_along(const struct particles *p, int32_t i, int32_t j, const real *a, const real *b, real factor,
                       real *sum)
 {
@@ -158,7 +160,7 @@ static void velocity_of(const struct particles *p, int32_t i, real *v)
     for (int d = 0; d < p->dim; d++) v[d] = p->v[d][i];
 }
 
-/* m d of member k: difference of its velocity from those of its neighbours, along the lines to them [kg m/s]. */
+/* Computes m d of member k: velocity differences to its neighbours along the lines to them [kg m/s]. */
 static void difference_make(struct interface_zone *r, const struct particles *p, int64_t k)
 {
     const int32_t i = r->particle[k];
@@ -172,8 +174,7 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Change of momentum of member k [kg m/s]. The two members of a pair get terms that are each other's negative to the
- * last bit. */
+/* Computes the change of momentum of member k [kg m/s]. The terms of the two members of a pair are bitwise opposite. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -185,10 +186,10 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* -1/2 of the changes times the present velocities of the members [J]. */
+/* The energy is -1/2 times the changes times the present velocities of the members. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p)
 {
-    real lost = 0; /* few; the sum must not depend on threads */
+    real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */
     for (int64_t k = 0; k < r->n; k++)
         for (int d = 0; d < p->dim; d++) lost -= 0.5 * r->change[k * p->dim + d] * p->v[d][r->particle[k]];
     return lost;
@@ -199,7 +200,7 @@ real interface_damp_begin(struct interface_zone *r, struct particles *p, real sh
 #pragma omp parallel
     {
 #pragma omp for schedule(static)
-        /* stays 0 for members outside the interface zone */
+        /* 0 for members outside the interface zone */
         for (int64_t k = 0; k < r->points; k++) difference_make(r, p, k);
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < r->n; k++) change_make(r, p, k, share);

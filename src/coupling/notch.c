@@ -1,4 +1,4 @@
-/* Pre-cracks as slits of the mesh: which can be, what is peridynamic round their ends, and faces that meet. */
+/* Pre-cracks as slits of the mesh: choice, peridynamic zones round their ends, approach of their faces. */
 #include "bonds/sites.h"
 #include "coupling/notch.h"
 
@@ -7,22 +7,22 @@
 
 #include "base/memory.h"
 
-#define AHEAD_REACH 1.2   /* radius of the search for particles ahead of an end [spacings] */
-#define FACE_REACH 1.01   /* particles that face each other across a slit [spacings] */
-#define MEET_REACH 1.5    /* of the search for faces that meet [spacings] */
-#define VOID_AHEAD 0.1    /* faces of voids are peridynamic before they meet [spacings] */
-enum { EDGE_PARTS = 16 }; /* places of an edge at which the body is looked for */
+#define AHEAD_REACH 1.2   /* range of the search for particles ahead of an end [spacings] */
+#define FACE_REACH 1.01   /* largest distance of particles that face each other across a slit [spacings] */
+#define MEET_REACH 1.5    /* range of the search for faces that approach each other [spacings] */
+#define VOID_AHEAD 0.1    /* gap of the faces of a void at which they become peridynamic [spacings] */
+enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
-/* ---- ends -------------------------------------------------------------------------------------------------------- */
+/* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Edges that a crack may grow from: of a segment its ends. Corners of edge e. */
+/* Finds the corners of edge e of a crack, from which it may grow; a segment has its two ends. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
     *to = dim == 3 ? c->corner[(e + 1) % c->n] : c->corner[e];
 }
 
-/* Does the body go on beyond edge e of a crack, away from the crack's middle? Beyond a mouth there is none of it. */
+/* Returns true if the body continues beyond edge e, away from the middle of the crack; beyond a mouth it does not. */
 static bool edge_inside(const struct crack *c, int e, const struct particles *p, const struct bond_source *s)
 {
     real middle[DIM_MAX] = {0};
@@ -44,8 +44,8 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
     return false;
 }
 
-/* A crack, and which of its edges lie in the body, one bit each. */
-struct look {
+/* A crack, and its edges inside the body, one bit each. */
+struct crack_edges {
     const struct crack *crack;
     uint64_t edges;
     real radius;
@@ -53,22 +53,23 @@ struct look {
 
 enum { EDGES_MAX = 64 };
 
-static struct look look_of(const struct crack *c, const struct particles *p, const struct bond_source *s, real radius)
+static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
+                                         real radius)
 {
-    struct look look = {c, 0, radius};
-    for (int e = 0; e < c->n && e < EDGES_MAX; e++) look.edges |= (uint64_t)edge_inside(c, e, p, s) << e;
-    return look;
+    struct crack_edges zone = {c, 0, radius};
+    for (int e = 0; e < c->n && e < EDGES_MAX; e++) zone.edges |= (uint64_t)edge_inside(c, e, p, s) << e;
+    return zone;
 }
 
-/* Is particle i in the zone round an end of the crack? */
-static bool in_zone(const struct look *look, const struct particles *p, int64_t i)
+/* Returns true if particle i is in the zone round an edge of the crack. */
+static bool in_zone(const struct crack_edges *zone, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
-    for (int e = 0; e < look->crack->n && e < EDGES_MAX; e++) {
+    for (int e = 0; e < zone->crack->n && e < EDGES_MAX; e++) {
         const real *from, *to;
-        crack_end_of(look->crack, e, p->dim, &from, &to);
-        if (look->edges >> e & 1 && segment_distance(from, to, X, p->dim) <= look->radius) return true;
+        crack_end_of(zone->crack, e, p->dim, &from, &to);
+        if (zone->edges >> e & 1 && segment_distance(from, to, X, p->dim) <= zone->radius) return true;
     }
     return false;
 }
@@ -97,7 +98,7 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* What a crack does outside the zones round its ends: particles that lose bonds there; of these those in no mesh. */
+/* Numbers of particles whose bonds a crack cuts outside the zones round its ends; of these, particles in no mesh. */
 struct flanks {
     int64_t particles, elsewhere;
 };
@@ -109,7 +110,7 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
-static struct flanks flanks_of(const struct look *look, const struct particles *p, const struct bond_source *s)
+static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
 #pragma omp parallel reduction(+ : particles, elsewhere)
@@ -117,9 +118,9 @@ static struct flanks flanks_of(const struct look *look, const struct particles *
         struct near near = {0};
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
-            if (!near_crack(look->crack, p, s, i) || in_zone(look, p, i)) continue;
+            if (!near_crack(zone->crack, p, s, i) || in_zone(zone, p, i)) continue;
             near_find(&near, s->cells, p, i, s->family.cutoff, false);
-            if (!loses_by(look->crack, p, i, &near)) continue;
+            if (!loses_by(zone->crack, p, i, &near)) continue;
             particles++;
             elsewhere += !(p->flag[i] & FLAG_MESHED);
         }
@@ -128,15 +129,15 @@ static struct flanks flanks_of(const struct look *look, const struct particles *
     return (struct flanks){particles, elsewhere};
 }
 
-/* Why a crack is no slit; NULL: it is one. */
+/* Returns the reason why a crack is no slit; NULL: it is one. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
-    const struct look look = look_of(c, p, s, radius);
+    const struct crack_edges zone = crack_edges_of(c, p, s, radius);
     if (p->dim == 1) return "a cut parts a line";
     if (c->n > EDGES_MAX) return "its polygon has more than 64 corners";
-    if (look.edges == 0) return "no end of it lies in the body, which it may part";
-    const struct flanks f = flanks_of(&look, p, s);
+    if (zone.edges == 0) return "no end of it lies in the body, which it may part";
+    const struct flanks f = flanks_of(&zone, p, s);
     if (f.particles == 0) return "the zones round its ends hold all of it";
     if (f.elsewhere > 0) return "it is not in material points in the reference frame";
     return NULL;
@@ -149,7 +150,8 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* What slits part particle i from: the share of its family; does it face a particle across one? */
+/* Computes the share of the family of particle i beyond slits. Returns true if the particle faces another across a
+ * slit. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source, struct near *near,
                       int64_t i)
 {
@@ -172,8 +174,8 @@ static bool beside_void(const struct bond_source *source, int64_t i)
     return voids_near(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Particles that slits part from some of their family: by what share; and those beside a slit or a narrow void, with
- * how deep these are in the body. */
+/* Finds the particles with a part of their family beyond slits, and those beside a slit or a narrow void with their
+ * depth in the body. */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);
@@ -222,9 +224,9 @@ void notches_make(struct notches *n, const struct particles *p, const struct bon
 void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source)
 {
     for (int k = 0; k < n->slits; k++) {
-        const struct look look = look_of(&n->slit[k], p, source, n->radius);
+        const struct crack_edges zone = crack_edges_of(&n->slit[k], p, source, n->radius);
         for (int64_t i = 0; i < p->n; i++)
-            if (n->lost[i] > 0 && near_crack(&n->slit[k], p, source, i) && in_zone(&look, p, i)) p->kind[i] = KIND_PD;
+            if (n->lost[i] > 0 && near_crack(&n->slit[k], p, source, i) && in_zone(&zone, p, i)) p->kind[i] = KIND_PD;
     }
 }
 
@@ -239,10 +241,10 @@ void notches_free(struct notches *n)
     memset(n, 0, sizeof *n);
 }
 
-/* ---- faces that meet --------------------------------------------------------------------------------------------- */
+/* ---- approach of faces ------------------------------------------------------------------------------------------- */
 
-/* Distance below which faces k and l of a void become peridynamic [m], 0: no void is between them: VOID_AHEAD before
- * they meet, but no farther apart than they were at the start. */
+/* Returns the distance below which faces k and l of a void become peridynamic [m]: VOID_AHEAD before contact, but at
+ * most their distance at the start; 0: no void is between them. */
 static real void_meeting_distance(const struct notches *n, const struct particles *p, int64_t k, int64_t l,
                                   real spacing)
 {
@@ -252,7 +254,8 @@ static real void_meeting_distance(const struct notches *n, const struct particle
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
 
-/* Distance below which the particles of faces k and l become peridynamic [m], 0: nothing is between them. */
+/* Returns the distance below which particles of faces k and l become peridynamic [m]; 0: no slit or void is between
+ * them. */
 static real meeting_distance(const struct notches *n, const struct particles *p, int64_t face, int64_t other,
                              real spacing)
 {
@@ -264,7 +267,7 @@ static real meeting_distance(const struct notches *n, const struct particles *p,
     return width < 0 ? void_meeting_distance(n, p, face, other, spacing) : spacing - real_max(gap, width - gap);
 }
 
-/* Distance of particles i and j after the time `ahead`, if they come nearer [m]. */
+/* Returns the distance of particles i and j after the time `ahead` if they approach each other [m]. */
 static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real ahead)
 {
     real r2 = 0, rate = 0;

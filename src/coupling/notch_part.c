@@ -1,4 +1,4 @@
-/* Pre-cracks in the reference frame: slits of the mesh or cut bonds. */
+/* Pre-cracks in the reference frame: set-up, text, and approach of their faces in a run. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,7 +8,7 @@
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Why no pre-crack of the scene is a slit; NULL: some may be. */
+/* Returns the reason why no pre-crack of the scene may be a slit; NULL: none. */
 static const char *scene_obstacle(const struct scene *s)
 {
     if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
@@ -20,6 +20,7 @@ static const char *scene_obstacle(const struct scene *s)
     return NULL;
 }
 
+/* Returns the reason of scene, frame or grid why no pre-crack may be a slit; NULL: none. */
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
@@ -28,6 +29,7 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
+/* Returns REFUSED if the scene requires slits and a pre-crack is none. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)

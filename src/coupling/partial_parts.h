@@ -1,60 +1,74 @@
-/* Geometry and response of bonds that cross the cell of a particle, shared by partial stress and reversion. */
+/* Bonds that cross the cell of a particle: geometry and response, shared by partial stress and reversion. */
 #ifndef CLEAVE_PARTIAL_PARTS
 #define CLEAVE_PARTIAL_PARTS
 
 #include "bonds/bonds.h"
 
-/* Share of the segment a-b inside the cube of half edge `half` round X. */
+/* Returns the share of the segment a-b inside the cube of half edge `half` round X [1]. */
 real segment_share(const real *a, const real *b, const real *X, real half, int dim);
 
-/* Reflection by a chain of mirrors: the image of a point X of the body has X'_d = sign_d X_d + offset_d; `root` is the
- * source of image i, or i itself. */
+/* Reflection by a chain of mirrors: the image of a point X of the body is X'_d = sign_d X_d + offset_d. root: source of
+ * image i, or i itself. */
 struct reflection {
     real sign[DIM_MAX], offset[DIM_MAX];
     int64_t root;
 };
+
+/* Returns the reflection of particle or image i. */
 struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i);
 
-/* Response of the force F of a bond of direction e to a uniform strain eps, times the bond's length [N m]:
+/* Response of the force F of a bond of direction e to a uniform strain eps, times the length of the bond [N m]:
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response {
     real central, pressure, vector;
 };
+
+/* Returns the response of bond i-j. */
 struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
                             const struct bond *bond);
-/* Adds to T [J] the part of one bond, from xp (a material point) to xm, inside the cell around X: T_abcd = l e_b
+
+/* Adds to T [J] the contribution of the bond from xp (a material point) to xm inside the cell round X: T_abcd = l e_b
  * dF_a/deps_cd, symmetric in cd. */
 void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim);
 
-/* Point i under state-based bonds: T [J] becomes the symmetric T' of partial_stress.c; L [symmetric] is the part of its
- * mean strain that its own bonds do not measure, 0 where it has none. Returns whether it has bonds
- * (partial_positive.c). */
+/* Limits T of point i under state-based bonds [J] to the symmetric T' of partial_stress.c (partial_positive.c). L: set
+ * to the part of the mean strain that the bonds of the point do not measure, in symmetric components; 0 without bonds.
+ * Returns true if the point has bonds. */
 bool partial_positive(real *T, real *L, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                       int64_t i);
 
-/* Point i under bonds of a bond-based model: T is kept below the stiffness V C of the point. On lattices it is below;
- * where particles stand irregularly, or bonds are stiffer than their material, the rest V C - T would be negative in
- * some direction, and the cell would gain energy at any step. */
+/* Limits T of point i under bond-based PD-MPM bonds [J] to the stiffness V C of the point. On lattices T is smaller;
+ * for irregular particles, or bonds stiffer than their material, V C - T would otherwise have negative eigenvalues and
+ * the cell would gain energy at any time step. */
 void partial_positive_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* Half the edge of a particle's cell [m]. */
+/* Returns half the edge of the cell of a particle [m]. */
 real half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* Table of the sums on a lattice (partial_table.c); `size`: numbers of a tensor. Empty where particles do not stand on
- * lattices. */
+/* Table of the sums on a lattice (partial_table.c). Empty if particles are not on lattices. */
 struct partial_table;
+
+/* Makes the table. size: values of a tensor. Release with partial_table_free. */
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
+
+/* Releases the table. */
 void partial_table_free(struct partial_table *t);
-/* Is the table not empty? Does it serve all cells? */
+
+/* Returns true if the table is not empty. */
 bool partial_table_serves(const struct partial_table *t);
+
+/* Returns true if the table applies to all cells. */
 bool partial_table_serves_all(const struct partial_table *t);
-/* Has particle i the volume of a lattice cell? */
+
+/* Returns true if particle i has the volume of a lattice cell. */
 bool partial_table_has(const struct particles *p, const struct bond_source *s, int64_t i);
-/* Computes the bond responses of the rows of the listed particles anew (NULL: of all material points); other
- * particles keep theirs. */
+
+/* Recomputes the bond responses of the rows of n listed particles (NULL: of all material points); the responses of
+ * other particles are kept. */
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, const int32_t *list, int64_t n);
-/* T of point i [J] from the bond responses of the rows around it. */
+
+/* Computes T of point i [J] from the bond responses of the rows around it. near: workspace. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                        const struct bond_source *s, int64_t i, struct near *near, real *T);
 

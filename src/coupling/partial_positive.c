@@ -1,17 +1,17 @@
-/* Stiffness that the cell of a point at the end of state-based bonds keeps (partial_stress.c): symmetric, and as near
- * to passing the patch test as a positive energy of the point allows.
+/* Stiffness of the cell of a material point of state-based PD-MPM bonds (partial_stress.c): symmetric, and as close to
+ * the patch test as a positive energy of the point allows.
  *
- * With X = (1/Q) sum w r e of the point's own bonds, these bonds store at least 1/2 V kappa X^2, kappa = B/tr zeta, by
- * Cauchy & Schwarz, and
+ * With X = (1/Q) sum w r e over the bonds of the point, these bonds store at least 1/2 V kappa X^2, kappa = B/tr zeta,
+ * by the Cauchy-Schwarz inequality, and
  *     1/2 V [A (L : eps + X)^2 + kappa X^2 + eps : K eps] >= 1/2 V eps : (K + q L L) eps,   q = A kappa/(A + kappa).
- * Negative eigenvalues of K + q L L are set to 0: they occur at a Poisson's ratio of 0.45 and more in plane strain and
- * in space. */
+ * Negative eigenvalues of K + q L L are set to 0; they occur for a Poisson's ratio of 0.45 and more in plane strain and
+ * in 3D. */
 #include <math.h>
 #include <string.h>
 
 #include "partial_parts.h"
 
-/* zeta = (1/Q) sum w xi (x) xi of the point's own bonds [1]; false: it has none. */
+/* Computes zeta = (1/Q) sum w xi (x) xi over the bonds of the point [1]. Returns false if it has none. */
 static bool own_bonds(real *zeta, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const int64_t row = p->kind[i] == KIND_MPM ? b->row_of[i] : -1;
@@ -32,7 +32,7 @@ static bool own_bonds(real *zeta, const struct particles *p, const struct bonds 
 
 /* ---- eigenvalues ------------------------------------------------------------------------------------------------- */
 
-/* One rotation of Jacobi: entry pq of the symmetric M becomes 0; the columns of Z are rotated with it. */
+/* Does a Jacobi rotation: entry pq of the symmetric M becomes 0; the columns of Z are rotated likewise. */
 static void rotate(real *M, real *Z, int n, int p, int q)
 {
     const real off = M[p * n + q];
@@ -50,8 +50,8 @@ static void rotate(real *M, real *Z, int n, int p, int q)
     }
 }
 
-/* Has the symmetric M a Cholesky factor, so that no eigenvalue is negative? Most have, at a twentieth of the cost of
- * their eigenvalues. */
+/* Returns true if the symmetric M has a Cholesky factor, so that no eigenvalue is negative: true for most points, and
+ * twenty times cheaper than the eigenvalues. */
 static bool is_positive(const real *M, int n)
 {
     real F[SYM_MAX * SYM_MAX];
@@ -69,7 +69,7 @@ static bool is_positive(const real *M, int n)
 static void make_positive(real *M, int n)
 {
     if (is_positive(M, n)) return;
-    enum { SWEEPS = 12 }; /* six unknowns: quadratic convergence ends far earlier */
+    enum { SWEEPS = 12 }; /* Jacobi sweeps; with six unknowns quadratic convergence is complete far earlier */
     real D[SYM_MAX * SYM_MAX], Z[SYM_MAX * SYM_MAX] = {0};
     array_copy(D, M, n * n, sizeof *M);
     for (int a = 0; a < n; a++) Z[a * n + a] = 1;
@@ -83,8 +83,8 @@ static void make_positive(real *M, int n)
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Off-diagonal symmetric components count twice: scaled by a root of 2 each, a matrix over symmetric components has the
- * eigenvalues of its tensor. */
+/* Returns the scale of component c: off-diagonal components occur twice in a tensor; with a factor sqrt(2) each, a
+ * matrix over symmetric components has the eigenvalues of its tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
 /* Subtracts from T the part that makes eigenvalues of V C + q L L - T negative. */

@@ -1,20 +1,19 @@
-/* Partial stress: the share of its stress that a material point leaves to the bonds that cross its cell. The bonds
- * between a peridynamic particle and a material point already carry, in uniform strain,
+/* Partial stress: the part of its stress that a material point leaves to the bonds that cross its cell. In uniform
+ * strain the PD-MPM bonds carry
  *     T_q : eps,   T_q = (1/V_q) sum_bonds K xi^2 l_q e (x) e (x) e (x) e
- * with l_q the share of the bond's reference segment inside the cell of point q and e its direction. The point gives
- * the grid sigma - T_q : C^-1 sigma and keeps its whole stress as state. T_q is geometric, exact in one dimension, and
+ * where l_q is the share of the reference segment of the bond inside the cell of point q, and e its direction. The
+ * point transmits sigma - T_q : C^-1 sigma to the grid and keeps sigma as its state. T_q is geometric, exact in 1D, and
  * the Hessian of an energy: C - T_q is the stiffness of the bonds that the cells replace.
  *
  * State-based bonds also respond to the trace of the strain and in other directions (struct response): their T_q is not
- * symmetric, and used as it is causes flutter at every time step. So a point j at the end of such bonds has the energy
- * of one family,
+ * symmetric and would cause flutter at any time step. A point j of such bonds therefore has the energy of one family,
  *     E_j = 1/2 V A S^2 + 1/2 g sum w |Y - R xi|^2,   S = sum w r e/Q + L : eps,   L = 1/D - (1/Q) sum w xi (x) xi
- * where the bonds of the point determine one part of the mean strain S and its cell the rest; R is the rotation of the
- * cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the bonds' stretch. The
- * derivatives of E_j by the cell's parts of S and R act back on the cell (particles.end_pull, end_moment). The cell
- * keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part of T that no energy
- * has: 1 to 4 % of S h at flat interfaces. T' is limited so that the energy of the point stays positive
- * (partial_positive.c). */
+ * in which the bonds of the point determine one part of the mean strain S and its cell the rest; R is the rotation of
+ * the cell (kernels/mesh/mesh_law.h), and for ordinary models the second term is that of the stretch of the bonds. The
+ * derivatives of E_j by the parts of S and R of the cell act on the cell (particles.end_pull, end_moment). The cell
+ * keeps K = C - T', T' = sym T + A sym (L (x) 1/D), which fails the patch test only by the part of T that has no
+ * energy: 1 to 4 % of the nodal force S h at flat interfaces. T' is limited so that the energy of the point stays
+ * positive (partial_positive.c). */
 #include <math.h>
 #include <string.h>
 
@@ -45,7 +44,7 @@ real segment_share(const real *a, const real *b, const real *X, real half, int d
 struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
-    while (r.root >= p->n) { /* X of this image = reflection of X of its source along one axis */
+    while (r.root >= p->n) { /* X of this image: reflection of X of its source along one axis */
         int64_t source = s->image[r.root - p->n].source;
         for (int d = 0; d < p->dim; d++) {
             if (p->X[d][source] == p->X[d][r.root]) continue;
@@ -81,7 +80,7 @@ void tensor_add(real *T, const real *xp, const real *xm, const real *X, real hal
         }
 }
 
-/* V/Q of particle or image i, with Q of a full family where it has no row of its own [m]. */
+/* Returns V/Q of particle or image i, with Q of a full family if it has no row [m]. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_root(p, s->image, i)];
@@ -102,7 +101,7 @@ struct response response_of(const struct particles *p, const struct bonds *b, co
                              .vector = s->rotates ? spring : 0};
 }
 
-/* Box around all bonds of a row; most rows lie too far from a cell for any of their bonds to cross it. */
+/* Bounding box of all bonds of a row, to skip rows too far from a cell for any of their bonds to cross it. */
 struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
@@ -130,7 +129,7 @@ static bool box_passes(const struct box *box, const real *X, real half, int dim)
     return false;
 }
 
-/* Adds all bonds of material point (or image) j that cross the cell around X. */
+/* Adds the contributions of all bonds of material point (or image) j that cross the cell round X to T. */
 static void tensor_add_row(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                            const struct box *box, int64_t j, const real *X, real half)
 {
@@ -143,7 +142,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {
         const struct bond bond = it.bond;
         if (bond.w == 0) continue;
-        bool apart = false; /* most bonds miss the cell: found without a division */
+        bool apart = false; /* most bonds miss the cell: tested without a division */
         for (int d = 0; d < p->dim; d++) {
             xm[d] = r.sign[d] * p->X[d][bond.nbr] + r.offset[d];
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
@@ -158,7 +157,7 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* T V of point i, bond by bond, for any arrangement of particles [J]. */
+/* Computes T V of point i [J] bond by bond, for any arrangement of particles. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct near *near)
 {
@@ -171,7 +170,8 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). False if no bond crosses. */
+/* Computes M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). Returns false if no bond
+ * crosses. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -188,15 +188,15 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Number of values in an entry: M, and L of state-based models. */
+/* Returns the number of values of an entry: M, and for state-based models L. */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Entry of point i for state-based models from T V [J]; false: it needs none. In hand-shake coupling a point leaves no
- * stress to bonds, but an entry of zeros marks it as an end of bonds. */
+/* Computes the entry of point i for state-based models from T V [J]. Returns false if none is needed. In hand-shake
+ * coupling a point leaves no stress to bonds; an entry of zeros marks it as a point of PD-MPM bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -207,7 +207,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Entry of point i for bond-based models from T V [J]; false: it needs none. */
+/* Computes the entry of point i for bond-based models from T V [J]. Returns false if none is needed. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_positive_bonds(T, p, s, i);
@@ -216,20 +216,20 @@ static bool bond_entry(real *entry, real *T, const struct particles *p, const st
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
-/* Entries to be made anew: those of points around the particles that have changed, and the rows whose bonds may cross
- * the cells of these points. */
+/* Entries to be recomputed: those of points around changed particles, and the rows whose bonds may cross the cells of
+ * these points. */
 struct renewal {
-    int32_t *list; /* particles there, material points or not, ascending              */
+    int32_t *list; /* particles around the changed ones, of any kind, in ascending order */
     int64_t n;
-    int32_t *row; /* rows of material points; none if the table serves all cells */
+    int32_t *row; /* rows of material points; none if the table applies to all cells */
     int64_t rows;
-    bool *own; /* [n] this particle is one of the changed                         */
+    bool *own; /* [n] the particle is one of the changed */
 };
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Marks particles within `radius` of the changed ones (DIRTY), and particles up to `reach` farther away (OTHERS_ROW)
- * [m]; `changed` NULL: around all peridynamic particles. */
+/* Marks particles within `radius` [m] of changed ones (DIRTY), and particles up to `reach` [m] farther (OTHERS_ROW).
+ * changed: NULL, around all peridynamic particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -247,7 +247,7 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     memory_free(near.at);
 }
 
-/* Lists marked particles, ascending, and returns their number; `list` NULL: only the number. */
+/* Counts the marked particles. list: NULL, or set to them in ascending order. Returns their number. */
 static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
 {
     int64_t found = 0;
@@ -261,13 +261,13 @@ static int64_t marked(const uint8_t *mark, int64_t n, int32_t *list)
     return found;
 }
 
-/* Finds the points and rows of a renewal: around the n changed particles, NULL: around all peridynamic particles. */
+/* Finds points and rows of a renewal around n changed particles; NULL: around all peridynamic particles. */
 static void renewal_make(struct renewal *r, const struct particles *p, const struct bonds *b,
                          const struct bond_source *s, const struct partial_table *table, const int32_t *changed,
                          int64_t n)
 {
-    /* a changed bond ends within a cutoff and half a cell's diagonal of every cell it crosses; on a lattice, within its
-     * own length: the middle of the cell lies in the box that it spans */
+    /* a changed bond ends within a cutoff plus half the diagonal of a cell of every cell it crosses; on a lattice,
+     * within its own length, since the middle of the cell is inside the box that the bond spans */
     const bool strange = !partial_table_serves_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
@@ -300,7 +300,7 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores M and L (`local` values) as the entry of point i, a new one if it has none. */
+/* Stores M and L (`local` values) as the entry of point i, a new entry if it has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -312,7 +312,7 @@ static void entry_put(struct partial_stress *partial, int64_t i, const real *M, 
     array_copy(partial->local + (int64_t)partial->index[i] * local, M + size, local, sizeof *M);
 }
 
-/* Removes unused entries once they are the majority: conversion and reversion make and abandon entries. */
+/* Removes unused entries once they are the majority; conversion and reversion create and abandon entries. */
 static void entries_squeeze(struct partial_stress *partial, const struct particles *p, int size, int local)
 {
     int64_t live = 0;
@@ -334,7 +334,7 @@ static void entries_squeeze(struct partial_stress *partial, const struct particl
     memory_free(old.local);
 }
 
-/* Does the entry of point i hold M and L already, bit by bit? */
+/* Returns true if the entry of point i equals M and L bitwise. */
 static bool entry_is(const struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     const int64_t at = partial->index[i];
@@ -342,14 +342,14 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
            arrays_equal(partial->local + at * local, M + size, local, sizeof *M);
 }
 
-/* Adds particle i to partial->touched. */
+/* Appends particle i to partial->touched. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
     GROW("partial.touched", partial->touched, partial->touches + 1);
     partial->touched[partial->touches++] = (int32_t)i;
 }
 
-/* Makes the entries of all material points of the renewal; `crossed` [r->n]: whether they need one. */
+/* Computes the entries of all material points of the renewal. crossed: [r->n] set to true if a point needs an entry. */
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
@@ -412,7 +412,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     renewal_free(&r);
 }
 
-void partial_ends_update(const struct partial_stress *partial, struct particles *p, const struct material *material)
+void partial_points_update(const struct partial_stress *partial, struct particles *p, const struct material *material)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];

@@ -1,5 +1,5 @@
-/* Partial stress on a lattice. The share of a bond inside the cell of a point depends only on the bond's start relative
- * to the point and on the bond's vector: shares are found once for all, and so is the tensor of every direction. For
+/* Partial stress on a lattice. The share of a bond inside the cell of a point depends only on the start of the bond
+ * relative to the point and on the vector of the bond: shares and the tensors of all directions are tabulated once. For
  * each point there remain a sum of bond responses by direction, and a sum of a few dozen tensors. */
 #include <math.h>
 #include <string.h>
@@ -8,45 +8,45 @@
 #include "base/memory.h"
 #include "partial_parts.h"
 
-#define WHOLE 1e-12 /* of a cell: deviation of a particle's volume by round-off */
+#define WHOLE 1e-12 /* tolerance of the volume of a lattice cell [1]: round-off */
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
-enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses lie in farther caches */
+enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses are in outer caches */
 
-/* A bond of this vector that starts at a given place has this share of its length inside the cell of the point. */
+/* A bond of a given vector that starts at a given site has this share of its length inside the cell of the point. */
 struct crossing {
     int16_t vector, direction;
     real share;
 };
 
-/* A place within the length of a bond from the point, or the point itself: offsets in spacings. */
+/* A site within the length of a bond from the point, or the point itself; offsets in spacings. */
 struct near_place {
     int16_t place, at[DIM_MAX];
 };
 
-/* Bond responses of the rows of material points; they stay valid until a bond of the row changes. */
+/* Bond responses of the rows of material points; valid until a bond of the row changes. */
 struct responses {
-    int32_t *of;    /* [n] entry of a particle, -1: it has no row with an intact bond     */
+    int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
     real *response; /* [room][vectors][parts]                                             */
     int64_t n, room, frees;
-    int32_t *free; /* [room] unused entries, `frees` of them                             */
+    int32_t *free; /* [room] unused entries, the first `frees` */
 };
 
-/* Places are numbered like the cells of a cube; `reach` cells to either side of the middle. */
+/* The table. Sites are numbered like the cells of a cube with `reach` cells on either side of the middle. */
 struct partial_table {
-    int dim, reach, parts, size; /* parts of a response; numbers of a tensor                           */
+    int dim, reach, parts, size; /* parts of a response; values of a tensor */
     real spacing, per_spacing;   /* [m] [1/m]                                                          */
-    int vectors, directions;     /* directions: a vector and its opposite                              */
-    struct near_place *near;     /* [vectors + 1] ascending                                            */
-    int16_t *vector;             /* [places] number of the vector to a place, -1: no bond              */
-    int16_t *mirror;             /* [2^dim][vectors] vector with signs changed                         */
-    int32_t *start;              /* [places + 1] crossings of bonds from a place: start .. next start  */
+    int vectors, directions;     /* vectors of bonds; directions, i.e. pairs of a vector and its opposite */
+    struct near_place *near;     /* [vectors + 1] in ascending order */
+    int16_t *vector;             /* [sites] number of the vector to a site, -1: no bond */
+    int16_t *mirror;             /* [2^dim][vectors] number of the vector with reversed signs */
+    int32_t *start;              /* [sites + 1] crossings of bonds from a site: start[k] .. start[k + 1] - 1 */
     struct crossing *crossing;
     real *tensor; /* [directions][parts][size]                                          */
-    bool uniform; /* all particles have the volume of a lattice cell                    */
+    bool uniform; /* all particles have the volume of a lattice cell */
     struct responses responses;
 };
 
-/* ---- places ------------------------------------------------------------------------------------------------------ */
+/* ---- sites ------------------------------------------------------------------------------------------------------- */
 
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
@@ -55,7 +55,7 @@ static int64_t partial_table_places_of(const struct partial_table *t)
     return n;
 }
 
-/* Offsets [spacings] of a place by its number, and below the number of a place by its offsets, -1: out of reach. */
+/* Computes the offsets [spacings] of a site from its number. */
 static void place_to(const struct partial_table *t, int64_t place, int *at)
 {
     for (int d = 0; d < t->dim; d++, place /= 2 * t->reach + 1) at[d] = (int)(place % (2 * t->reach + 1)) - t->reach;
@@ -71,7 +71,7 @@ static int64_t place_from(const struct partial_table *t, const int *at)
     return place;
 }
 
-/* Number of the place of site `to` relative to site `from`; -1: out of reach. */
+/* Returns the number of the site at `to` relative to the site at `from`; -1: out of reach. */
 static inline int64_t place_between(const struct partial_table *t, const real *from, const real *to)
 {
     int64_t place = 0;
@@ -86,7 +86,7 @@ static inline int64_t place_between(const struct partial_table *t, const real *f
 
 /* ---- construction ------------------------------------------------------------------------------------------------ */
 
-/* Numbers the vectors of all bonds that fit into the cutoff, and lists the near places. */
+/* Numbers the vectors of all bonds within the cutoff, and lists the near sites. */
 static void vectors_make(struct partial_table *t, real cutoff)
 {
     const int64_t places = partial_table_places_of(t), middle = (places - 1) / 2;
@@ -100,7 +100,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
         /* numbering stops one beyond VECTORS_MOST, which marks an overflow */
         t->vector[k] = bond && t->vectors <= VECTORS_MOST ? (int16_t)t->vectors++ : -1;
     }
-    t->directions = t->vectors / 2; /* places k and places - 1 - k are opposite */
+    t->directions = t->vectors / 2; /* sites k and places - 1 - k are opposite */
     t->near = NEW("partial.near", t->vectors + 1, struct near_place);
     for (int64_t k = 0, n = 0; k < places && n <= t->vectors; k++) {
         int at[DIM_MAX] = {0};
@@ -115,7 +115,7 @@ static int direction_of(const struct partial_table *t, int vector)
     return vector < t->directions ? vector : t->vectors - 1 - vector;
 }
 
-/* Finds the number of each vector after reflection of any set of axes. */
+/* Finds the number of each vector after reflection along any set of axes. */
 static void mirrors_make(struct partial_table *t)
 {
     t->mirror = NEW("partial.mirror", (int64_t)t->vectors << t->dim, int16_t);
@@ -128,8 +128,8 @@ static void mirrors_make(struct partial_table *t)
         }
 }
 
-/* For the bond from the middle to place k, in lattice units: counts (`count`) or stores a crossing for each cell that
- * it crosses, listed by the place of its start relative to that cell. */
+/* Processes the bond from the middle to site k, in lattice units: counts (`count`) or stores a crossing for each cell
+ * that it crosses, listed by the site of its start relative to the cell. */
 static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool count)
 {
     int to[DIM_MAX], low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, cell[DIM_MAX] = {0};
@@ -153,7 +153,7 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             }
 }
 
-/* Makes the list of crossings, by the place where the bond starts. */
+/* Makes the list of crossings, by the site where the bond starts. */
 static void crossings_make(struct partial_table *t)
 {
     const int64_t places = partial_table_places_of(t);
@@ -169,7 +169,7 @@ static void crossings_make(struct partial_table *t)
     memory_free(next);
 }
 
-/* Tensors of whole bonds by direction, for a unit value of each part of a response. */
+/* Computes the tensors of whole bonds by direction, for a unit value of each part of a response. */
 static void tensors_make(struct partial_table *t, const struct bond_source *s)
 {
     t->tensor = NEW("partial.tensor", (int64_t)t->directions * t->parts * t->size, real);
@@ -189,7 +189,7 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
     }
 }
 
-/* Do all particles of each body, and their images, stand on one lattice? */
+/* Returns true if all particles of each body, and their images, are on one lattice. */
 static bool on_lattice(const struct particles *p, real spacing)
 {
     int64_t first[BODIES_MOST];
@@ -261,7 +261,7 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Makes room for `open` entries in use at once. */
+/* Allocates room for `open` entries in use at a time. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -276,13 +276,14 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Gives particle i an entry, or below takes it away. */
+/* Assigns an entry to particle i. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
+/* Releases the entry of particle i. */
 static void response_close(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -291,7 +292,7 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Bond responses of a row, [vectors][parts]. */
+/* Computes the bond responses of a row, [vectors][parts]. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -312,7 +313,7 @@ static void response_make(const struct partial_table *t, const struct particles 
     }
 }
 
-/* Rows of a row block with an intact bond: consecutive queries mostly concern the same row block. */
+/* Rows of a row block with an intact bond, cached: consecutive queries mostly concern the same row block. */
 struct row_block_intact {
     int64_t row_block;
     unsigned rows;
@@ -357,14 +358,14 @@ void partial_table_update(struct partial_table *t, const struct particles *p, co
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* A row whose bonds may cross the cell of a point: particle or image j of the row, its place relative to the point, and
+/* A row whose bonds may cross the cell of a point: particle or image j of the row, its site relative to the point, and
  * the entry of its bond responses. A bond starts within its length of any cell that it crosses. */
 struct crossing_row {
     int32_t j, place, response;
 };
 
-/* Adds the bond responses of a row at `place`, times the shares of the bonds inside the cell, to the sums by direction;
- * `signs`: axes that the reflections of an image reverse, one bit each. */
+/* Adds the bond responses of a row at site `place`, times the shares of the bonds inside the cell, to the sums by
+ * direction. signs: axes that the reflections of an image reverse, one bit each. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -376,7 +377,7 @@ static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int6
     }
 }
 
-/* Prefetches what sum_row will read. */
+/* Prefetches the data that sum_row reads. */
 static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct crossing_row *row)
 {
     const real *response = response_at(t, row->response);
@@ -399,8 +400,8 @@ bool partial_table_has(const struct particles *p, const struct bond_source *s, i
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
 
-/* Inserts j into an ascending list of n rows if it is a material point, or the image of one, with bond responses;
- * returns the new length. */
+/* Inserts j into an ascending list of n rows if it is a material point, or the image of one, with bond responses.
+ * Returns the new length. */
 static int crossing_row_add(const struct partial_table *t, const struct particles *p, const struct bond_source *s,
                             int32_t j, int64_t place, struct crossing_row *to, int n)
 {
@@ -412,8 +413,8 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
     return n + 1;
 }
 
-/* Lists the rows near point i by the map of sites. Particles come in their order; images, whose indices are the
- * highest, in any order. */
+/* Lists the rows near point i by the map of sites. Particles are found in ascending order; images, which have the
+ * highest indices, in any order. */
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
@@ -427,7 +428,7 @@ static int crossing_rows_by_site(const struct partial_table *t, const struct sit
     return n;
 }
 
-/* Lists the rows near point i by a search, in the order of crossing_rows_by_site. */
+/* Lists the rows near point i by a neighbour search, in the order of crossing_rows_by_site. */
 static int crossing_rows_by_search(const struct partial_table *t, const struct particles *p,
                                    const struct bond_source *s, int64_t i, struct near *near, struct crossing_row *to)
 {

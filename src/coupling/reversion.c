@@ -1,4 +1,4 @@
-/* Reversion: peridynamic particles without broken bonds become material points again once the wave has passed. Each
+/* Reversion: peridynamic particles without broken bonds become material points again once waves have passed. Each
  * particle is written by one thread. */
 #include "coupling/reversion.h"
 
@@ -9,11 +9,11 @@
 #include "partial_parts.h"
 #include "kernels/mpm/stress.h"
 
-#define BROKEN_HORIZONS 2 /* distance from broken bonds within which particles stay peridynamic */
+#define BROKEN_HORIZONS 2 /* distance from broken bonds within which particles stay peridynamic [horizons] */
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
-/* Search for near particles, one per thread. */
+/* Neighbour search, one per thread. */
 struct search {
     const struct particles *p;
     const struct bond_source *source;
@@ -33,7 +33,7 @@ static void search_near(struct search *s, int64_t i, real radius)
     s->near.n = kept;
 }
 
-/* Is particle i, or a particle of its body within `radius` [m], marked? */
+/* Returns true if particle i, or a particle of its body within `radius` [m], is marked. */
 static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
 {
     if (mark[i]) return true;
@@ -43,8 +43,8 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Is the largest principal stress of particle i low? The virial of a family cut short by a surface is low for that
- * reason: it is scaled to that of a full family. */
+/* Returns true if the largest principal stress of particle i is low. The virial of a family truncated by a surface is
+ * scaled to that of a full family. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -55,9 +55,9 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_principal(stress, p->dim) < limit;
 }
 
-/* Updates low_since of the peridynamic particles. `held`: those that lost a bond, lie in rule->kept, or whose stress
- * has not been low for the hold time; `cut`: those that lost a bond. Returns the number of peridynamic particles that
- * are not in `held`. */
+/* Updates low_since of the peridynamic particles. held: set for particles that lost a bond, are inside rule->kept, or
+ * whose stress has not been low for the hold time; cut: set for particles that lost a bond. Returns the number of
+ * peridynamic particles that are not held. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -79,9 +79,9 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* `bound`: peridynamic particles that have one of `held` within the cutoff or one of `cut` within BROKEN_HORIZONS; they
- * stay peridynamic. `near`: particles that have an unbound peridynamic particle within the cutoff, and may be the
- * centre of a ball without bound particles. */
+/* Sets `bound` for peridynamic particles that stay so: those with a held particle within the cutoff or a cut one within
+ * BROKEN_HORIZONS. Sets `near` for particles that have an unbound peridynamic particle within the cutoff, as candidates
+ * for the centre of a ball without bound particles. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -151,8 +151,8 @@ static void rows_swap(real *a, real *b, int n)
     }
 }
 
-/* Solves A x = b for n unknowns and `columns` right sides in place of b (row major, `columns` to a row), by elimination
- * with pivots. False if A is singular: a family without enough directions. */
+/* Solves A x = b for n unknowns and `columns` right sides by elimination with pivots; x replaces b (row major,
+ * `columns` to a row). Returns false if A is singular: a family with too few directions. */
 static bool reversion_solve(real *A, real *b, int n, int columns)
 {
     real largest = 0;
@@ -175,7 +175,8 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Sums over the intact bonds of a row, for F of its family: K = sum w e e, G = sum w e y/r, K F^T = G. */
+/* Sums over the intact bonds of a row for the deformation gradient F of its family: K = sum w e e, G = sum w e y/r, K
+ * F^T = G. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -195,7 +196,7 @@ static void family_moments(const struct bonds *b, const struct particles *p, int
 }
 
 /* Stress that the bonds crossing the cell of a particle carry there, and its derivative T by a uniform strain, both
- * [Pa] times the volume while they are summed; centre [m] and half the edge [m] of the cell. */
+ * [Pa], times the volume during summation; centre and half the edge of the cell [m]. */
 struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
@@ -232,9 +233,10 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
     }
 }
 
-/* sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle i, l the
- * share of the reference segment inside it (as in partial_stress.c): the flux of momentum through the cell. The virial
- * of the particle's own family is equal under uniform strain, but smears a wave twice as far. */
+/* Computes sigma = (1/V) sum l F (x) y and T = (1/V) sum k r l e e e e over all bonds that cross the cell of particle
+ * i, l being the share of the reference segment inside it (partial_stress.c): the flux of momentum through the cell.
+ * The virial of the family of the particle is equal under uniform strain, but smooths a wave over twice the
+ * distance. */
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct near *near)
 {
@@ -261,7 +263,7 @@ static real determinant(const real *F, int dim)
 }
 
 /* Replaces the stress of the crossing bonds by that of full families under the strain T^-1 stress of these bonds; no
- * change where T is singular. */
+ * change if T is singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -273,8 +275,8 @@ static void complete(const struct bond_source *source, const struct particles *p
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
 
-/* Stress of particle i as a material point [Pa]. State-based models have no force of a single bond: the virial of the
- * family is used. */
+/* Computes the stress of particle i as a material point [Pa]. State-based models have no force of a single bond: the
+ * virial of the family is used. */
 static void reversion_stress(real *stress, const struct particles *p, const struct bonds *b,
                              const struct bond_source *source, int64_t i, struct near *near)
 {
@@ -286,7 +288,7 @@ static void reversion_stress(real *stress, const struct particles *p, const stru
     memcpy(stress, c.stress, sizeof c.stress);
 }
 
-/* Sets stress, volume, velocity gradient and stretch that particle i has as a material point. */
+/* Sets stress, volume, velocity gradient and stretch of particle i as a material point. */
 static void point_from_family(struct particles *p, const struct bonds *b, const struct bond_source *source, int64_t i,
                               struct near *near)
 {

@@ -1,4 +1,4 @@
-/* Reversion of peridynamic particles to material points: when it is checked, and what follows it. */
+/* Reversion in a run: times of its checks, and its consequences. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -9,8 +9,8 @@
 #include "contact/contact.h"
 #include "run/energies.h"
 
-/* Steps between checks: a wave crosses one horizon, half of a family, so that no wave passes a family between two
- * checks. */
+/* Returns the number of steps between checks: a wave travels one horizon, half of a family, so that no wave crosses a
+ * family between two checks. */
 static int64_t period(const struct run_clock *clock, const struct material_tables *tables,
                       const struct bond_source *source)
 {
@@ -32,7 +32,7 @@ status reversion_check(const struct scene *s)
     return why ? status_set(REFUSED, "conversion.reversion: true goes with %s", why) : OK;
 }
 
-/* Energy of the body at the current positions [J]. */
+/* Returns the energy of the bodies at the present positions [J]. */
 static real energy_now(struct run *e)
 {
     if (e->source.modulus) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
@@ -42,7 +42,7 @@ static real energy_now(struct run *e)
            diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
-/* Reverts the listed particles, [n], and records the change of energy. */
+/* Reverts n listed particles and records the change of energy. */
 static void revert_listed(struct run *e, const int32_t *list, int64_t n)
 {
     const real before = energy_now(e);

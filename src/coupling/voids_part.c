@@ -1,4 +1,5 @@
-/* Voids too narrow for a grid: particles beside them become peridynamic, or the run says that it closes them. */
+/* Voids too narrow for a grid: particles beside them become peridynamic, or a warning says that the grid joins their
+ * sides. */
 #include <math.h>
 #include <stdio.h>
 
@@ -6,7 +7,7 @@
 #include "grid/grid_part.h"
 #include "run/make.h"
 
-#define ALONG 0.999 /* least cosine between an axis and a way along it */
+#define ALONG 0.999 /* least cosine between an axis and a direction that counts as along the axis */
 
 bool mesh_uncut(const struct grid *g, const struct scene *s) { return s->dim == 1 || grid_mirror_between(g, s); }
 
@@ -16,8 +17,8 @@ void voids_convert(struct particles *p, const struct voids *v, bool uncut)
         if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
 }
 
-/* Writes the place of a particle as "(x, y)" [m]. Returns `text`. */
-static const char *void_place_text(const struct particles *p, int64_t i, char text[96])
+/* Writes the position of a particle as "(x, y)" [m] to text. Returns text. */
+static const char *void_position_text(const struct particles *p, int64_t i, char text[96])
 {
     int used = snprintf(text, 96, "(");
     for (int d = 0; d < p->dim; d++) used += snprintf(text + used, 96 - used, "%s%.4g", d > 0 ? ", " : "", p->X[d][i]);
@@ -25,17 +26,18 @@ static const char *void_place_text(const struct particles *p, int64_t i, char te
     return text;
 }
 
-/* Particles at voids that the run closes: their number, and the first. */
+/* Particles at voids that the run joins: their number, and the first. */
 struct closed {
     int64_t n, first;
 };
 
+/* Adds particle i. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;
 }
 
-/* Of bodies whose surface is known: material points on a grid that no void cuts. */
+/* Finds material points beside voids on a grid that the voids do not cut, in bodies whose surface is known. */
 static struct closed closed_on_grid(const struct particles *p, const struct voids *v, bool uncut)
 {
     struct closed found = {0};
@@ -45,22 +47,24 @@ static struct closed closed_on_grid(const struct particles *p, const struct void
     return found;
 }
 
-/* Distances from particle i to the nearest neighbours along the axes, down and up [2 dim, m]; INFINITY: none. */
+/* Computes the distances from particle i to its nearest neighbours along the axes, in negative and positive direction
+ * [2 dim, m]; INFINITY: none. */
 static void next_along(const struct particles *p, int64_t i, const struct near *near, real *next)
 {
     for (int a = 0; a < 2 * p->dim; a++) next[a] = INFINITY;
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
-        real way[DIM_MAX], r2 = 0;
-        for (int d = 0; d < p->dim; d++) way[d] = p->X[d][j] - p->X[d][i], r2 += square(way[d]);
+        real apart[DIM_MAX], r2 = 0;
+        for (int d = 0; d < p->dim; d++) apart[d] = p->X[d][j] - p->X[d][i], r2 += square(apart[d]);
         for (int d = 0; d < p->dim && p->body[j] == p->body[i]; d++) {
-            real *to = &next[2 * d + (way[d] > 0)];
-            if (square(way[d]) > square(ALONG) * r2) *to = real_min(*to, sqrt(r2));
+            real *to = &next[2 * d + (apart[d] > 0)];
+            if (square(apart[d]) > square(ALONG) * r2) *to = real_min(*to, sqrt(r2));
         }
     }
 }
 
-/* Of body b, whose surface is not known: particles of a lattice between which sites are empty, nearer than `reach`. */
+/* Finds particles of body b, whose surface is not known, that are on a lattice and beside empty sites narrower than
+ * `reach` [m]. */
 static struct closed closed_in_lattice(const struct scene *s, const struct particles *p, const struct cells *cells,
                                        int b, real reach)
 {
@@ -94,7 +98,7 @@ void voids_warn(const struct run *e, struct warnings *to)
                      "body %s has a void too narrow for its grid, at %s m: %lld points share "
                      "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
                      "particles.spacing does, too",
-                     s->body[e->part.body[grid.first]].name, void_place_text(&e->part, grid.first, place),
+                     s->body[e->part.body[grid.first]].name, void_position_text(&e->part, grid.first, place),
                      (long long)grid.n, uncut ? "" : "mpm.frame reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || surface_known(s, b)) continue;
@@ -104,7 +108,7 @@ void voids_warn(const struct run *e, struct warnings *to)
                      "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
                      "lists and images only particles are known, and %s join what is on both sides; cracks say where "
                      "there are free faces, a smaller particles.spacing widens the void",
-                     s->body[b].name, void_place_text(&e->part, gap.first, place), (long long)gap.n,
+                     s->body[b].name, void_position_text(&e->part, gap.first, place), (long long)gap.n,
                      s->method == METHOD_MPM  ? "cells"
                      : s->method == METHOD_PD ? "bonds"
                                               : "bonds and cells");

@@ -379,7 +379,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     coupling_partial_make(e);
     TRY(named(s, coupling_frame_make(e, before != NULL)));
     TRY(driving_check(&e->loads, &e->part, s, before == NULL));
-    ends_update(&e->coupling->partial, e->frame, &e->part, s->material);
+    bonded_points_update(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_make(e->stability, &e->part);
     return make_time(e, before);
 }

@@ -49,7 +49,7 @@ static void nodes_take(struct run *e, struct run *old)
     levels_follow_fine(&r->levels, &e->part, &r->source);
     frame_levels_found(r, &e->part, &e->bonds, &e->loads);
     frame_sync_motion(r, &e->part, &e->loads);
-    ends_update(&e->coupling->partial, r, &e->part, e->scene->material);
+    bonded_points_update(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
 /* Moves what is not described by the functions of state: the motion of nodes, files, timers and warnings. */

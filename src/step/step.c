@@ -128,7 +128,7 @@ static void move_grid(struct run *e, const struct step *now)
     viscosity_lend(e->viscosity, &e->part, false);
     if (e->clock.step == 0) residual_keep(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
-    if (any && e->part.end_strain) partial_ends_update(&e->coupling->partial, &e->part, e->scene->material);
+    if (any && e->part.end_strain) partial_points_update(&e->coupling->partial, &e->part, e->scene->material);
     if (any) lap(&e->laps, LAP_GATHER);
     if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, &e->part);
 }

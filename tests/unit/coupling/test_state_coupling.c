@@ -62,7 +62,7 @@ static void forces(struct both *b, enum pd_model model)
 {
     struct cloud *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
-    partial_ends_update(&b->s.partial, &c->p, c->material);
+    partial_points_update(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 

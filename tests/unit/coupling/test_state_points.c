@@ -173,7 +173,7 @@ static void check_points(const char *text)
     shake(&e);
     for (int64_t i = 0; i < e.part.n; i++)
         for (int c = 0; c < symmetric_count(e.part.dim); c++) e.part.stress[c][i] = cloud_between(&seed, -1e9, 1e9);
-    ends_update(&e.coupling->partial, e.frame, &e.part, e.scene->material);
+    bonded_points_update(&e.coupling->partial, e.frame, &e.part, e.scene->material);
     states_precompute(&e.bonds, &e.part, &e.source);
     for (int64_t row = 0; row < e.bonds.rows; row++) {
         const int64_t i = e.bonds.particle[row];
