@@ -1,4 +1,4 @@
-/* Cracks, as a part of a run. */
+/* Cracks in a run. */
 #ifndef CLEAVE_FRACTURE_PART
 #define CLEAVE_FRACTURE_PART
 
@@ -6,14 +6,15 @@
 #include "fracture/tips.h"
 #include "run/run.h"
 
-/* Cracks: where their tips are, and those whose growth is prescribed or SIF-controlled. */
+/* Cracks of a run: positions of their tips, and cracks whose growth is prescribed or controlled by stress-intensity
+ * factors. */
 struct fracture_state {
     struct tips tips;
     int growths;
     struct growth *growth; /* [growths] */
 };
 
-/* Do bonds fade along growing cracks? */
+/* Returns true if bonds fade along a growing crack. */
 bool cracks_fade(const struct fracture_state *f);
 
 #endif

@@ -1,4 +1,4 @@
-/* Fragments: parts of bodies that bonds still hold together. */
+/* Fragments: sets of particles connected by unbroken bonds. */
 #ifndef CLEAVE_FRAGMENTS
 #define CLEAVE_FRAGMENTS
 
@@ -7,20 +7,22 @@
 struct fragment {
     int body;
     int64_t particles;
-    int32_t first;                     /* its particle of the lowest number */
-    real mass, x[DIM_MAX], v[DIM_MAX]; /* [kg]; centre of mass [m], its velocity [m/s] */
+    int32_t first;                     /* its particle with the lowest index */
+    real mass, x[DIM_MAX], v[DIM_MAX]; /* mass [kg]; centre of mass [m], velocity of the centre [m/s] */
 };
 
 struct fragments {
-    int64_t n; /* of two particles or more, the heaviest first */
+    int64_t n; /* fragments of two particles or more, the heaviest first */
     struct fragment *fragment;
-    int32_t *of;       /* [n of the body] number of a particle's fragment; -1: none */
-    int64_t singles;   /* particles without any bond ... */
+    int32_t *of;       /* [particles of the body] index of the fragment of a particle; -1: none */
+    int64_t singles;   /* number of particles without a bond ... */
     real mass_singles; /* ... and their mass [kg] */
 };
 
-/* Of all peridynamic particles by the bonds that are left. */
+/* Finds the fragments of all peridynamic particles by their unbroken bonds. Release with fragments_free. */
 void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p);
+
+/* Releases all arrays. */
 void fragments_free(struct fragments *f);
 
 #endif

@@ -1,35 +1,36 @@
-/* Cracks that grow at a prescribed speed, or as the stress-intensity factors of a probe require. The tip runs on a
- * straight line between changes of direction; a bond that it crosses fades out over the length that the crack grows
- * from then on (transition bonds, Imachi et al. 2019):
+/* Cracks that grow at a prescribed speed, or as the stress-intensity factors (SIF) of a probe require. The tip moves on
+ * a straight line between changes of direction; a bond that it crosses fades over the following crack increment da
+ * (transition bonds, Imachi et al. 2019):
  *
  *     f_b = (1 - da/damping)^exponent,  0 <= da <= damping,  then 0;   damping = 0: released at once
  *
- * A SIF-controlled crack turns by theta_c(K), the direction of the largest hoop stress, away from the direction in
- * whose frame K was taken. That direction is the mean of where the tip headed, over the `smoothing` length of growth:
+ * A SIF-driven crack turns by theta_c(K), the direction of the largest hoop stress, relative to the direction in whose
+ * frame K was computed. This direction is the mean of the headings of the tip, over the `smoothing` length of growth:
  *
  *     d(along)/da = (heading - along)/smoothing
  *
- * A tip that turns at once and is measured in its new frame, round a ring that its kink has not crossed, finds K_II
- * reversed: theta_c = -2 K_II/K_I for small K_II is twice the turn that removes it, and the path swings at every
- * sample.
+ * If a tip turned at once and K were computed in its new frame, on a ring that the kink has not crossed, K_II would
+ * change its sign: theta_c = -2 K_II/K_I for small K_II is twice the rotation that removes K_II, and the path would
+ * oscillate from sample to sample.
  *
- * A crack may follow its toughness: it runs at the speed at which K_eq, taken with the fields of a moving tip, stays
- * equal to K_Ic, and rests while K_eq at rest is less (crack-tip equation of motion, Freund 1990, chapter 7).
- * Whatever body and load, K follows a change of speed at once as K = k(v) K*(t, length), and k, which falls from 1
- * at rest to 0 at the Rayleigh speed c_R, is the same for all (Freund 1990, chapters 6 and 7). Each new set of
- * factors makes one secant step along that curve,
+ * A crack may be driven by its toughness: it moves at the speed at which K_eq, computed with the fields of a moving
+ * tip, equals K_Ic, and is at rest while K_eq at rest is smaller (crack-tip equation of motion, Freund 1990, chapter
+ * 7). For any body and load, K responds to a change of speed at once as K = k(v) K*(t, length), and k, which decreases
+ * from 1 at rest to 0 at the Rayleigh speed c_R, is universal (Freund 1990, chapters 6 and 7). Each new set of factors
+ * gives one secant step along this curve,
  *
  *     k(v_wanted) = k(v_filtered) K_Ic/K_eq,   0 <= v_wanted <= fastest,
  *     v += (v_wanted - v) (1 - exp(-dt_sample/(0.3 T))),
  *     dv_filtered/dt = (v - v_filtered)/T,     T = horizon/c_R
  *
- * with the fixed point K_eq = K_Ic, whatever k is. v_filtered is the speed to which the factors belong: the process
- * zone, about a horizon, passes a change of speed on to the field that K is taken from in about T. A law that takes
- * v for it swings (283 m/s rms about the closed form instead of 61, inputs/running_crack.yaml). The mean over 0.3 T
- * bounds the change in a step: K is noisy as the tip goes from particle to particle.
+ * with the fixed point K_eq = K_Ic for any k. v_filtered is the speed to which the factors belong: the process zone,
+ * about a horizon wide, transmits a change of speed to the field from which K is computed within about T. With v in
+ * place of v_filtered the speed oscillates (283 m/s rms about the closed form in place of 61,
+ * inputs/running_crack.yaml). The mean over 0.3 T limits the change in a step: K is noisy as the tip moves from
+ * particle to particle.
  *
- * Both entries of a bond fade alike, so momentum stays exact; the energy that fading takes is fracture energy. A
- * crack that comes to rest keeps its bonds as they are. */
+ * Both entries of a bond fade equally, so that momentum is conserved; the energy lost by fading is fracture energy.
+ * Bonds of a crack at rest do not fade further. */
 #ifndef CLEAVE_GROWTH
 #define CLEAVE_GROWTH
 
@@ -39,17 +40,17 @@
 #include "scene/requests.h"
 #include "sif.h"
 
-/* Factors that control a crack, when they were taken, and the direction of the tip in whose frame: the crack turns
- * away from that direction until new factors are taken. */
+/* Stress-intensity factors that drive a crack, with their time, and the direction of the tip in whose frame they were
+ * computed: the crack turns relative to this direction until new factors are available. */
 struct control {
     struct sif factors;
     real along[2];
-    real time;                  /* [s] */
-    struct crack_medium medium; /* the body round the tip */
+    real time;                  /* of the factors [s] */
+    struct crack_medium medium; /* elastic body round the tip */
 };
 
-/* One fading entry of the rows: bond i-j, its weight when whole, one step ago and now, and the crack's length when
- * it was crossed. */
+/* A fading entry of the rows: bond i-j; its weight when crossed (whole), in the previous step (before) and at present
+ * (now); length of the crack when the bond was crossed [m]. */
 struct fading {
     int32_t i, j;
     real whole, before, now;
@@ -57,30 +58,37 @@ struct fading {
 };
 
 struct growth {
-    const struct growth_rule *rule;    /* borrowed */
-    real place[2], along[2], speed;    /* now; speed 0 while it rests [m] [m/s] */
-    real heading[2];                   /* unit vector: where it goes; `along` is the mean of where it came from */
-    real grown;                        /* length so far [m] */
-    real start_time;                   /* of the first growth; NAN before [s] */
-    real intensity;                    /* K_eq of the factors       ; NAN: none known [Pa m^(1/2)] */
-    real target_speed, filtered_speed; /* of a crack that follows: its speed; v_filtered [m/s] */
-    real control_time;                 /* time of the factors that controlled last [s] */
+    const struct growth_rule *rule; /* kept by reference */
+    /* present position of the tip [m], direction of the factors' frame, speed of the last step, 0 at rest [m/s] */
+    real place[2], along[2], speed;
+    /* unit vector of the present direction of growth; `along` is its mean over the smoothing length */
+    real heading[2];
+    real grown;                        /* length of growth so far [m] */
+    real start_time;                   /* time of the first growth [s]; NAN: none so far */
+    real intensity;                    /* K_eq of the last factors [Pa m^(1/2)]; NAN: unknown */
+    real target_speed, filtered_speed; /* toughness-driven cracks: speed v; v_filtered [m/s] */
+    real control_time;                 /* time of the last factors that changed the speed [s] */
     int64_t n;
     struct fading *fading;
 };
 
+/* Initialises a crack at its start. rule: kept by reference. */
 void growth_make(struct growth *g, const struct growth_rule *rule);
+
+/* Releases the fading bonds and resets the crack. */
 void growth_free(struct growth *g);
 
-/* One step: the tip advances, what it crosses begins to fade, what fades goes on. `control` NULL: no factors known;
- * they turn the crack to the direction of the largest hoop stress once it grows. Returns directed bonds that were
- * released. */
+/* Advances a crack by a step dt at time t [s]: moves the tip, adds the bonds that it crosses to the fading ones, and
+ * reduces their weights. control: present factors, NULL: unknown; they turn the tip to the direction of the largest
+ * hoop stress. Returns the number of directed bonds released. */
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
                     const struct control *control, real t, real dt);
 
-/* Angle of the chord from where it started against the direction then, 0..180 [degree]; NAN before it has grown. */
+/* Returns the angle between the chord from the start to the tip and the initial direction, 0..180 [degree]; NAN before
+ * the first growth. */
 real growth_angle(const struct growth *g);
 
+/* Saves or restores crack number `which` and its fading bonds. */
 status growth_archive(struct growth *g, int which, struct archive *a);
 
 #endif

@@ -1,13 +1,13 @@
-/* Stress-intensity factors by the interaction integral, on particles of either kind.
+/* Stress-intensity factors by the interaction integral over particles of any kind.
  *
- * The flux of energy (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual and
- * an auxiliary motion together, as an integral over a disc round the tip (Nakamura, Shih & Freund 1985):
+ * The energy flux (W + T) n_1 - sigma_ij n_j u_i,1 into a moving tip (Freund 1990, eq. 5.2.7), of the actual and an
+ * auxiliary motion together, as an integral over a disc round the tip (Nakamura, Shih & Freund 1985):
  *
- *   I = sum q_,j [sigma_ij u^a_i,1 + sigma^a_ij u_i,1 - (sigma_ml u^a_m,l + rho v_l v^a_l) delta_1j] A
+ * I = sum q_,j [sigma_ij u^a_i,1 + sigma^a_ij u_i,1 - (sigma_ml u^a_m,l + rho v_l v^a_l) delta_1j] A
  *     + sum q [rho (a_i u^a_i,1 + a^a_i u_i,1) - rho (v_i v^a_i,1 + v^a_i v_i,1)] A
  *
- * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times a, the acceleration less
- * what loads give to the particle (gravity, body forces, pressure on faces of the crack), so that no stress is
+ * with the weight q = 1 for r < inner, 0 for r > outer. sigma_ij,j is replaced by rho times the acceleration a minus
+ * that by loads on the particle (gravity, body forces, pressure on the faces of the crack), so that no stress is
  * differentiated. K = E* I/(2 A(v)) for an auxiliary field of K^a = 1; J = I(actual, actual)/2. At rest, without
  * inertia and such loads, only the ring where q varies contributes. */
 #ifndef CLEAVE_SIF
@@ -21,83 +21,91 @@
 
 /* ---- gradients at particles (sif_gradient.c) --------------------------------------------------------------------- */
 
-/* What makes particles invisible to each other: cracks that cut the line between their reference positions, and bonds
- * that load has broken. */
+/* Visibility of neighbours: particles are hidden from each other by cracks that cut the line between their reference
+ * positions, and by bonds broken by load. */
 struct sight {
     const struct crack *crack;
     int cracks;
-    const struct bonds *bonds; /* NULL: without */
+    const struct bonds *bonds; /* NULL: broken bonds do not hide */
 };
 
 struct gradient_rule {
     enum gradient_method method;
-    real reach; /* rho_m; neighbours within twice as much [m] */
+    real reach; /* rho_m; range of neighbours is 2 rho_m [m] */
     struct sight sight;
-    int diffraction;   /* l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther,
-                          round the tip; 0: not at all (visibility) */
-    real tip[DIM_MAX]; /*                                                     [m] */
+    /* exponent l of Organ et al. 1996, 1 or 2: hidden neighbours count as farther, round the tip; 0: not at all
+     * (visibility) */
+    int diffraction;
+    real tip[DIM_MAX]; /* position of the tip [m] */
 };
 
-/* df/dX_d at a particle: sum of weight[k][d] (f(particle[k]) - f at the particle itself). */
+/* Gradient at a particle: df/dX_d = sum of weight[k][d] (f(particle[k]) - f(particle itself)). */
 struct gradient_stencil {
     int n, room;
     int32_t *particle;
     real (*weight)[2]; /* [1/m] */
-    int order;         /* of the polynomials it is exact for; 0: too few neighbours, no weights */
+    /* order of the polynomials for which the gradient is exact; 0: too few neighbours, no weights */
+    int order;
 };
 
+/* Computes the stencil of particle i by the rule. *s is reused; release it with gradient_stencil_free. */
 void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          const struct cells *c, int64_t i);
+
+/* Releases all arrays. */
 void gradient_stencil_free(struct gradient_stencil *s);
-/* gradient[a][b] = d field_a/dX_b at particle i; field[0], field[1] are by particle, images included. */
+
+/* Computes gradient[a][b] = d field_a/dX_b at particle i. field[0], field[1]: values of all particles, images
+ * included. */
 void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
 struct contour {
     real inner, outer;
-}; /* where q leaves 1 and reaches 0 [m] */
+}; /* radii where q decreases from 1 and reaches 0 [m] */
 
-/* A tip and how to integrate round it. */
+/* A crack tip and options of the integration round it. */
 struct sif_tip {
     struct crack_medium medium;
-    real place[2], along[2]; /* reference position [m]; unit vector ahead */
-    int face;                /* +-1: side of x_2 to which particles on the crack belong */
-    int body;                /* whose particles count; -1: all */
-    real speed;              /* v; 0: at rest [m/s] */
-    real core;               /* where the second sum counts by half while the tip moves: not at all within a
-                                third of it, whole from five thirds on [m] */
-    real thickness;          /*                                                       [m] */
+    real place[2], along[2]; /* reference position [m]; unit vector of the direction of growth */
+    int face;                /* +-1: side of the crack (sign of x_2) to which particles on it belong */
+    int body;                /* particles of this body contribute; -1: of all bodies */
+    real speed;              /* speed v of the tip, 0: at rest [m/s] */
+    /* radius at which the second sum counts half while the tip moves: not within a third of it, fully from five thirds
+     * on [m] */
+    real core;
+    real thickness; /* thickness of the body [m] */
     enum sif_weight weight;
     enum sif_stress stress;
 };
 
-/* The motion at one time, by particle (images included); velocity and acceleration NULL: in equilibrium. */
+/* The motion at a time, of all particles, images included; velocity and acceleration NULL: equilibrium. */
 struct sif_motion {
     const real *displacement[2], *velocity[2], *acceleration[2]; /* [m] [m/s] [m/s^2] */
-    const real *body[2];   /* forces of loads over masses; NULL: there are none within contours [m/s^2] */
-    const real *stress[3]; /* xx yy xy, only SIF_PARTICLE [Pa] */
+    const real *body[2];   /* forces of loads over masses [m/s^2]; NULL: no loads inside the contours */
+    const real *stress[3]; /* xx, yy, xy [Pa]; SIF_PARTICLE only */
 };
 
 struct sif {
     real K[MODES], J;
 }; /* [Pa m^(1/2)], [J/m^2] */
 
-/* Weight and its slope at distance r. */
+/* Computes the weight q at distance r and its slope dq/dr. */
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope);
 
-/* What a point at x (local frame) adds to I, over its area [N/m / m^2]; the share `inside` of the second sum. The sums
- * above are symmetric in the two motions but for sigma u^a. */
+/* Returns the contribution to I of a point at x (local frame) over its area [N/m / m^2]; inside: share of the second
+ * sum that counts [1]. The sums above are symmetric in the two motions except for sigma u^a. */
 real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
                  const struct crack_state *auxiliary, real inside);
 
-/* Factors for each of n contours: one pass over the particles for their gradients. */
+/* Computes the factors for each of n contours with one pass over the particles for their gradients. found: [n]. */
 void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
                    const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
                    struct sif *found);
 
-/* Largest difference between contours: of K_I or K_II over |K|, or of J over J, means over the contours in the
- * denominators; NAN where they are 0. */
+/* Returns the largest difference between contours: of K_I or K_II over |K|, or of J over J, with means over the
+ * contours in the denominators; NAN if these are 0. */
 real sif_spread(const struct sif *found, int n);
 
 #endif

@@ -1,17 +1,16 @@
 /* Stress-intensity factors of a crack at rest from the displacements round its tip, by a least-squares fit of the
- * series of Williams (1957), both modes, with a translation (its term n = 2 of mode II is the rotation):
+ * series of Williams (1957), both modes, with a translation (term n = 2 of mode II is the rotation):
  *
- *   2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n
- *   2 G v_I  = r^(n/2) [(kappa - n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)]
- *   2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
- *   2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
+ * 2 G u_I  = r^(n/2) [(kappa + n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]      s = (-1)^n 2 G v_I  = r^(n/2) [(kappa -
+ * n/2 - s) sin(n t/2) + n/2 sin((n/2 - 2) t)] 2 G u_II = r^(n/2) [(kappa + n/2 - s) sin(n t/2) - n/2 sin((n/2 - 2) t)]
+ * 2 G v_II = r^(n/2) [-(kappa - n/2 + s) cos(n t/2) - n/2 cos((n/2 - 2) t)]
  *
- * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Up to n = 8, since a ligament of a few radii bends
- * (with n = 5 the direction is 5 degrees off where it is 12 spacings wide, with 8 one degree), and n = -1 for the zone
- * round the tip and along the faces in which bonds are no continuum: without it K_II is 7 to 10 % too large at three
- * to ten spacings, with it 3 to 5 %. Particles that the tip does not see, since a crack lies between, do not count. In
- * space these are the mean factors of a straight front: particles along it are one place of the plane across it.
- */
+ * K_I and K_II are the coefficients of n = 1 times sqrt(2 pi). Terms up to n = 8 describe the bending of a ligament of
+ * a few radii (in a ligament of 12 spacings the error of the direction is 5 degrees with n = 5, one degree with n = 8).
+ * n = -1 describes the zone round the tip and along the faces where bonds are no continuum: without it K_II is 7 to 10
+ * % too large at three to ten spacings, with it 3 to 5 %. Particles hidden from the tip by a crack do not count. In 3D
+ * the factors are means along a straight front: particles along the front are projected on the plane perpendicular to
+ * it. */
 #ifndef CLEAVE_TIP_FIT
 #define CLEAVE_TIP_FIT
 
@@ -21,16 +20,17 @@
 
 struct tip_view {
     struct crack_medium medium;
-    real axis[2][DIM_MAX];     /* unit vectors: of the plane across the front, in which all of what follows lies */
-    real place[2];             /* of the tip, reference position [m] */
-    real along[2], last[2];    /* unit vectors: of the frame, and of the last stretch of the crack */
-    real inner, outer;         /* particles between these radii count [m] */
-    int body;                  /* of this body */
-    const struct crack *crack; /* what hides particles from the tip */
+    /* unit vectors of the plane perpendicular to the front, in which all following vectors are */
+    real axis[2][DIM_MAX];
+    real place[2];             /* reference position of the tip [m] */
+    real along[2], last[2];    /* unit vectors: of the frame; of the last part of the crack */
+    real inner, outer;         /* particles between these radii are fitted [m] */
+    int body;                  /* particles of this body are fitted */
+    const struct crack *crack; /* [cracks] that hide particles from the tip */
     int cracks;
 };
 
-/* Factors in the frame; false, and 0, where the tip sees too few particles. */
+/* Fits the factors in the frame of the view. Returns false, with K = 0, if the tip has too few visible particles. */
 bool tip_fit(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

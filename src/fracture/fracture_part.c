@@ -1,4 +1,4 @@
-/* Cracks, as a part of a run. */
+/* Row of the cracks in the table of parts. */
 #include "fracture/fracture_part.h"
 #include "base/memory.h"
 #include "run/part.h"

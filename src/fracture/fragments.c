@@ -1,4 +1,4 @@
-/* Fragments by joining both ends of every bond: the particle of the lowest number stands for the others. */
+/* Fragments by joining the ends of every bond (union-find): the particle with the lowest index is the leader. */
 #include "fracture/fragments.h"
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-static int32_t stands_for(int32_t *leader, int32_t i)
+static int32_t leader_of(int32_t *leader, int32_t i)
 {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
@@ -18,7 +18,7 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
         const int32_t i = p->list[KIND_PD][k];
         for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
             if (it.bond.w == 0 || it.bond.nbr >= p->n) continue; /* images belong to other particles */
-            const int32_t one = stands_for(leader, i), other = stands_for(leader, it.bond.nbr);
+            const int32_t one = leader_of(leader, i), other = leader_of(leader, it.bond.nbr);
             if (one < other)
                 leader[other] = one;
             else
@@ -40,7 +40,7 @@ static void add_particle(struct fragment *f, const struct particles *p, int32_t 
     for (int d = 0; d < p->dim; d++) f->x[d] += p->mass[i] * p->x[d][i], f->v[d] += p->mass[i] * p->v[d][i];
 }
 
-/* Means from sums; particles without bonds are counted and left out. */
+/* Converts sums to means; particles without bonds are counted and left out. */
 static void leave_singles(struct fragments *f)
 {
     int64_t kept = 0;
@@ -56,32 +56,32 @@ static void leave_singles(struct fragments *f)
     f->n = kept;
 }
 
-/* Each particle's fragment, by the leaders of the sorted ones. */
+/* Assigns each particle its fragment, by the leaders of the sorted fragments. */
 static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
 {
     int32_t *number = BARE("fragments.number", n, int32_t);
     f->of = BARE("fragments.of", n, int32_t);
     for (int64_t i = 0; i < n; i++) number[i] = -1;
     for (int64_t k = 0; k < f->n; k++) number[f->fragment[k].first] = (int32_t)k;
-    for (int64_t i = 0; i < n; i++) f->of[i] = number[stands_for(leader, (int32_t)i)];
+    for (int64_t i = 0; i < n; i++) f->of[i] = number[leader_of(leader, (int32_t)i)];
     memory_free(number);
 }
 
 void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p)
 {
-    /* place[i]: number of the fragment that begins with particle i */
-    int32_t *leader = BARE("fragments.leader", p->n, int32_t), *place = BARE("fragments.place", p->n, int32_t);
+    /* slot[i]: index of the fragment whose first particle is i */
+    int32_t *leader = BARE("fragments.leader", p->n, int32_t), *slot = BARE("fragments.slot", p->n, int32_t);
     memset(f, 0, sizeof *f);
     for (int64_t i = 0; i < p->n; i++) leader[i] = (int32_t)i;
     join_ends(leader, b, p);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
-        if (stands_for(leader, i) == i) place[i] = (int32_t)f->n++;
+        if (leader_of(leader, i) == i) slot[i] = (int32_t)f->n++;
     }
     f->fragment = NEW("fragments", f->n, struct fragment);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
-        const int32_t i = p->list[KIND_PD][k], first = stands_for(leader, i);
-        struct fragment *g = &f->fragment[place[first]];
+        const int32_t i = p->list[KIND_PD][k], first = leader_of(leader, i);
+        struct fragment *g = &f->fragment[slot[first]];
         g->first = first, g->body = p->body[i];
         add_particle(g, p, i);
     }
@@ -89,7 +89,7 @@ void fragments_find(struct fragments *f, const struct bonds *b, const struct par
     array_sort(f->fragment, f->n, sizeof *f->fragment, heavier_first);
     number_particles(f, leader, p->n);
     memory_free(leader);
-    memory_free(place);
+    memory_free(slot);
 }
 
 void fragments_free(struct fragments *f)

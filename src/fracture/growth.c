@@ -1,4 +1,4 @@
-/* Growth of cracks at a prescribed speed or under SIF control, and the bonds that fade behind their tips. */
+/* Growth of cracks at prescribed speed or under SIF control, and the bonds that fade behind their tips. */
 #include "fracture/growth.h"
 
 #include <math.h>
@@ -8,9 +8,10 @@
 #include "kernels/kernels.h"
 #include "base/memory.h"
 
-#define FASTEST 0.9   /* of the Rayleigh speed: bound of the tip speed                     */
-#define SLOWEST 0.01  /* of the Rayleigh speed: factors at rest and at this speed are equal to 1e-4 */
-#define SMOOTHING 0.3 /* of the settling time                                              */
+#define FASTEST 0.9 /* limit of the tip speed over the Rayleigh speed */
+/* limit over the Rayleigh speed below which the fields at rest are used: factors differ by 1e-4 */
+#define SLOWEST 0.01
+#define SMOOTHING 0.3 /* time of the mean of the speed over the settling time T (growth.h) */
 
 void growth_make(struct growth *g, const struct growth_rule *rule)
 {
@@ -26,7 +27,7 @@ void growth_free(struct growth *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* One step of the law in the header: the speed that the last factors require, once for each set of factors. */
+/* Does one step of the law of growth.h for the target speed, once for each set of factors. settling: T [s]. */
 static void target_speed_find(struct growth *g, const struct control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -41,7 +42,7 @@ static void target_speed_find(struct growth *g, const struct control *control, r
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the filtered and the target speed; called before g->speed, the speed of the last step, is overwritten. */
+/* Updates the filtered and the target speed; to be called before g->speed of the last step is overwritten. */
 static void target_speed_update(struct growth *g, const struct control *control, real horizon, real t, real dt)
 {
     if (!growth_follows(g->rule)) return;
@@ -57,6 +58,7 @@ static void target_speed_update(struct growth *g, const struct control *control,
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
+/* Returns true if the crack grows in this step. */
 static bool grows(const struct growth *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -74,24 +76,24 @@ static void growth_turn(struct growth *g, const struct control *control)
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
 
-/* Moves the tip by `way` [m] along the heading; `along` follows the heading over the smoothing length. */
-static void growth_advance(struct growth *g, real way, real horizon)
+/* Moves the tip by `increment` [m] along the heading; `along` follows the heading over the smoothing length. */
+static void growth_advance(struct growth *g, real increment, real horizon)
 {
     const real smoothing = isnan(g->rule->smoothing) ? 0.25 * horizon : g->rule->smoothing;
-    const real share = way < smoothing ? way / smoothing : 1;
+    const real share = increment < smoothing ? increment / smoothing : 1;
     real along[2];
     for (int d = 0; d < 2; d++) {
-        g->place[d] += way * g->heading[d];
+        g->place[d] += increment * g->heading[d];
         along[d] = g->along[d] + share * (g->heading[d] - g->along[d]);
     }
     const real length = hypot(along[0], along[1]);
     for (int d = 0; d < 2 && length > 0; d++) g->along[d] = along[d] / length;
-    g->grown += way;
+    g->grown += increment;
 }
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
-/* Is the entry i-j of a row fading already? */
+/* Returns true if the entry i-j of a row is fading already. */
 static bool fades(const struct growth *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -99,14 +101,15 @@ static bool fades(const struct growth *g, int32_t i, int32_t j)
     return false;
 }
 
+/* Appends entry i-j with weight w to the fading ones. length: present length of the crack [m]. */
 static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Adds the entries of the row of particle i that the path of the tip crosses to the fading ones. */
-static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *way,
+/* Adds the entries of the row of particle i that a path of the tip crosses to the fading ones. */
+static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *path,
                       int32_t i)
 {
     real X[DIM_MAX], Y[DIM_MAX];
@@ -115,13 +118,13 @@ static void cross_row(struct growth *g, const struct bonds *b, const struct part
         const int32_t j = it.bond.nbr;
         if (it.bond.w == 0) continue;
         particle_place(p, j, Y);
-        if (crack_cuts(way, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
+        if (crack_cuts(path, X, Y, 2) && !fades(g, i, j)) fading_add(g, i, j, it.bond.w, g->grown);
     }
 }
 
-/* Particles within the cutoff of a path, into *found, which the caller frees. Returns their number. */
-static int near_way(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
-                    int32_t **found)
+/* Finds the particles within the cutoff of a path. *found: set to them, the caller frees it. Returns their number. */
+static int near_path(const real from[2], const real to[2], struct particles *p, const struct bond_source *s,
+                     int32_t **found)
 {
     real X[DIM_MAX] = {from[0], from[1]};
     const real radius = s->family.cutoff + hypot(to[0] - from[0], to[1] - from[1]);
@@ -134,7 +137,7 @@ static int near_way(const real from[2], const real to[2], struct particles *p, c
 static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
-    const int n = near_way(g->place, g->place, p, s, &found);
+    const int n = near_path(g->place, g->place, p, s, &found);
     int claimed = 0;
     for (int k = 0; k < n; k++) {
         if (found[k] >= p->n || p->kind[found[k]] != KIND_MPM) continue;
@@ -145,28 +148,28 @@ static int claim(const struct growth *g, struct particles *p, const struct bond_
     return claimed;
 }
 
-/* Adds all entries that the path of the tip from `from` to its place crosses to the fading ones. */
+/* Adds all entries crossed by the path of the tip from `from` to its present position to the fading ones. */
 static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
     real corner[2][DIM_MAX] = {{from[0], from[1]}, {g->place[0], g->place[1]}};
-    const struct crack path = {.n = 2, .corner = corner};
-    struct crack_list ways;
-    cracks_mirrored(&ways, &path, 1, s->mirror, s->mirrors, s->family.cutoff, ON_SURFACE * s->family.spacing);
-    for (int w = 0; w < ways.n; w++) { /* the path, and its images in mirrors nearby */
-        const struct crack *way = &ways.crack[w];
+    const struct crack straight = {.n = 2, .corner = corner};
+    struct crack_list paths;
+    cracks_mirrored(&paths, &straight, 1, s->mirror, s->mirrors, s->family.cutoff, ON_SURFACE * s->family.spacing);
+    for (int w = 0; w < paths.n; w++) { /* the path and its images in mirrors nearby */
+        const struct crack *path = &paths.crack[w];
         int32_t *found;
-        const int n = near_way(way->corner[0], way->corner[1], p, s, &found);
+        const int n = near_path(path->corner[0], path->corner[1], p, s, &found);
         for (int k = 0; k < n; k++)
-            if (found[k] < p->n) cross_row(g, b, p, way, found[k]);
+            if (found[k] < p->n) cross_row(g, b, p, path, found[k]);
         memory_free(found);
     }
-    crack_list_free(&ways);
+    crack_list_free(&paths);
 }
 
 /* ---- fading ------------------------------------------------------------------------------------------------------ */
 
-/* Entry of bond i-j, and its row; -1: the row does not hold the bond any more. */
+/* Finds the entry of bond i-j. Returns its index, -1 if the bond is no longer stored; sets *row. */
 static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *row)
 {
     *row = b->row_of[i];
@@ -175,7 +178,7 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Restores the weights of one step ago; bonds that load has broken since leave the list. */
+/* Restores the weights of the previous step; bonds broken by load since then leave the list. */
 static void step_back(struct growth *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -190,9 +193,10 @@ static void step_back(struct growth *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading entries. Half the energy of the weights lost in the last step and half of that lost
- * in this step are booked at the present positions (bond_fade). Rows change one after the other from the weights of one
- * step ago to those of the next step, so that their losses add up to the whole. Returns directed bonds released. */
+/* Reduces the weights of the fading entries. Half the energy of the weights lost in the previous step and half of that
+ * lost in this step are booked at the present positions (bond_fade). Rows change one after the other from the weights
+ * of the previous step to those of the next step, so that their losses sum to the whole. Returns directed bonds
+ * released. */
 static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -223,7 +227,7 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
     g->intensity = control ? crack_equivalent(control->factors.K) : NAN;
     target_speed_update(g, control, source->family.horizon, t, dt);
     g->speed = 0;
-    /* a crack that starts among material points waits one step for the bonds that it is to cross */
+    /* a crack that starts among material points waits one step for the bonds that it will cross */
     if (grows(g, t) && (claim(g, p, source) == 0 || g->grown > 0)) {
         if (g->rule->probe[0]) growth_turn(g, control);
         g->speed = growth_follows(g->rule) ? g->target_speed : g->rule->speed;
@@ -237,9 +241,9 @@ int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, cons
 
 real growth_angle(const struct growth *g)
 {
-    const real *e = g->rule->direction, way[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
+    const real *e = g->rule->direction, chord[2] = {g->place[0] - g->rule->at[0], g->place[1] - g->rule->at[1]};
     if (!(g->grown > 0)) return NAN;
-    return fabs(atan2(e[0] * way[1] - e[1] * way[0], dot(e, way, 2))) * 180 / 3.14159265358979323846;
+    return fabs(atan2(e[0] * chord[1] - e[1] * chord[0], dot(e, chord, 2))) * 180 / 3.14159265358979323846;
 }
 
 status growth_archive(struct growth *g, int which, struct archive *a)

@@ -1,14 +1,14 @@
-/* Places of several particles as one. */
+/* Representative position of several particles. */
 #include "fracture/places.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
-#define EQUAL_PLACE 1e-6    /* coordinates that differ by less are equal [reach] */
-enum { LOOKED_AT = 16384 }; /* places beyond these are left out: pairs of them are compared */
+#define EQUAL_POSITION 1e-6      /* tolerance of equal coordinates [reach] */
+enum { POSITIONS_MOST = 16384 }; /* limit of the number of positions: all pairs are compared */
 
-/* Places within reach of each other, across a direction. */
+/* Returns true if two positions are within reach of each other, perpendicular to a direction. */
 static bool places_near(const struct place *a, const struct place *b, int dim, real reach, const real *along)
 {
     real apart[DIM_MAX];
@@ -19,15 +19,15 @@ static bool places_near(const struct place *a, const struct place *b, int dim, r
     return dot(apart, apart, dim) <= square(reach);
 }
 
-/* Does place a come after b by x, then y, then z? */
+/* Returns true if position a comes after b in the order of x, then y, then z. */
 static bool comes_after(const struct place *a, const struct place *b, int dim, real reach)
 {
     for (int d = 0; d < dim; d++)
-        if (fabs(a->X[d] - b->X[d]) > EQUAL_PLACE * reach) return a->X[d] > b->X[d];
+        if (fabs(a->X[d] - b->X[d]) > EQUAL_POSITION * reach) return a->X[d] > b->X[d];
     return false;
 }
 
-/* Numbers the groups of n places from 0 on; returns how many there are. */
+/* Numbers the groups of n positions from 0 on. Returns the number of groups. */
 static int64_t groups_number(const struct place *place, int64_t n, int dim, real reach, const real *along,
                              int32_t *group)
 {
@@ -48,7 +48,7 @@ static int64_t groups_number(const struct place *place, int64_t n, int dim, real
     return groups;
 }
 
-/* Mean of the places of a group that count, or the nearest of them. */
+/* Computes the mean of the counting positions of a group, or the nearest of them. */
 static void group_middle(const struct place *place, const int32_t *group, int64_t n, int32_t which, int dim, real reach,
                          real *middle)
 {
@@ -67,12 +67,13 @@ static void group_middle(const struct place *place, const int32_t *group, int64_
         for (int d = 0; d < dim; d++) away2 += square(place[k].X[d] - middle[d]);
         if (away2 < least) nearest = k, least = away2;
     }
-    if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle); /* as the middle of a ring */
+    /* a mean outside the group, as of a ring */
+    if (least > square(reach)) array_copy(middle, place[nearest].X, dim, sizeof *middle);
 }
 
 int64_t places_middle(const struct place *place, int64_t n, int dim, real reach, const real *along, real *middle)
 {
-    const int64_t looked = n < LOOKED_AT ? n : LOOKED_AT;
+    const int64_t looked = n < POSITIONS_MOST ? n : POSITIONS_MOST;
     int64_t last = -1;
     int32_t *group = BARE("places.group", looked, int32_t);
     const int64_t groups = groups_number(place, looked, dim, reach, along, group);

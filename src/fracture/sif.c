@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/team.h"
 
-#define AT_THE_TIP 1e-9 /* of the contour: particles nearer to the tip or the crack count as on it */
+#define AT_THE_TIP 1e-9 /* tolerance of positions at the tip or on the crack [outer radius] */
 
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope)
 {
@@ -29,7 +29,8 @@ void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, 
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* First sum of sif.h per area, for a unit slope of q in the direction n: flux through the ring [Pa]. */
+/* Returns the integrand of the first sum of sif.h per area, for a unit slope of q in the direction n: flux through the
+ * ring [Pa]. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -43,7 +44,7 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Second sum of sif.h per area and unit weight q [Pa/m]. */
+/* Returns the integrand of the second sum of sif.h per area and unit weight q [Pa/m]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -67,7 +68,7 @@ real sif_density(const struct sif_tip *tip, const struct contour *c, const real 
 
 /* ---- particles round the tip ------------------------------------------------------------------------------------- */
 
-/* A particle in the local frame. */
+/* State of a particle in the local frame. */
 struct sif_point {
     real x[2], area;
     struct crack_state state;
@@ -75,8 +76,8 @@ struct sif_point {
 
 struct sif_points {
     const struct sif_tip *tip;
-    const struct contour *contour; /* of the sum being made                                     */
-    bool inner;                    /* the second sum counts: of inertia, and of loads */
+    const struct contour *contour; /* of the present sum */
+    bool inner;                    /* the second sum contributes: inertia, or loads inside the contours */
     int64_t n;
     int32_t *particle;
     struct sif_point *point;
@@ -88,7 +89,7 @@ static void local_vector(const struct sif_tip *tip, const real v[2], real local[
     local[1] = v[1] * tip->along[0] - v[0] * tip->along[1];
 }
 
-/* Tensor t in the local frame, R t R^T. */
+/* Transforms tensor t to the local frame, R t R^T. */
 static void local_tensor(const struct sif_tip *tip, real t[2][2], real local[2][2])
 {
     real half[2][2];
@@ -105,8 +106,8 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Finds the particles of the body within the largest contour; in equilibrium those within the smallest inner circle add
- * nothing and are left out. */
+/* Finds the particles of the body within the largest contour; in equilibrium particles within the smallest inner circle
+ * do not contribute and are left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -132,8 +133,8 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
     local_tensor(tip, global, state->stress);
 }
 
-/* State of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and acceleration,
- * less what loads give it. */
+/* Computes the state of particle k of the list in the local frame: gradients, stress and, with inertia, velocity and
+ * acceleration minus that by loads. */
 static void point_make(struct sif_points *s, int64_t k, const struct sif_motion *m,
                        const struct gradient_stencil *stencil, const struct particles *p)
 {
@@ -177,8 +178,9 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
-/* Share of the second sum that counts at distance r from the tip [1]. It rises gradually: with a sharp edge particles
- * would enter and leave the sum as the tip passes them, and the factors would oscillate once a spacing. */
+/* Returns the share of the second sum that counts at distance r from the tip [1]. It increases gradually: with a sharp
+ * edge particles would enter and leave the sum as the tip passes, and the factors would oscillate with the period of a
+ * spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -188,7 +190,7 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Sums of both modes and of the actual motion with itself. */
+/* Adds the sums of both modes and of the actual motion with itself over points first .. end - 1. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;

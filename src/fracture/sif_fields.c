@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define HALVINGS 45 /* bisections of a speed interval, to round-off of k */
-#define REST 0.01   /* of c_s: below this speed the field is that of a crack at rest */
+#define REST 0.01   /* speed over c_s below which the field is that of a crack at rest */
 
 static const real pi = 3.14159265358979323846;
 
@@ -36,7 +36,7 @@ void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[
 
 /* ---- a crack at rest --------------------------------------------------------------------------------------------- */
 
-/* u = sqrt(r/(2 pi))/(2 G) g(theta): g and its derivative. */
+/* Computes the angular functions g of u = sqrt(r/(2 pi))/(2 G) g(theta) and their derivatives (Williams 1957). */
 static void williams_angular(real kappa, enum crack_mode mode, real theta, real g[2], real slope[2])
 {
     const real c = cos(0.5 * theta), s = sin(0.5 * theta);
@@ -66,14 +66,14 @@ void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, con
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
 
-/* a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 - v^2/c_s^2) [1]. */
+/* Computes a_d = sqrt(1 - v^2/c_d^2) and a_s = sqrt(1 - v^2/c_s^2) [1]. */
 static void slownesses(const struct crack_medium *m, real v, real a[2])
 {
     a[0] = sqrt(1 - square(v / m->longitudinal));
     a[1] = sqrt(1 - square(v / m->shear_speed));
 }
 
-/* D(v) = 4 a_d a_s - (1 + a_s^2)^2; c_R is its root. */
+/* Returns D(v) = 4 a_d a_s - (1 + a_s^2)^2, whose root is c_R. */
 static real crack_rayleigh_function(const struct crack_medium *m, real v)
 {
     real a[2];
@@ -81,7 +81,7 @@ static real crack_rayleigh_function(const struct crack_medium *m, real v)
     return 4 * a[0] * a[1] - square(1 + a[1] * a[1]);
 }
 
-/* u_i = Re or Im of the sum over both waves w of weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. */
+/* Computes the weights of both waves w: u_i = Re or Im of the sum of weight[i][w] sqrt(z_w), z_w = x1 + i a_w x2. */
 static void wave_weights(const struct crack_medium *m, enum crack_mode mode, real v, const real a[2], real weight[2][2])
 {
     const real size = sqrt(2 / pi) / (m->shear * crack_rayleigh_function(m, v)), b = 1 + a[1] * a[1];
@@ -136,15 +136,15 @@ real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
 
 /* ---- growth at constant speed ------------------------------------------------------------------------------------ */
 
-/* Angle of the factor's integrand at slowness z between 1/c_d and 1/c_s. */
+/* Returns the angle of the integrand of k(v) at slowness z between 1/c_d and 1/c_s (Freund 1990, eq. 6.4.26). */
 static real factor_angle(const struct crack_medium *m, real z)
 {
     const real a = 1 / m->longitudinal, b = 1 / m->shear_speed;
     return atan(4 * z * z * sqrt(real_max(0, (z * z - a * a) * (b * b - z * z))) / square(b * b - 2 * z * z));
 }
 
-/* Exact k(v). The integrand has roots at both ends: z = middle - half cos(phi) makes it smooth and periodic in phi,
- * where the midpoint rule converges faster than any power. */
+/* Returns the exact k(v). The integrand has square roots at both ends: z = middle - half cos(phi) makes it smooth and
+ * periodic in phi, where the midpoint rule converges faster than any power. */
 static real factor_exact(const struct crack_medium *m, real v)
 {
     enum { POINTS = 256 };
@@ -171,7 +171,7 @@ real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
     real low = 0, high = most;
     if (factor >= 1) return 0;
     if (factor_exact(m, most) >= factor) return most;
-    for (int k = 0; k < HALVINGS; k++) { /* falls from 1 at rest to 0 at c_R */
+    for (int k = 0; k < HALVINGS; k++) { /* k decreases from 1 at rest to 0 at c_R */
         const real v = 0.5 * (low + high);
         *(factor_exact(m, v) > factor ? &low : &high) = v;
     }

@@ -4,13 +4,13 @@
 #include "base/memory.h"
 #include "fracture/sif.h"
 
-enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of the complete polynomials in the plane */
+enum { QUADRATIC = 6, LINEAR = 3 }; /* terms of complete polynomials in the plane */
 
-#define SINGULAR 1e-10 /* pivot over the diagonal's entry: neighbours on a line, or on a conic */
+#define SINGULAR 1e-10 /* least pivot over the diagonal entry; smaller if neighbours are on a line or a conic */
 
 /* ---- visibility across cracks ------------------------------------------------------------------------------------ */
 
-/* Has load broken the bond of particles i and j? */
+/* Returns true if load has broken the bond of particles i and j. */
 static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 {
     if (!b || b->rows == 0) return false;
@@ -19,7 +19,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
     return false;
 }
 
-/* Does a crack or a broken bond lie between particles i and j? */
+/* Returns true if a crack or a broken bond is between particles i and j. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
     return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
@@ -27,8 +27,8 @@ static bool hidden(const struct sight *s, const struct particles *p, int64_t i, 
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* Distance from particle i at which neighbour j counts [m]: around the tip where a crack lies between them; INFINITY: j
- * does not count. */
+/* Returns the distance from particle i at which neighbour j counts [m]: round the tip if a crack is between them;
+ * INFINITY: j does not count. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -43,7 +43,7 @@ static real distance_round_cracks(const struct gradient_rule *rule, const struct
 
 /* ---- small symmetric systems ------------------------------------------------------------------------------------- */
 
-/* A = L D L^T in place of A's lower triangle; false: singular. */
+/* Replaces the lower triangle of A by its factors L D L^T. Returns false if A is singular. */
 static bool factor(real A[QUADRATIC][QUADRATIC], int n)
 {
     for (int k = 0; k < n; k++) {
@@ -58,7 +58,7 @@ static bool factor(real A[QUADRATIC][QUADRATIC], int n)
     return true;
 }
 
-/* Solves L D L^T x = y in place of y. */
+/* Solves L D L^T x = y; x replaces y. */
 static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADRATIC])
 {
     for (int k = 0; k < n; k++)
@@ -70,22 +70,22 @@ static void sif_gradient_solve(real A[QUADRATIC][QUADRATIC], int n, real y[QUADR
 
 /* ---- moving least squares ---------------------------------------------------------------------------------------- */
 
-/* Cubic spline of s = distance over rho_m, 0 from 2 on. */
+/* Returns the cubic spline weight of s = distance over rho_m, 0 for s >= 2. */
 static real spline(real s)
 {
     if (s <= 1) return 1 - 1.5 * s * s + 0.75 * s * s * s;
     return s < 2 ? 0.25 * (2 - s) * (2 - s) * (2 - s) : 0;
 }
 
-/* Polynomials in the offset from particle i, over rho_m. */
+/* Computes the polynomials in the offset from particle i over rho_m. */
 static void basis(const struct particles *p, int64_t i, int32_t j, real scale, real b[QUADRATIC])
 {
     const real x = (p->X[0][j] - p->X[0][i]) / scale, y = (p->X[1][j] - p->X[1][i]) / scale;
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* A = P^T W P (Belytschko et al. 1994, with the order of the factors that fits), and the linear coefficients of
- * A^-1 P^T W as weights. `weight[k][0]` holds W on entry. */
+/* Computes A = P^T W P (Belytschko et al. 1994, with the factors in the order that conforms) and the linear
+ * coefficients of A^-1 P^T W as weights. weight[k][0] contains W on entry. Returns false if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
@@ -105,7 +105,7 @@ static bool least_squares(struct gradient_stencil *s, const struct particles *p,
     return true;
 }
 
-/* Weights by moving least squares: quadratic where possible, else linear, else none. */
+/* Computes weights by moving least squares: quadratic if possible, else linear, else none. */
 static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                         int64_t i)
 {
@@ -125,7 +125,8 @@ static void stencil_mls(struct gradient_stencil *s, const struct gradient_rule *
 
 /* ---- peridynamic differential operator --------------------------------------------------------------------------- */
 
-/* g_ij V_j = omega K_i^-1 xi_ij V_j, K_i = sum omega xi xi^T V_j, omega = delta/r (Madenci, Barut & Futch 2016). */
+/* Computes weights g_ij V_j = omega K_i^-1 xi_ij V_j, K_i = sum omega xi xi^T V_j, omega = delta/r (Madenci, Barut &
+ * Futch 2016). */
 static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          int64_t i)
 {

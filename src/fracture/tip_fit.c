@@ -6,11 +6,13 @@
 
 enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 
-#define AHEAD 1e-3     /* of the inner radius: from there the tip looks round, as its own crack ends in it */
-#define ON_FACE 0.03   /* of the inner radius: nearer to the line of the last stretch a particle is on neither side */
-#define SINGULAR 1e-12 /* pivot over the diagonal's entry */
+/* visibility is tested from this distance ahead of the tip, since its own crack ends there [inner radius] */
+#define AHEAD 1e-3
+/* distance to the line of the last part of the crack below which a particle is on neither side [inner radius] */
+#define ON_FACE 0.03
+#define SINGULAR 1e-12 /* least pivot over the diagonal entry */
 
-/* Displacements of a unit coefficient at (r/outer, theta) in the frame, times 2 G [1]. */
+/* Computes the displacements of a unit coefficient of term n at (r/outer, theta) in the frame, times 2 G [1]. */
 static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])
 {
     const real half = 0.5 * n, s = n % 2 ? -1 : 1, q = pow(r, half);
@@ -21,7 +23,7 @@ static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real
     mode_2[1] = -q * ((kappa - half + s) * c + half * d);
 }
 
-/* Normal equations. */
+/* Normal equations of the fit. */
 struct fit {
     real A[UNKNOWNS][UNKNOWNS], y[UNKNOWNS];
     int particles;
@@ -35,13 +37,14 @@ static void fit_add(struct fit *f, const real *row, real value)
     }
 }
 
-/* Is it a particle of a row of the lattice along which the crack goes? Which face it belongs to is round-off. */
+/* Returns true for a particle of the row of the lattice along which the crack runs: its face would depend on
+ * round-off. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
     return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
 }
 
-/* A particle at X [m] in the plane from the tip, with its displacement u [m]. */
+/* Adds a particle at X [m] relative to the tip, with displacement u [m], to the normal equations. */
 static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2], const real u[2])
 {
     const real *a = v->along, *l = v->last;
@@ -58,7 +61,7 @@ static void fit_particle(struct fit *f, const struct tip_view *v, const real X[2
     f->particles++;
 }
 
-/* Solves A x = y in place of y by L D L^T; false: singular. */
+/* Solves A x = y by L D L^T; x replaces y. Returns false if A is singular. */
 static bool fit_solve(struct fit *f)
 {
     real(*A)[UNKNOWNS] = f->A, *y = f->y;

@@ -1,4 +1,4 @@
-/* Crack tips: which damaged particles belong to which crack, how far it has grown, and how fast. */
+/* Crack tips: assignment of damaged particles to cracks, growth and speed of the cracks. */
 #include "fracture/tips.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define JOIN_JUMP 3.0 /* growth at once by reaching another crack          [spacings] */
+#define JOIN_JUMP 3.0 /* growth in a sample above which it is due to joining another crack [spacings] */
 
 void tips_free(struct tips *t)
 {
@@ -19,14 +19,15 @@ void tips_free(struct tips *t)
 
 /* ---- particles of each crack ------------------------------------------------------------------------------------- */
 
-/* Assignment of newly damaged particles to cracks in one sample. */
+/* Assignment of newly damaged particles to cracks in a sample. */
 struct flood {
     struct tips *t;
     struct tip_search search;
-    int32_t *fresh, *queue; /* newly damaged, ascending; labelled, neighbours not yet visited */
+    /* newly damaged particles in ascending order; labelled particles whose neighbours are not yet visited */
+    int32_t *fresh, *queue;
     int64_t n_fresh, queued;
-    int into[TIPS_MAX];      /* crack that each crack has become a part of, itself if none */
-    bool grown_by[TIPS_MAX]; /* another crack has become a part of it in this sample      */
+    int into[TIPS_MAX];      /* crack that each crack has become a part of; itself: none */
+    bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
 static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
@@ -41,7 +42,7 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* True if one of n listed particles has lost a bond. The test is on bits, not on numbers. */
+/* Returns true if one of n listed particles has lost a bond. The test is on bits, not on numbers. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
@@ -52,7 +53,8 @@ static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
     return any != 0;
 }
 
-/* The start of the next piece of the list from `first` on that has a damaged particle; its end if there is none. */
+/* Returns the start of the next piece of the list from `first` on that contains a damaged particle, or the end of the
+ * list. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -78,8 +80,8 @@ static int tips_root_of(const struct flood *f, int tip)
     return tip;
 }
 
-/* Joins two cracks that touch. Cracks from ends of pre-cracks stay apart; any other crack becomes part of the one it
- * touches. */
+/* Joins two cracks that touch. Cracks from ends of pre-cracks stay separate; another crack becomes part of the crack
+ * that it touches. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -111,7 +113,7 @@ static void flood_run(struct flood *f)
     f->queued = 0;
 }
 
-/* The crack whose start is nearest to particle i, within TIP_START_REACH; -1: none. */
+/* Returns the crack whose start is nearest to particle i within TIP_START_REACH, or -1. */
 static int start_near(const struct tips *t, const struct particles *p, int64_t i)
 {
     int nearest = -1;
@@ -127,7 +129,7 @@ static int start_near(const struct tips *t, const struct particles *p, int64_t i
     return nearest;
 }
 
-/* The crack with the lowest number that particle i touches; -1: none. */
+/* Returns the crack with the lowest number that particle i touches, or -1. */
 static int crack_touched(struct flood *f, int64_t i)
 {
     const struct particles *p = f->search.p;
@@ -143,7 +145,7 @@ static int crack_touched(struct flood *f, int64_t i)
     return lowest;
 }
 
-/* The crack whose tip is nearest to particle i, for when no more tips fit. */
+/* Returns the crack whose tip is nearest to particle i, for the case that no more tips fit. */
 static int tip_nearest(const struct tips *t, const struct particles *p, int64_t i)
 {
     int nearest = 0;
@@ -156,7 +158,7 @@ static int tip_nearest(const struct tips *t, const struct particles *p, int64_t 
     return nearest;
 }
 
-/* Starts a crack at the most damaged new particle that is part of none; false: there is no such particle. */
+/* Starts a crack at the most damaged new particle that belongs to none. Returns false if there is no such particle. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -246,7 +248,7 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates place, growth and times of a tip; `took_in`: another crack has become part of its crack. */
+/* Updates position, growth and times of a tip. took_in: another crack has become part of its crack. */
 static void tip_move(struct tip *tip, const struct tip_reach *r, const struct tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
@@ -262,7 +264,7 @@ static void tip_move(struct tip *tip, const struct tip_reach *r, const struct ti
     if (!isnan(tip->start_time)) tip->arrest_time = time;
 }
 
-/* Slope of the straight line through samples first .. last of tip k (least squares) [m/s]. */
+/* Returns the slope of the least-squares line through samples first .. last of tip k [m/s]. */
 static real regression(const struct tips *t, int k, int64_t first, int64_t last)
 {
     real n = (real)(last - first + 1), mean_time = 0, mean_growth = 0, both = 0, spread = 0;
@@ -277,7 +279,7 @@ static real regression(const struct tips *t, int k, int64_t first, int64_t last)
     return spread > 0 ? both / spread : NAN;
 }
 
-/* First sample at or after `time`, the last one if there is none. */
+/* Returns the first sample at or after `time`, or the last sample. */
 static int64_t sample_at(const struct tips *t, real time)
 {
     int64_t s = 0;
@@ -293,7 +295,7 @@ real tips_speed(const struct tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* Updates the largest and mean speed of tip k. Earlier samples have covered all windows but the newest. */
+/* Updates the largest and mean speed of tip k. Earlier samples have covered all windows but the last. */
 static void tip_speeds(struct tips *t, int k)
 {
     struct tip *tip = &t->tip[k];
@@ -342,14 +344,16 @@ real tip_angle(const struct tip *tip, int dim)
     if (!(tip->growth > 0)) return NAN;
     real chord[DIM_MAX], edge2 = dot(tip->edge, tip->edge, dim), share = 0;
     for (int d = 0; d < dim; d++) chord[d] = tip->place[d] - tip->origin[d];
-    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2; /* chord of a front: its part across the front */
+    /* chord of a front: its component perpendicular to the edge */
+    if (edge2 > 0) share = dot(chord, tip->edge, dim) / edge2;
     for (int d = 0; d < dim; d++) chord[d] -= share * tip->edge[d];
     real length = sqrt(dot(chord, chord, dim));
     if (!(length > 0)) return NAN;
     return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
 }
 
-/* The first of equally long tips, so that round-off does not choose between the halves of a symmetric crack. */
+/* The first of equally long tips is returned, so that round-off does not choose between the halves of a symmetric
+ * crack. */
 const struct tip *tips_longest(const struct tips *t)
 {
     const struct tip *longest = NULL;

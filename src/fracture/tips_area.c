@@ -1,14 +1,14 @@
-/* Area of the faces that cracks have made. The front of a pre-crack is looked at in strips a spacing wide: in each the
- * crack has come as far as particles go, one after another, that have lost half of what a plane cut takes, which is
- * where a spread-out front has its middle. Of cracks that began elsewhere, half of the particles count, as each has one
- * on the other side. */
+/* Area of the faces that cracks have made. The front of a pre-crack is divided into strips one spacing wide: in each,
+ * the crack extends as far as particles follow one another without a gap that have lost half of the damage by a plane
+ * cut; there a diffuse front has its middle. Of cracks without a pre-crack, half of the particles count, since each has
+ * one on the other side. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define EQUAL 1e-6 /* lengths that differ by less are equal [spacings] */
-enum { GAP = 2 };  /* empty cells after which a strip has ended */
+#define EQUAL 1e-6 /* tolerance of equal lengths [spacings] */
+enum { GAP = 2 };  /* empty cells that end a strip */
 
 static real front_width(const struct tip *tip, int dim) { return 2 * sqrt(dot(tip->edge, tip->edge, dim)); }
 
@@ -17,7 +17,7 @@ static int64_t strips_of(const struct tips *t, const struct tip *tip)
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
-/* Strip in which X lies, the nearest one where it lies beside the front. */
+/* Returns the strip that contains X, or the nearest strip beside the front. */
 static int64_t strip_at(const struct tips *t, const struct tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -28,7 +28,7 @@ static int64_t strip_at(const struct tips *t, const struct tip *tip, const real 
     return at > 0 ? (int64_t)real_min(at, (real)(n - 1)) : 0;
 }
 
-/* A damaged particle: the front of a pre-crack that is nearest to it, and how many spacings it is ahead; -1: none. */
+/* A damaged particle: nearest front of a pre-crack, -1: none; distance ahead of it [spacings]. */
 struct ahead {
     int tip;
     int64_t cell;
@@ -51,8 +51,8 @@ static struct ahead ahead_of(const struct tips *t, int body, const real *X)
     return found;
 }
 
-/* Marks the cells of strips in which there are particles with more damage than `least`. `deepest` [cells] of a strip;
- * cell NULL: it is only looked for, and returned. */
+/* Marks the cells of strips with particles of more damage than `least`. deepest: number of cells of a strip; cell:
+ * NULL, the largest distance ahead is only determined, and returned [cells]. */
 static int64_t strips_mark(const struct tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {
@@ -70,7 +70,7 @@ static int64_t strips_mark(const struct tips *t, const struct particles *p, real
     return deep;
 }
 
-/* Cells of a strip up to the first gap. */
+/* Returns the number of cells of a strip up to the first gap. */
 static int64_t strip_length(const uint8_t *cell, int64_t deepest)
 {
     int64_t end = 0;

@@ -1,4 +1,4 @@
-/* How far each crack reaches, and where its tip is. */
+/* Extent of each crack, and position of its tip. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -7,7 +7,8 @@
 
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
-/* The start of the next piece of the list from `first` on that has a particle of a crack; its end if there is none. */
+/* Returns the start of the next piece of the list from `first` on that contains a particle of a crack, or the end of
+ * the list. */
 static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -23,7 +24,7 @@ static int64_t next_of_crack(const struct tips *t, const struct particles *p, in
     return p->n_of[KIND_PD];
 }
 
-/* Distance of particle i from the start of its crack [m]; -1 beside the end of the pre-crack itself. */
+/* Returns the distance of particle i from the start of its crack [m], -1 beside the end of the pre-crack itself. */
 static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
 {
     const struct tip *tip = &t->tip[t->label[i] - 1];
@@ -34,35 +35,35 @@ static real tips_reach_of(const struct tips *t, const struct particles *p, int64
     return behind && distance <= (TIP_START_REACH + TIP_EQUAL) * t->spacing ? -1 : distance;
 }
 
-/* Particles within a spacing of the farthest ones of each crack [TIPS_MAX]. */
+/* Particles within a spacing of the farthest particles of each crack [TIPS_MAX]. */
 struct ahead {
     const struct tips *t;
     const struct particles *p;
     struct tip_reach *reach;
     int64_t n[TIPS_MAX];
-    struct place *place[TIPS_MAX]; /* NULL: they are counted alone */
+    struct place *place[TIPS_MAX]; /* NULL: particles are only counted */
 };
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
 
-/* Calls `look` for every particle of a crack, in the order of the list. */
-static void each_of_crack(struct ahead *a, of_crack_fn *look)
+/* Calls `visit` for every particle of a crack, in the order of the list. */
+static void each_of_crack(struct ahead *a, of_crack_fn *visit)
 {
     const int32_t *list = a->p->list[KIND_PD];
     const int64_t n = a->p->n_of[KIND_PD];
     for (int64_t b = next_of_crack(a->t, a->p, 0); b < n; b = next_of_crack(a->t, a->p, b + TIP_PIECE))
         for (int64_t k = b; k < tip_piece_end(a->p, b); k++)
-            if (is_of_crack(a->t->label[list[k]])) look(a, list[k], a->t->label[list[k]] - 1);
+            if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
-static void look_farthest(struct ahead *a, int32_t i, int tip)
+static void extent_find(struct ahead *a, int32_t i, int tip)
 {
     struct tip_reach *r = &a->reach[tip];
     r->particles++;
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
-static void look_ahead(struct ahead *a, int32_t i, int tip)
+static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;
     const real reach = farthest > 0 ? tips_reach_of(a->t, a->p, i) : -1;
@@ -78,11 +79,11 @@ static void look_ahead(struct ahead *a, int32_t i, int tip)
 void tip_reaches(const struct tips *t, const struct particles *p, struct tip_reach *reach)
 {
     struct ahead a = {.t = t, .p = p, .reach = reach};
-    each_of_crack(&a, look_farthest);
-    each_of_crack(&a, look_ahead);
+    each_of_crack(&a, extent_find);
+    each_of_crack(&a, farthest_collect);
     for (int k = 0; k < t->n; k++)
         if (a.n[k] > 0) a.place[k] = NEW("tips.ahead", a.n[k], struct place), a.n[k] = 0;
-    each_of_crack(&a, look_ahead);
+    each_of_crack(&a, farthest_collect);
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)

@@ -1,11 +1,11 @@
-/* Where crack tips start: the ends of pre-cracks inside the body. */
+/* Starts of crack tips: the ends of pre-cracks inside the body. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "tips_parts.h"
 
-#define AHEAD_REACH 1.2 /* radius of the search for particles ahead of an end [spacings] */
+#define AHEAD_REACH 1.2 /* range of the search for particles ahead of an end [spacings] */
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
@@ -33,7 +33,7 @@ real tip_offset(const real *centre, const real *half, const real *X, int dim, re
 
 static int crack_edges(const struct crack *c, int dim) { return dim == 3 ? c->n : dim == 2 ? c->n - 1 : 0; }
 
-/* An end that lies on another pre-crack is a corner or a branch of a longer cut, not a tip. */
+/* Returns true if an end is on another pre-crack: a corner or a branch of a longer cut is no tip. */
 static bool on_another(const struct tips *t, const struct crack *crack, int cracks, int self, const real *X)
 {
     for (int c = 0; c < cracks; c++) {
@@ -48,7 +48,7 @@ static bool on_another(const struct tips *t, const struct crack *crack, int crac
     return false;
 }
 
-/* Body into which a crack that ends at X could go on in direction `along`; -1: none. */
+/* Returns the body in which a crack that ends at X could grow in direction `along`, or -1. */
 static int body_ahead(const struct tips *t, struct tip_search *s, const real *X, const real *along)
 {
     real ahead[DIM_MAX];
@@ -77,7 +77,7 @@ struct tip *tip_add(struct tips *t, int body, const real *origin, const real *al
     return tip;
 }
 
-/* Adds a tip at the end `to` of a segment that comes from `from`, if the body goes on there. */
+/* Adds a tip at the end `to` of a segment from `from`, if the body continues there. */
 static void start_at_end(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self,
                          const real *from, const real *to)
 {
@@ -90,7 +90,8 @@ static void start_at_end(struct tips *t, struct tip_search *s, const struct crac
     if (body >= 0) tip_add(t, body, to, along)->from_crack = true;
 }
 
-/* Unit vector in the polygon's plane, across edge k and away from the polygon's middle. */
+/* Computes the unit vector in the plane of a polygon, perpendicular to edge k and away from the middle. Returns false
+ * if the edge has no length. */
 static bool edge_outward(const struct crack *c, int k, real *outward)
 {
     const real *a = c->corner[k], *b = c->corner[(k + 1) % c->n];
@@ -107,7 +108,7 @@ static bool edge_outward(const struct crack *c, int k, real *outward)
     return size > 0;
 }
 
-/* The part of a polygon's edge inside the body, found in steps of about a spacing, is one front. */
+/* Adds a front along the part of a polygon's edge inside the body, found in steps of about a spacing. */
 static void start_at_edge(struct tips *t, struct tip_search *s, const struct crack *crack, int cracks, int self, int k)
 {
     enum { STEPS_MAX = 100000 };
