@@ -1,4 +1,4 @@
-/* Bodies in the reference frame, as a part of a run. */
+/* Bodies in the reference frame in a run. */
 #ifndef CLEAVE_MESH_PART
 #define CLEAVE_MESH_PART
 
@@ -7,22 +7,22 @@
 #include "mesh/mesh_make.h"
 #include "run/run.h"
 
-/* Frame of a body, and why where the scene does not say current. */
+/* Frame of a body, and the reason unless the scene chooses the current frame. */
 struct frame_choice {
     bool reference;
     const char *reason;
 };
 
-/* A disc that keeps the smallest cells: the ring of a sif probe [m]. */
+/* A disc in which cells stay the smallest, the ring of a sif probe [m]. */
 struct frame_ring {
     real place[2], radius;
 };
 
-/* Points of hollow coarse cells in the last frame. */
+/* Points in coarse cells without particles, for the last frame. */
 struct hollow_points {
     struct particles part;
-    real *spacing;                     /* [m] */
-    real *gradient[DIM_MAX * DIM_MAX]; /* of their displacement, where frames are asked for strain [1] */
+    real *spacing;                     /* spacing of the points [m] */
+    real *gradient[DIM_MAX * DIM_MAX]; /* gradient of the displacement, if a frame contains strains [1] */
 };
 
 /* Bodies in the reference frame: a mesh of cells fixed to the material. */
@@ -30,75 +30,95 @@ struct reference_frame {
     int bodies;
     struct frame_choice *choice; /* [bodies] */
     real spacing;                /* of particles [m] */
-    bool finite;                 /* strains are finite, not small */
-    bool converts;               /* points whose stress is large become peridynamic */
-    bool active_set;             /* nodes that no wave has reached are left out */
-    bool room_limits;            /* `room` bounds the levels, which the scene does not give */
+    bool finite;                 /* strains are finite, else small */
+    bool converts;               /* points with a large stress become peridynamic (method adaptive) */
+    bool active_set;             /* nodes still at rest are skipped */
+    bool room_limits;            /* `room` limits the levels, which are automatic */
     struct mesh mesh;
     struct mesh_source source;
-    struct elastic *elastic;   /* [materials] constants of its cells */
+    struct elastic *elastic;   /* [materials] constants of the cells */
     struct mesh_levels levels; /* coarse cells */
-    uint8_t *room;             /* [mesh.grid.n] level that the body is thick enough for; NULL: not asked */
-    int room_most;             /* the largest of these */
+    uint8_t *room;             /* [mesh.grid.n] largest level by the thickness of the body; NULL: not computed */
+    int room_most;             /* largest value of `room` */
     struct hollow hollow;      /* cells whose particles are not made */
-    bool lacks;                /* particles that the start needs are not made: it must be made again */
-    struct elastic *coarse;    /* [materials] of coarse cells, which split at less than the trigger */
+    bool lacks;                /* particles needed at the start are missing: the run must be set up again */
+    struct elastic *coarse;    /* [materials] constants of coarse cells, with a smaller trigger */
     int rings;
-    struct frame_ring *ring; /* [scene->probes] discs of the smallest cells, now */
+    /* [scene->probes] discs in which cells stay the smallest at present; the first `rings` */
+    struct frame_ring *ring;
     struct hollow_points shown;
     real speed; /* largest component of a nodal velocity [m/s] */
 };
 
-/* Chooses the frame of each body, with the reason, and marks the particles of those in the reference frame; makes the
- * grid, which the choice needs. REFUSED where the scene asks for what cannot be. */
+/* Chooses the frame of each body with a reason, marks the particles in the reference frame, and makes the grids, which
+ * the choice requires. REFUSED if a body cannot be in the frame that the scene requires. */
 status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s);
-/* Is any body in the reference frame? */
+
+/* Returns true if a body is in the reference frame. */
 bool frame_any(const struct reference_frame *r);
-/* Are the particles one piece of lattice that fits the cells of the grid, as the reference frame requires? */
+
+/* Returns true if the reference frame is possible: the particles are one piece on a lattice that fits the cells of the
+ * grid. */
 bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm);
-/* Makes the mesh; `cuts`: its partial stresses and slits; still: the caller sets the motion of its nodes. */
+
+/* Makes the mesh with the partial stresses and slits of `cuts`. still: the caller sets the motion of the nodes. */
 status frame_make(struct run *e, const struct mesh_source *cuts, bool still);
-/* The smallest critical step of its cells, whatever converts; INFINITY: there are none [s]. */
+
+/* Returns the smallest critical time step of the cells, whichever particles convert [s]; INFINITY: no cells. */
 real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
-/* Finds exposed points and loaded nodes anew, after points or levels have changed. */
+
+/* Updates exposed points and loaded nodes after points or levels have changed. */
 void frame_follow_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                          struct loads *loads);
-/* Updates the exposed points, to which bonds reach, from their nodes. */
+
+/* Updates positions of the exposed points (mesh_find_exposed), and the strain of points of state-based PD-MPM bonds. */
 void frame_exposed_follow(struct reference_frame *r, struct particles *p);
 
-/* Computes the forces of the nodes in step number `step`: of bonds, already in p->f, and of cells. */
+/* Computes the forces of the nodes in step number `step`: of bonds, stored in p->f before, and of cells. */
 void frame_force(struct reference_frame *r, struct particles *p, int64_t step);
-/* Moves the nodes under these forces and the exposed points with them. middle: time in the middle of the step;
- * velocities move on by dt_velocity [s]. */
+
+/* Moves the nodes under these forces, and the exposed points with them. middle: time in the middle of the step;
+ * dt_velocity: time by which velocities advance [s]. */
 void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
                 real middle, real dt_velocity);
-/* Brings positions, velocities and stresses of all points up to date. */
+
+/* Updates positions, velocities and stresses of all points of the mesh, and images. */
 void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads);
-/* Brings positions and velocities of all points up to date. */
+
+/* Updates positions and velocities of all points of the mesh, and images. */
 void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
-/* Brings positions and velocities of n listed points up to date, but for those in coarse cells. */
+
+/* Updates positions and velocities of n listed points of the mesh, except in coarse cells, and images. */
 void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
                        int64_t n);
-/* Rebuilds the mesh after `converted` particles have converted and the partial stresses of the `touched` points of
- * `partial` have changed. Adds the energy that this takes to *damped [J]. Returns false where only the stiffness of
- * cells has changed; else frame_follow_points is to be called. */
+
+/* Updates the mesh after `converted` particles have converted and the partial stresses of the `touched` points of
+ * `partial` have changed. Adds the energy lost to *damped [J]. Returns false if only the stiffness of cells has
+ * changed; otherwise frame_follow_points must be called. */
 bool frame_follow(struct reference_frame *r, struct particles *p, int64_t converted,
                   const struct partial_stress *partial, real *damped);
-/* Takes n particles back that have become material points again. Adds the energy that this takes to *damped [J]. */
+
+/* Inserts n listed particles that have become material points again. Adds the energy lost to *damped [J]. */
 void frame_insert(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped);
-/* Energy of all nodes, of all cells [J]. */
+
+/* Returns the kinetic energy of all nodes [J]. */
 real frame_kinetic(const struct reference_frame *reference);
+
+/* Returns the strain energy of all cells [J]. */
 real frame_strain(struct reference_frame *r, const struct particles *p);
 
-/* The load of a scene that asks for the smallest cells, by how long it takes to rise. */
+/* Kind of the load that requires the smallest cells. */
 enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
+
+/* A load and its rise time. */
 struct load_rise {
     enum rise_kind kind;
-    int number;          /* of it in the scene */
-    bool pulse;          /* comes and goes: rises in a quarter of its length */
-    real seconds, waves; /* [s], in spacings of wave */
+    int number;          /* its number in the scene */
+    bool pulse;          /* a pulse; its rise time is a quarter of its length */
+    real seconds, waves; /* rise time [s]; distance that waves travel in it [spacings] */
 };
-/* How many levels of coarse cells there are, and why `mpm.levels: auto` takes as many as it does. */
+
+/* Reason for the number of levels by `mpm.levels: auto`. */
 enum levels_why {
     LEVELS_BY_LOADS,
     LEVELS_AT_REST,
@@ -108,55 +128,75 @@ enum levels_why {
     LEVELS_LONG_STEP,
     LEVELS_THIN
 };
+
+/* Number of levels of coarse cells, with reasons. */
 struct levels_choice {
-    int levels, automatic; /* in this run; of auto */
-    bool given;            /* by the scene */
+    int levels, automatic; /* levels of this run; levels by auto */
+    bool given;            /* the scene gives the levels */
     enum levels_why why;
-    real across;       /* the body [spacings] */
-    int64_t particles; /* of the body, made or not */
+    real across;       /* thickness of the body [spacings] */
+    int64_t particles; /* particles of the body, made or not */
     real step_share;   /* time.step over the critical step [1] */
     struct load_rise rise;
 };
 
-/* Finds which levels of coarse cells the thickness of the body allows, where the scene may have any. */
+/* Computes r->room, if the run may have coarse cells. particles: number of the body. */
 void frame_levels_room(struct reference_frame *r, const struct scene *s, int64_t particles);
-/* Chooses the number of levels once the critical step is known [s]. */
+
+/* Chooses the number of levels. dt_critical: critical time step [s]. */
 struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
                                          const struct scene *s, real dt_critical);
+
 /* Writes the choice in words to text [room]. */
 void frame_levels_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room);
-/* Are the levels that the scene gives too coarse for its loads? Then says so in words. */
+
+/* Returns true if the levels given by the scene are too coarse for its loads, and writes the reason to text [room]. */
 bool frame_levels_coarse(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
                          char *text, size_t room);
-/* Makes coarse cells once the time step is known, with the levels of the start unless `restored`. */
+
+/* Makes the coarse cells, once the time step is known, with initial levels unless `restored`. */
 status frame_levels_make(struct run *e, bool restored);
-/* Are levels looked at before this step? */
+
+/* Returns true if levels may change before step number `step`. */
 bool frame_levels_due(const struct mesh_levels *l, int64_t step);
-/* The levels that cells are to have next [mesh.grid.n], for the caller to free; NULL: those that they have. */
+
+/* Computes the levels of the cells for the next steps [mesh.grid.n]. step: number of the next step; mass: of the body
+ * [kg]. Returns the levels, which the caller frees, or NULL if they do not change. */
 uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p, const struct loads *loads,
                            int64_t step, real mass);
-/* Changes the levels; all cells of level 0 have particles. */
+
+/* Changes the levels; all cells of level 0 must have particles. */
 void frame_levels_apply(struct run *e, const uint8_t *level);
-/* Before conversion: points near coarse cells wait until those are finer. */
+
+/* Postpones the conversion of points near coarse cells until these are finer, before conversion. */
 void frame_levels_guard(struct mesh_levels *l, struct particles *p);
-/* Finds walls of coarse cells, exposed points and loads, after levels have changed. */
+
+/* Updates walls of coarse cells, exposed points and loaded nodes after levels have changed. */
 void frame_levels_found(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                         struct loads *loads);
 
-/* Why all particles are made; NULL: some need not be. */
+/* Returns the reason why all particles are made; NULL: some may be left out. */
 const char *frame_hollow_obstacle(const struct scene *s);
-/* Finds the cells whose particles need not be made, before any are. */
+
+/* Finds the cells whose particles are not needed, before particles are made. */
 status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source);
-/* With the levels of the start (NULL: none): false where particles are missing, and the run has to be made again. */
+
+/* Compares the initial levels (NULL: no coarse cells) with the particles that are made. Returns false if particles are
+ * missing; the run must be set up again then. */
 bool frame_hollow_start(struct reference_frame *r, const uint8_t *level);
-/* Have cells of level 0 no particles, with these levels? */
+
+/* Returns true if a cell of level 0, by these levels, has no particles. */
 bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level);
-/* The cells to be hollow with these levels, once the run is made again. */
+
+/* Chooses the cells without particles for these levels; takes effect when the run is set up again. */
 void frame_hollow_change(struct reference_frame *r, const uint8_t *level);
-/* Points of hollow coarse cells for a frame, into r->shown, with the gradient of their displacement if wanted; false:
- * there are none. body: the particles that are made; m: [materials]. */
+
+/* Makes points for coarse cells without particles, for a frame, in r->shown. body: the particles that are made; m:
+ * [materials]; gradients: also the gradient of the displacement. Returns false if there are no such cells. */
 bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
                          bool gradients);
+
+/* Releases these points. */
 void frame_hollow_points_free(struct hollow_points *h);
 
 #endif

@@ -3,14 +3,15 @@
 
 #include <string.h>
 
-enum { MOVED = 2 }; /* forces on a node come from the cells around it: at most one block on every side */
+enum { MOVED = 2 }; /* forces on a node come from adjacent cells: at most one block on every side */
 
-/* First node of a block, and one past its last. */
+/* Returns the first node of a block. */
 static int64_t nodes_first(const struct mesh *mesh, int64_t block)
 {
     return block / mesh->segments * mesh->grid.count[0] + block % mesh->segments * LANES;
 }
 
+/* Returns the node after the last node of a block. */
 static int64_t nodes_end(const struct mesh *mesh, int64_t block)
 {
     const int64_t end = nodes_first(mesh, block) + LANES, row = (block / mesh->segments + 1) * mesh->grid.count[0];
@@ -27,8 +28,9 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Extra nodes of a slit are the neighbours of what is beside their place. Activates the blocks of those whose place is
- * in block `near`; and where `near` itself is a block of extra nodes that moves, the blocks of their places. */
+/* Extra nodes of a slit are neighbours of the nodes beside their position. Activates the blocks of extra nodes
+ * positioned in block `near`; and, if `near` is itself a block of extra nodes that moves, the blocks of their
+ * positions. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -65,7 +67,7 @@ static bool nodes_moved(const struct mesh *mesh, int64_t block)
     return false;
 }
 
-/* Do the nodes of a block have neither displacement nor velocity nor force? */
+/* Returns true if the nodes of a block have neither displacement nor velocity nor force. */
 static bool nodes_inactive(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
@@ -74,7 +76,7 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
     return !nodes_moved(mesh, block);
 }
 
-/* Does the wall never move? Such a wall moves no node at rest. */
+/* Returns true if a wall never moves: it moves no node at rest. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;
@@ -96,7 +98,7 @@ void active_nodes_all(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Finds the levels of all blocks anew. */
+/* Determines the levels of all blocks. */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

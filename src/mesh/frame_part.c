@@ -1,4 +1,4 @@
-/* Bodies in the reference frame: their choice, their mesh, and its part of a step. */
+/* Bodies in the reference frame: choice, mesh, and their part of a step. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,9 +10,9 @@
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* Obstacle to the reference frame of a body at auto whose scene allows it; NULL: none. The body must be one piece on
- * one lattice, with particles midway in the halves of cells. */
-static const char *doubt(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
+/* Returns the obstacle to the reference frame of a body at auto that the scene allows; NULL: none. The body must be one
+ * piece on one lattice, with particles at the quarter points of cells. */
+static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
 {
     const int64_t pieces = mesh_pieces(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
@@ -50,7 +50,7 @@ status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct 
     }
     grid_part_make(mpm, s, p, frame_any(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
-        const char *why = doubt(p, mpm, &r->hollow);
+        const char *why = frame_obstacle(p, mpm, &r->hollow);
         take_frame(&r->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
         if (why) grid_part_make(mpm, s, p, frame_any(r));
     }
@@ -72,7 +72,8 @@ bool frame_any(const struct reference_frame *r)
 
 /* ---- the mesh ---------------------------------------------------------------------------------------------------- */
 
-/* Elastic constants of the cells [materials]: of the material, or of its bonds on the lattice (mpm.constants). */
+/* Returns the elastic constants of the cells [materials]: of the material, or of its bonds on the lattice
+ * (mpm.constants). */
 static struct elastic *cell_constants(const struct scene *s, const struct elastic *own, const struct family *family)
 {
     struct elastic *cell = NEW("engine.cell_elastic", s->materials, struct elastic);
@@ -110,15 +111,15 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
                                      .mirrors = e->source.mirrors,
                                      .still = still};
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
-    /* a mesh made anew after a restart has no mirrors, though its box is unchanged */
+    /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
     frame_levels_room(r, e->scene, e->part.n_body);
     frame_follow_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
-/* Conversion may leave any number of points in a cell. With partial stress no such cell has a smaller critical step
- * than the cells of the start; with hand-shake a cell with a single point has. */
+/* Conversion may leave any subset of points in a cell. With partial stress no such cell has a smaller critical step
+ * than the initial cells; with hand-shake a cell with a single point has. */
 real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
@@ -144,7 +145,7 @@ void frame_force(struct reference_frame *r, struct particles *p, int64_t step)
     levels_force(&r->levels, p, r->coarse, r->finite, levels_due(&r->levels, step));
 }
 
-/* Walls of the mesh and of the coarse cells that move in this step, these by longer ones. */
+/* Sets the walls of the mesh and of the coarse cells that move in this step, with their longer steps. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_mesh_walls(loads, &r->mesh, middle, dt);
@@ -155,6 +156,7 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
+/* Books the reactions of the walls of the mesh and of coarse levels up to `due`. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_react(loads, &frame->mesh.grid, dt_velocity);
@@ -206,7 +208,7 @@ bool frame_follow(struct reference_frame *r, struct particles *p, int64_t conver
                   const struct partial_stress *partial, real *damped)
 {
     if (r->mesh.points == 0) return false;
-    /* where no particle converts and only bonds break, the same cells stay partial: stiffness is made anew in place */
+    /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
     if (converted == 0 && mesh_refresh(&r->mesh, p, &r->source, partial->touched, partial->touches)) return false;
     *damped += mesh_follow(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;

@@ -1,6 +1,6 @@
-/* Particles only where they are needed: cells of two spacings that are part of coarse cells have none. What needs them
- * is decided once for the start, and anew with the levels of cells: the particles are then made again from the lattice,
- * with the motion of the nodes around them. */
+/* Cells of two spacings inside coarse cells without particles. The particles that are needed are determined once for
+ * the start, and again when the levels of cells change: the particles are then made anew from the lattice, with the
+ * motion of the nodes around them. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 #include "output/output.h"
 #include "grid/grid_part.h"
 
-enum { PAYS = 400000 }; /* particles that need not be made, from which on that saves time */
-enum { AHEAD = 4 };     /* cells beyond those of level 0 that have particles: cracks run on */
+enum { PAYS = 400000 }; /* number of particles left out above which this saves time; measured */
+enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as a margin for crack growth */
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
@@ -42,7 +42,7 @@ const char *frame_hollow_obstacle(const struct scene *s)
     return NULL;
 }
 
-/* Box of cells round the body, aligned with the nodes of its mesh. */
+/* Finds the box of cells around the body, aligned with the nodes of its mesh. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
@@ -53,7 +53,7 @@ static status box_find(struct grid *box, const struct scene *s)
     return grid_box(box, from, to, INT32_MAX) ? OK : status_set(REFUSED, "too large for the spacing");
 }
 
-/* Must a particle at X be made as the body has pre-cracks? */
+/* Returns true if a particle at X is needed because of pre-cracks. h: size of a cell [m]. */
 static bool near_cracks(const struct scene *s, const struct bond_source *source, const real *X, real h)
 {
     const real flank = source->family.cutoff + 2 * h;
@@ -70,7 +70,7 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-/* Does a load act on a particle at X, but for faces? */
+/* Returns true if a load in a region acts on a particle at X. */
 static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -81,8 +81,8 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Does a load act on the face of cell I, which it has where the cell beside it is not whole, or on the layer behind
- * such a face? */
+/* Returns true if a load acts on a face of cell I (the adjacent cell is not whole), or on the layer behind such a
+ * face. */
 static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -99,7 +99,8 @@ static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I
     return false;
 }
 
-/* Is X within r of the place of a probe, or where it has none of an end of a pre-crack? */
+/* Returns true if X is within r of the position of a probe or, for a probe without position, of an end of a
+ * pre-crack. */
 static bool near_probe(const struct scene *s, const struct probe_request *probe, const real *X, real r)
 {
     if (probe->has_at) return segment_distance(probe->at, probe->at, X, s->dim) < r;
@@ -109,7 +110,7 @@ static bool near_probe(const struct scene *s, const struct probe_request *probe,
     return false;
 }
 
-/* Does a probe look at particles within 3 h of X? */
+/* Returns true if a probe uses particles within 3 h of X. */
 static bool probed(const struct scene *s, const real *X, real h)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -123,7 +124,7 @@ static bool probed(const struct scene *s, const real *X, real h)
     return false;
 }
 
-/* Must any particle of cell I be made? */
+/* Returns true if a particle of cell I is needed. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source, const struct hollow *h, int64_t I)
 {
     for (int c = 0; c < 1 << s->dim; c++) {
@@ -150,7 +151,8 @@ status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct b
         h->absent[I] = h->whole[I] && !cell_needed(s, source, h, I);
         absent += h->absent[I];
     }
-    array_copy(h->whole, h->absent, h->box.n, 1); /* loads, faces of pre-cracks and probes stay where they are */
+    /* positions of loads, faces of pre-cracks and probes do not change */
+    array_copy(h->whole, h->absent, h->box.n, 1);
     if (absent > least) return OK;
     memory_free(h->absent);
     h->absent = NULL;
@@ -166,8 +168,8 @@ bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-/* The cells that need no particles with these levels [box.n]: not those within `ahead` cells of level 0.
- * Coarse cells are hollow as a whole, or not at all. */
+/* Returns the cells [box.n] without particles for these levels: those farther than `ahead` cells from level 0. Coarse
+ * cells have all of their particles or none. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct hollow *h = &r->hollow;
@@ -192,7 +194,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
 bool frame_hollow_start(struct reference_frame *r, const uint8_t *level)
 {
     if (!r->hollow.absent) return true;
-    if (r->hollow.restored) return false; /* the checkpoint has the levels, too */
+    if (r->hollow.restored) return false; /* the checkpoint contains the levels */
     if (!level) {                         /* no coarse cells */
         memory_free(r->hollow.absent);
         r->hollow.absent = NULL, r->lacks = true;

@@ -1,10 +1,11 @@
-/* Coarse cells in frames: one point for each of their quadrature points where their particles are not made. */
+/* Points for frames in coarse cells without particles: one for each quadrature point. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Places, volumes and marks of the points of a cell from number `first` on; `point` [2^dim] their numbers. */
+/* Sets positions, volumes and attributes of the points of a cell, from index `first` on. point: set to their indices
+ * [2^dim]. */
 static void cell_points(struct particles *p, const struct mesh *mesh, const struct material *m, int64_t cell,
                         int64_t first, int32_t *point)
 {
@@ -20,7 +21,7 @@ static void cell_points(struct particles *p, const struct mesh *mesh, const stru
     }
 }
 
-/* Points of the listed cells of a level, from number `first` on, with the motion of its nodes. */
+/* Makes the points of the listed cells of a level, from index `first` on, with the motion of the nodes of the level. */
 static void level_points(struct reference_frame *r, const struct particles *body, const struct material *m, int level,
                          const int64_t *cell, int64_t cells, int64_t first)
 {

@@ -8,7 +8,7 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Lower corner of the body: the cell of its lowest particles, whatever their kind is now. */
+/* Finds the lower corner of the body: the cell of its lowest particles of any kind. */
 static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
     const struct grid *g = &l->fine->grid;
@@ -19,7 +19,7 @@ static void corner_find(struct mesh_levels *l, const struct particles *p)
     }
 }
 
-/* The empty mesh of a level, with the nodes that its cells may have. */
+/* Makes the empty mesh of a level, with the nodes that its cells may have. */
 static status level_make(struct mesh_levels *l, int level, const struct mesh_source *source, const real *density)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -47,7 +47,7 @@ status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct
     if (n == 0 || fine->points == 0) return OK;
     l->n = n, l->fine = fine;
     corner_find(l, p);
-    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* also marks: mesh_cells_again */
+    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_cells_again */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
@@ -165,8 +165,8 @@ real levels_power(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Which runs of a mesh may have a point beyond the stress at which they split, as its last forces found, to `marks`
- * [runs]; and back. */
+/* Copies to marks [runs] which runs of a mesh may have a point beyond the stress at which they split, by the last
+ * forces. */
 static void stressed_get(const struct mesh *mesh, uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) marks[r] = mesh->run[r].stressed;
@@ -188,7 +188,7 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
-/* All that follows from the levels of cells. */
+/* Makes all data that follow from the levels of cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_cells_again(l->fine, p, source, l->level);
@@ -214,7 +214,7 @@ void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const 
     }
 }
 
-/* The fields of the nodes of a level. */
+/* Saves or restores the fields of the nodes of a level. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

@@ -1,4 +1,4 @@
-/* The meshes of coarse cells from the levels of cells: cells, masses, ghosts, hanging nodes, matched inertia. */
+/* Meshes of coarse cells from the levels of cells: cells, masses, ghosts, hanging nodes, matched inertia. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -31,9 +31,9 @@ void levels_cells_make(struct mesh_levels *l, const struct particles *p)
     for (int level = 1; level <= l->n; level++) l->at[level].mesh.points = l->at[level].cells * corners;
 }
 
-/* ---- where levels meet ------------------------------------------------------------------------------------------- */
+/* ---- interfaces of levels ---------------------------------------------------------------------------------------- */
 
-/* Has any cell round node I of the mesh forces? */
+/* Returns true if a cell around node I computes forces. */
 static bool node_acts(const struct mesh *mesh, int64_t I)
 {
     bool acts = false;
@@ -44,14 +44,15 @@ static bool node_acts(const struct mesh *mesh, int64_t I)
     return acts;
 }
 
-/* Is a cell of `level` beside the node of the level below that lies `at` nodes from the lower corner of the body? */
+/* Returns true if a cell of `level` is beside the node of the next finer level at `at` nodes from the lower corner of
+ * the body. */
 static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t *at)
 {
     const struct mesh *mesh = &l->at[level].mesh;
     const int dim = mesh->grid.dim;
     for (int c = 0; c < 1 << dim; c++) {
         int64_t J = 0;
-        bool twice = false; /* the cells below and above an odd place are the same */
+        bool twice = false; /* the cells below and above an odd position are identical */
         for (int d = 0; d < dim; d++) {
             const bool below = c >> d & 1, odd = at[d] & 1;
             twice = twice || (below && odd);
@@ -68,7 +69,7 @@ static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
     m->ghost[m->ghosts++] = (struct mesh_ghost){(int32_t)coarse, (int32_t)fine};
 }
 
-/* Adds node I of `mesh`, in the middle of an edge or face along the axes `odd`. */
+/* Appends node I of `mesh`, in the middle of an edge or face along the axes `odd`, to the hanging nodes. */
 static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I, unsigned odd)
 {
     struct mesh_hanging h = {.node = (int32_t)I};
@@ -83,7 +84,7 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
     m->hanging[m->hangings++] = h;
 }
 
-/* Finds the ghosts of `level` and the hanging nodes of the level below. */
+/* Finds the ghosts of `level` and the hanging nodes of the next finer level. */
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
@@ -107,7 +108,7 @@ static void interface_find(struct mesh_levels *l, int level)
     }
 }
 
-/* Marks the cells of which all cells around are of the same level and material, at their nodes. */
+/* Marks, at their lowest nodes, the cells whose neighbours all have the same level and material. */
 static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -132,11 +133,11 @@ void levels_link(struct mesh_levels *l)
     }
 }
 
-/* Adds a share of what node `from` of one mesh has in a field to node `to` of another. */
+/* Adds a share of the value of node i of one mesh to node k of another. */
 static inline void give(const real *from, int64_t i, real *to, int64_t k, real share) { to[k] += share * from[i]; }
 
-/* Momentum of a hanging node to its masters: of the share of its mass that each takes, with the velocity of the master,
- * and equal parts of the rest, which is nothing where velocities are linear. */
+/* Transfers the momentum of a hanging node to its masters: each receives its share of the mass times its own velocity,
+ * and an equal part of the rest, which is 0 for linear velocities. */
 static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
 {
     const real *velocity = g->velocity[d], share = g->mass[h->node] / h->masters;

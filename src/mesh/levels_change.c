@@ -1,7 +1,7 @@
-/* Levels that change: what nodes of the new cells take from the old ones. Displacements and velocities are sampled;
- * what a merged cell had more or less of momentum goes to its corners in equal parts, which is nothing where
- * velocities are linear. A split loses kinetic energy, as velocities inside a coarse cell are bilinear; a merged cell
- * has that of its corners, which levels_rough.c keeps near that of its parts. */
+/* Changes of levels: motion of the nodes of new cells from the old ones. Displacements and velocities are sampled; the
+ * remaining momentum of a merged cell is distributed equally to its corners, and is 0 for linear velocities. A split
+ * loses kinetic energy, since velocities inside a coarse cell are bilinear; a merged cell has the energy of its
+ * corners, which levels_rough.c keeps close to that of its parts. */
 #include <math.h>
 #include <string.h>
 
@@ -10,8 +10,8 @@
 
 /* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
 
-/* A coarse cell round a node I of level 0, with indices k, that no cell of level 0 has, and the place in it: level 0 if
- * there is none. */
+/* Coarse cell around a node I of level 0, with indices k, that belongs to no cell of level 0, and the position in the
+ * cell; level 0: none. */
 struct cell_around {
     int level;
     int64_t cell;
@@ -25,7 +25,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     struct cell_around a = {0};
     int64_t own[DIM_MAX], q[DIM_MAX];
     int corner = -1;
-    for (int c = (1 << dim) - 1; c >= 0; c--) { /* at last the cell that the node is the lowest of */
+    for (int c = (1 << dim) - 1; c >= 0; c--) { /* the last cell is the one of which the node is the lowest */
         const int64_t J = I - fine->corner[c];
         if (J < 0 || fine->kind[J] == CELL_EMPTY) continue;
         if (fine->kind[J] != CELL_COARSE) return (struct cell_around){0};
@@ -40,7 +40,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Value of a nodal field of the coarse cell at that place. */
+/* Returns the value of a nodal field of the coarse cell at that position. */
 static real field_at(const struct mesh *mesh, const struct cell_around *a, const real *field)
 {
     real value = 0;
@@ -52,7 +52,7 @@ static real field_at(const struct mesh *mesh, const struct cell_around *a, const
     return value;
 }
 
-/* Gives node I of level 0, with indices k, the motion of the coarse cell that it is in. */
+/* Sets the motion of node I of level 0, with indices k, to that of the coarse cell around it. */
 static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     struct mesh *fine = l->fine;
@@ -90,10 +90,10 @@ void levels_interpolate(struct mesh_levels *l, bool all)
     }
 }
 
-/* ---- to the nodes of new cells ----------------------------------------------------------------------------------- */
+/* ---- motion of the nodes of new cells ---------------------------------------------------------------------------- */
 
-/* Lumped mass times velocity of every node, before any gives its own away, and displacement, from those at the places
- * of nodes of level 0. */
+/* Computes lumped mass times velocity of every node, before transfers, and displacement, from the nodes of level 0 at
+ * the same positions. */
 static void nodes_sample(struct mesh_levels *l)
 {
     struct mesh *fine = l->fine;
@@ -116,7 +116,8 @@ static void nodes_sample(struct mesh_levels *l)
     }
 }
 
-/* Mean of a field of level 0 over the corners of the cells of level 0 in a cell of `level`, `first` the lowest. */
+/* Returns the mean of a field of level 0 over the corners of the cells of level 0 in a cell of `level`. first: the
+ * lowest. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = parts_of(l, level);
@@ -126,7 +127,7 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Momentum that a merged cell has beyond that of its sampled corners, to its corners. */
+/* Distributes the momentum of a merged cell beyond that of its sampled corners to the corners. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -157,7 +158,7 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     }
 }
 
-/* Velocities of all nodes that have mass; forces are 0. */
+/* Computes velocities of all nodes with mass; sets forces to 0. */
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {
@@ -171,17 +172,17 @@ static void velocities_make(struct mesh_levels *l)
     levels_momenta_find(l);
 }
 
-/* B w = v (kernels/mesh/mesh_inertia.h) by w <- w + v - B w, to round-off: eigenvalues of B - 1 are below 0.48, as
- * match is at most 1/2 and those of consistent mass over lumped mass are at least 1/27; for long waves they are much
- * smaller. */
+/* Iterations of w <- w + v - B w for B w = v (kernels/mesh/mesh_inertia.h), to round-off: eigenvalues of B - 1 are
+ * below 0.48, as match is at most 1/2 and those of consistent over lumped mass are at least 1/27; far smaller for long
+ * waves. */
 enum { MOMENTA_ROUNDS = 52 };
-#define MOMENTA_TOLERANCE 3e-16 /* of the largest velocity */
+#define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 
 void levels_momenta_find(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         struct grid *g = &l->at[level].mesh.grid;
-        real *now[DIM_MAX]; /* B w; nothing else uses momenta of level 0 or forces now */
+        real *now[DIM_MAX]; /* B w; momenta of level 0 and forces are not in use now */
         for (int d = 0; d < g->dim; d++) {
             array_copy(g->momentum[d], g->velocity[d], g->n, sizeof(real));
             now[d] = g->force[d];

@@ -1,25 +1,26 @@
-/* How many levels of coarse cells a run takes, and why: cells carry what the loads of the scene excite.
+/* Choice of the number of levels of coarse cells: cells must carry the waves that the loads of the scene excite.
  *
- * Matched cells of 4, 8, 16 and 32 spacings disperse a front less than bonds do where it rises over 10, 20, 40 and 80
- * spacings of wave, a pulse where it is four times as wide. A sudden front loses its peak in them, by as much as its
- * way is long; starts of cracks stay within 1 to 3 % in bodies that are fifty edges across. Measured on pulses of 220
- * spacings: 0.04, 0.2, 0.8 % off with 1, 2, 3 levels; on one of 60 with 4 levels 11 %. */
+ * Matched cells of 4, 8, 16 and 32 spacings disperse a front less than bonds do if waves travel at least 10, 20, 40 and
+ * 80 spacings during its rise, and a pulse if it is four times as long. A sudden front loses its peak with the distance
+ * that it travels in coarse cells; times of crack starts stay within 1 to 3 % in bodies fifty cell edges thick.
+ * Measured errors of pulses of 220 spacings: 0.04, 0.2, 0.8 % with 1, 2, 3 levels; of 60 spacings with 4 levels: 11
+ * %. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-enum { PAYS = 100000 };      /* particles of a body from which on coarse cells save time */
-#define RISES 2.5            /* edges of a cell in the rise of a front or pulse, at least */
-#define ACROSS 50            /* edges in a body that is loaded suddenly; less makes */
-#define ACROSS_LEAST 25      /* a warning */
-enum { CARRIED_BY_ANY = 1 }; /* levels that carry all but pulses */
+enum { PAYS = 100000 };      /* particles of a body above which coarse cells save time; measured */
+#define RISES 2.5            /* minimum number of cell edges that waves travel during a rise */
+#define ACROSS 50            /* minimum number of cell edges across a body with sudden loads */
+#define ACROSS_LEAST 25      /* number of cell edges below which a warning is given */
+enum { CARRIED_BY_ANY = 1 }; /* level that carries all loads but pulses */
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Shortest time in which what a boundary does rises, as for a ramp [s]: of a displacement its velocity, which is that
- * of a pulse or jumps. */
+/* Returns the shortest rise time of a boundary, as for a ramp [s]; of displacements, the rise time of the velocity,
+ * which is a pulse or jumps. */
 static real rise_of(const struct boundary *b)
 {
     const struct time_function *f = &b->time;
@@ -35,19 +36,20 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Largest edge of cells that carry a rise, in a body so far across, both in spacings [spacings]. */
+/* Returns the largest edge of cells that carry a rise in a body of thickness `across` [spacings]. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
+/* Replaces *least by *one if the latter requires smaller cells. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
     const real now = edge_for(least, across, ACROSS), next = edge_for(one, across, ACROSS);
     if (least->kind == RISE_NONE || next < now || (next == now && one->waves < least->waves)) *least = *one;
 }
 
-/* Of waves in the slowest material, whose cells are to carry them, too [m/s]. */
+/* Returns the wave speed of the slowest material, whose waves the cells must carry, too [m/s]. */
 static real slowest_waves(const struct scene *s)
 {
     real slowest = INFINITY;
@@ -55,7 +57,7 @@ static real slowest_waves(const struct scene *s)
     return slowest;
 }
 
-/* The load that asks for the smallest cells. */
+/* Returns the load that requires the smallest cells. */
 static struct load_rise sharpest_rise(const struct scene *s, real across)
 {
     const real c = slowest_waves(s), D = s->spacing;
@@ -81,7 +83,7 @@ static struct load_rise sharpest_rise(const struct scene *s, real across)
     return least;
 }
 
-/* Least extent of the bodies in the plane, in space the middle one, in spacings. */
+/* Returns the smallest extent of the bodies in 1D and 2D, the middle one in 3D [spacings]. */
 static real spacings_across(const struct scene *s, const struct particles *p, const struct hollow *hollow)
 {
     real extent[DIM_MAX] = {0}, low[DIM_MAX], high[DIM_MAX];
@@ -136,7 +138,7 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
 
 /* ---- in words ---------------------------------------------------------------------------------------------------- */
 
-/* A load, and how fast it is. */
+/* Writes a load and its rise time in words. */
 static void rise_text(const struct scene *s, const struct load_rise *r, char *text, size_t room)
 {
     char name[NAME_MAX_LENGTH + 32];
@@ -159,7 +161,7 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
         snprintf(text, room, "%s rises within %.3g s = %.3g spacings of wave", name, r->seconds, r->waves);
 }
 
-/* What cells of an edge [spacings] want of such a load. */
+/* Writes the load that cells of an edge [spacings] require. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t room)
 {
     if (c->rise.pulse)
@@ -169,7 +171,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
                  edges * edge, c->across);
 }
 
-/* Why auto takes as many as it does. */
+/* Writes the reason for the number of levels by auto. */
 static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
 {
     char load[256], want[160];
@@ -217,7 +219,7 @@ void frame_levels_text(const struct levels_choice *c, const struct scene *s, cha
         snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c->levels, why);
 }
 
-/* Coarse cells that the scene gives, where the body is too thin for them; false: there are none. */
+/* Writes where the body is too thin for coarse cells given by the scene. Returns false if it is thick enough. */
 static bool thin_text(const struct reference_frame *r, char *text, size_t room)
 {
     const struct grid *g = &r->mesh.grid;

@@ -1,14 +1,14 @@
-/* Which cells may be coarse: from marks on cells of level 0 to a balanced mesh of levels. */
+/* Admissible levels of cells: from marks on cells of level 0 to a balanced mesh of levels. */
 #include <string.h>
 
 #include "base/memory.h"
 #include "levels_parts.h"
 
-/* What is known of the cells of a level, [nodes of its grid] each. */
+/* Data of the cells of a level, [nodes of its grid] each. */
 struct level_map {
-    uint8_t *ok;               /* a cell of this level, or a part of a coarser one, may be here */
-    uint8_t *some;             /* a cell of level 0 with points is here */
-    uint8_t *limit, *material; /* of them: the smallest limit; the material */
+    uint8_t *ok;               /* a cell of this level, or a part of a coarser one, is admissible */
+    uint8_t *some;             /* contains a cell of level 0 with points */
+    uint8_t *limit, *material; /* of its parts: smallest limit; material */
 };
 
 static struct level_map level_map_make(int64_t n)
@@ -17,7 +17,7 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Cells of level 0. */
+/* Initialises the data of the cells of level 0. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -31,7 +31,7 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Gathers what is known of the 2^dim cells of the level below that cell I of `level`, with indices k, consists of. */
+/* Combines the data of the 2^dim cells of the next finer level in cell I of `level`, with indices k. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_of(l, level - 1)->grid;
@@ -50,9 +50,9 @@ static void gather_parts(struct level_map *map, const struct mesh_levels *l, int
     to->ok[I] &= to->limit[I] >= level;
 }
 
-/* Of the cells of level 0 in the block beside that with lower corner `first` that touch it: do all hold points,
- * or none? Otherwise a node at the end of an edge of a coarse cell would have no finer one. `beside`: -1, 0 or 1 along
- * each axis. */
+/* Returns true if all or none of the cells of level 0 contain points that touch a block of 2^dim cells in a direction.
+ * Otherwise a node at the end of an edge of a coarse cell would have no finer node. first: lower corner of the block;
+ * beside: direction, -1, 0 or 1 along each axis. */
 static bool touching_alike(const struct level_map *map, const struct grid *g, const int64_t *first, const int *beside)
 {
     int some = 0, all = 0;
@@ -69,7 +69,7 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
     return some == 0 || some == all;
 }
 
-/* Do the cells round the cell of level 1 with indices k allow it? */
+/* Returns true if the cells around the cell of level 1 with indices k allow it. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -85,8 +85,8 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Do the cells round the cell of `level` > 1 with indices k allow it? Those of the level below must be allowed
- * themselves. */
+/* Returns true if the cells around the cell of `level` > 1 with indices k allow it: those of the next finer level must
+ * be admissible. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -152,11 +152,11 @@ bool levels_sound(const struct mesh_levels *l)
     return sound && covered == coarse;
 }
 
-/* Marks what is within `reach` of a mark along a line of n cells, `stride` apart. */
+/* Marks cells within `reach` of a mark along a line of n cells, `stride` apart. */
 static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 {
     int64_t last = -reach - 1;
-    for (int64_t k = 0; k < n; k++) { /* bit 1: marked from below */
+    for (int64_t k = 0; k < n; k++) { /* bit 1: reached from below */
         if (mark[k * stride] & 1) last = k;
         if (k - last <= reach) mark[k * stride] |= 2;
     }
@@ -169,7 +169,7 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
 
 void cells_dilate(const struct grid *g, uint8_t *mark, int reach)
 {
-    for (int d = 0; d < g->dim; d++) { /* lines begin in blocks of one stride, a line's length apart */
+    for (int d = 0; d < g->dim; d++) { /* lines start in blocks of one stride, separated by the length of a line */
         const int64_t stride = g->stride[d], lines = g->n / g->count[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < lines; k++)

@@ -1,26 +1,29 @@
-/* Coarse cells in a run: where, and when they follow cracks and stress. */
+/* Coarse cells in a run: initial levels, and changes that follow cracks and stress. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 
-/* Cells of level 0 round peridynamic particles, beyond those that let points convert: cracks run some way between two
- * changes. Cells merge later than they split. */
-enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 /* spacings: tips run on between looks */ };
-/* Cells between slits and coarse cells beyond those of peridynamic particles: with coarse cells nearer, two slits 5 to
- * 18 spacings apart whose faces meet gained energy without bounds, one did not; why is not known. */
+/* Ranges of cells of level 0 beyond those that conversion requires, empirical: around peridynamic particles as a margin
+ * for crack growth between two changes, wider for merging than for splitting; around stressed cells; around rings of
+ * sif probes [spacings], as tips move between two checks. */
+enum { ZONE_MORE = 5, ZONE_LATE = 4, AROUND_STRESS = 10, AROUND_RING = 10 };
+/* Additional range of level 0 between slits and coarse cells. Empirical: with coarse cells nearer, two slits 5 to 18
+ * spacings apart with faces in contact gained energy without bound, a single slit did not; the cause is not known. */
 enum { FLANK_MORE = 2 };
-#define SPLITS 0.5 /* of the stress at which points convert */
+#define SPLITS 0.5 /* stress at which cells split, over that at which points convert */
 #define MERGES 0.25
-#define ROUGH 0.01                         /* of the mean energy per mass: motion that a coarser cell would lose */
-enum { LOOK_STEPS = 256, CALM_LOOKS = 2 }; /* steps between looks for cells to merge; looks that a cell is calm */
+/* limit of the energy of motion that a coarser cell would lose, over the mean energy per mass */
+#define ROUGH 0.01
+/* steps between checks for merging; consecutive checks after which a cell may merge */
+enum { CHECK_STEPS = 256, CALM_CHECKS = 2 };
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Edge of a lumped cell that disperses waves along an axis as bonds of the lattice do [m]: h^2 = sum xi^6/r^3 over sum
- * xi^4/r^3; without bonds that of the cells of level 0. */
-static real alike_edge(const struct scene *s)
+/* Returns the edge of a lumped cell with the same dispersion of waves along an axis as bonds of the lattice [m]: h^2 =
+ * sum xi^6/r^3 over sum xi^4/r^3; without bonds, the edge of cells of level 0. */
+static real dispersion_edge(const struct scene *s)
 {
     const int reach = (int)s->horizon, planes = s->dim > 1 ? reach : 0, layers = s->dim > 2 ? reach : 0;
     real above = 0, below = 0;
@@ -36,8 +39,8 @@ static real alike_edge(const struct scene *s)
     return s->spacing * sqrt(above / below);
 }
 
-/* Cell of the box of level 0 in which particle i is in the reference state; mesh->place may name one beside a slit,
- * behind the box. */
+/* Returns the cell of the box of level 0 that contains particle i in the reference configuration. (mesh->place may
+ * refer to an extra cell of a slit, behind the box.) */
 static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     int64_t I = 0;
@@ -64,14 +67,15 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Marks the cells beside slits, whose nodes coarse cells do not know. */
+/* Marks the cells beside slits, for whose extra nodes coarse cells have no counterpart. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Marks the cells of level 0 in a ring and about it (`demand` NULL: none). Is any of them part of a coarser one? */
+/* Marks the cells of level 0 inside and around a ring (demand: NULL, none). Returns true if one of them is part of a
+ * coarse cell. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -95,7 +99,8 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* The same of all rings: they want accelerations, which coarse cells have at some steps only. */
+/* Marks the cells of all rings as ring_cells: sif probes need accelerations, which coarse cells have in some steps
+ * only. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -103,15 +108,15 @@ static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
     return coarse;
 }
 
-/* Adds marks to others; NULL: there are none. */
+/* Adds marks to `mark`. more: NULL, none. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
 }
 
-/* Cells of level 0 that must stay so: within `more` cells beyond the roomy ones of peridynamic particles and where
- * something is wanted, FLANK_MORE farther from several slits, and within one of a single slit, of what loads act on and
- * of mirrors. The caller frees them. */
+/* Returns the cells that must be of level 0 [fine->grid.n], which the caller frees: within l->roomy_cells + more of
+ * peridynamic particles and of cells that request it; as far plus FLANK_MORE from several slits, within one cell of a
+ * single slit; within one cell of loaded particles and of mirrors off the nodes. */
 static uint8_t *demand_make(const struct reference_frame *r, const struct particles *p, const struct loads *loads,
                             int more)
 {
@@ -154,8 +159,8 @@ static void demand_add(const struct mesh_levels *l, int level, const uint8_t *ma
     memory_free(own);
 }
 
-/* Marks [fine->grid.n] the cells whose stress exceeds `share` of that at which they convert, with those around them:
- * coarse ones, or all; NULL: there are none. The caller frees them. */
+/* Returns marks [fine->grid.n] of cells whose stress exceeds `share` of that at which points convert, with cells around
+ * them, or NULL; the caller frees them. all: of all cells, else of coarse ones. */
 static uint8_t *stressed_cells(const struct reference_frame *frame, real share, bool all)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -173,7 +178,7 @@ static uint8_t *stressed_cells(const struct reference_frame *frame, real share, 
     return cells;
 }
 
-/* Is a cell coarser in `level` than now? */
+/* Returns true if a cell is coarser in `level` than at present. */
 static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
 {
     bool any = false;
@@ -181,14 +186,15 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Lowers bounds of levels to what the thickness of the body allows; levels that the scene gives stay. */
+/* Lowers `limit` to the levels that the thickness of the body allows, unless the scene gives the levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* The levels that cells may have next, of which coarser ones than now hold the motion there is. Changes limit. */
+/* Computes the levels of the next steps; coarser cells than at present must represent the present motion. Changes
+ * limit. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -208,11 +214,12 @@ void frame_levels_found(struct reference_frame *r, const struct particles *p, co
     frame_follow_points(r, p, bonds, loads);
 }
 
-/* Changes the levels; what that does to the energy is booked as damped. */
+/* Changes the levels; the change of energy is booked as damped. */
 static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
-    const real dt = e->clock.step > 0 ? e->clock.dt : 0; /* at first velocities are those of the same time */
+    /* before the first step velocities and displacements are at the same time */
+    const real dt = e->clock.step > 0 ? e->clock.dt : 0;
     levels_half_kick(&r->levels, &e->part, r->elastic, r->finite, dt);
     const real before = frame_kinetic(r) + frame_strain(r, &e->part);
     levels_change(&r->levels, &e->part, &r->source, level);
@@ -240,8 +247,9 @@ status frame_levels_make(struct run *e, bool restored)
         frame_hollow_start(r, NULL);
         return OK;
     }
-    levels_match(&r->levels, alike_edge(s), fastest, e->clock.dt);
-    /* a point takes its neighbours along, they have bonds, and families at the ends of those reach one horizon more */
+    levels_match(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
+    /* a point converts with its neighbours, these get bonds, and the families at their other ends extend one horizon
+     * more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
     levels_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
@@ -257,7 +265,7 @@ status frame_levels_make(struct run *e, bool restored)
     next_levels(r, &e->part, e->mass, demand, limit, level);
     if (frame_hollow_start(r, level)) change(e, level);
     memory_free(limit);
-    e->damped = 0; /* the run begins with what the coarse cells have */
+    e->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
     memory_free(stressed);
     memory_free(level);
@@ -266,7 +274,7 @@ status frame_levels_make(struct run *e, bool restored)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* True if a coarse cell may have a point beyond SPLITS of the stress that converts. */
+/* Returns true if a coarse cell may have a point beyond SPLITS of the stress of conversion. */
 static bool any_stressed(const struct mesh_levels *l)
 {
     bool any = false;
@@ -275,26 +283,28 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Bounds of the levels at the next change: cells become finer at once, and coarser where they have been calm. */
-static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool looks,
+/* Computes upper bounds of the levels for the next change: cells may become finer at once, and coarser after
+ * consecutive checks. */
+static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {
     struct mesh_levels *l = &r->levels;
     const int64_t n = l->fine->grid.n;
     array_copy(limit, l->level, n, 1);
-    if (!looks) return;
+    if (!checks) return;
     uint8_t *late = demand_make(r, p, loads, ZONE_MORE + ZONE_LATE), *stressed = stressed_cells(r, MERGES, true);
     marks_add(l, stressed, late);
     for (int64_t I = 0; I < n; I++) {
-        l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_LOOKS ? l->calm[I] + 1 : CALM_LOOKS;
-        if (l->calm[I] == CALM_LOOKS) limit[I] = (uint8_t)l->n;
+        l->calm[I] = late[I] ? 0 : l->calm[I] < CALM_CHECKS ? l->calm[I] + 1 : CALM_CHECKS;
+        if (l->calm[I] == CALM_CHECKS) limit[I] = (uint8_t)l->n;
     }
     limit_by_room(r, limit);
     memory_free(late);
     memory_free(stressed);
 }
 
-/* Points that lost a bond near coarse cells convert now that these are finer: all material points in their cells. */
+/* Marks the points again whose conversion was postponed after they lost a bond near coarse cells, which are finer now:
+ * all material points in their cells. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -314,15 +324,15 @@ uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p,
                            int64_t step, real mass)
 {
     struct mesh_levels *l = &r->levels;
-    const bool looks = step % LOOK_STEPS == 0;
+    const bool checks = step % CHECK_STEPS == 0;
     levels_sync(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
-    if (!looks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
+    if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
     uint8_t *demand = demand_make(r, p, loads, ZONE_MORE), *limit = NEW("levels.limit", n, uint8_t);
     uint8_t *level = NEW("levels.next", n, uint8_t);
     marks_add(l, stressed, demand);
-    limits_find(r, p, loads, looks, limit);
+    limits_find(r, p, loads, checks, limit);
     next_levels(r, p, mass, demand, limit, level);
     memory_free(demand);
     memory_free(limit);
@@ -338,7 +348,7 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
     l->any_wanted = false;
 }
 
-/* A marked point near a coarse cell wants finer ones at the next change, and if it is too near it waits for them. */
+/* Requests finer cells around a marked point near a coarse cell, and postpones its conversion if it is too near. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;

@@ -1,12 +1,12 @@
-/* Motion that cells would lose as parts of coarser ones. */
+/* Energy of motion that cells would lose as parts of coarser ones. */
 #include <math.h>
 
 #include "levels_parts.h"
 
-/* Mean energy per mass of what the nodes of level 0 in the cell of `level` with indices q depart from the motion of its
- * corners [J/kg], and what the squares of velocities at its corners depart from those of its parts: where velocities
- * change much from corner to corner, lumped masses have another kinetic energy. Displacements count by the strain that
- * they are over half the cell. */
+/* Returns the mean energy per mass [J/kg] of the differences between the motion of the nodes of level 0 in the cell of
+ * `level` with indices q and that of its corners, plus the difference of the squares of velocities at its corners and
+ * at those of its parts: where velocities vary much from corner to corner, lumped masses have another kinetic energy.
+ * Displacements contribute by their strain over half the cell. */
 static real departure(const struct mesh_levels *l, int level, const int64_t *q)
 {
     const struct mesh *fine = l->fine;

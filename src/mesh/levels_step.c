@@ -10,7 +10,7 @@ int levels_due(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Displacements of ghosts, which the forces of their cells need. */
+/* Sets the displacements of ghosts, which the forces of their cells need. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -49,7 +49,7 @@ void levels_hanging_follow(struct mesh_levels *l, int level)
         }
 }
 
-/* Forces on hanging nodes go to their masters. */
+/* Transfers the forces on hanging nodes to their masters. */
 static void hanging_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -63,7 +63,8 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Forces of coarse cells on ghosts act on the nodes of the finer level: twice, as its steps are half as long. */
+/* Transfers the forces of coarse cells on ghosts to the nodes of the finer level: twice, as its steps are half as
+ * long. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

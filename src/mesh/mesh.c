@@ -1,4 +1,4 @@
-/* The mesh of the reference frame: places of points, masses, runs of whole cells, partial cells, and conversion. */
+/* The mesh of the reference frame: positions of points, masses, runs of whole cells, partial cells, and conversion. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,15 +8,15 @@
 #include "mesh_parts.h"
 #include "base/team.h"
 
-#define PLACE_TOLERANCE 1e-6 /* of a cell */
+#define PLACE_TOLERANCE 1e-6 /* tolerance of the positions of points in a cell [cells] */
 #define VOLUME_TOLERANCE 1e-9
-/* displacements are multiples of 2^-60 cells: far below the last bit of a position, and tiny precursors of a wave are
- * rounded to 0 */
+/* Displacements are multiples of 2^-60 cells: far below the last bit of a position; tiny precursors of a wave are
+ * rounded to 0. */
 #define DISPLACEMENT_BITS 60
 
-/* ---- places of points -------------------------------------------------------------------------------------------- */
+/* ---- positions of points ----------------------------------------------------------------------------------------- */
 
-/* Refusal that names the place of particle i; `what` is the reason. */
+/* Refuses a body for the reason `what`, with the position of particle i. */
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(REFUSED,
@@ -42,7 +42,7 @@ int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_
     return (cell << p->dim) + q;
 }
 
-/* Finds the place in the mesh of all particles with FLAG_MESHED. REFUSED where mesh_make says so. */
+/* Finds cell and quarter point of all particles with FLAG_MESHED. REFUSED as mesh_make. */
 static status points_place(struct mesh *mesh, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -64,7 +64,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     return OK;
 }
 
-/* Mass of node I from the points of the cells around it, added in a fixed order [kg]. */
+/* Returns the mass of node I from the points of the cells around it, summed in a fixed order [kg]. */
 static real node_mass(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     const int dim = p->dim;
@@ -84,10 +84,10 @@ void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
 }
 
-/* REFUSED where two bodies share a node: they would move as one. */
+/* Returns REFUSED if two bodies share a node: they would move as one. */
 static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 {
-    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the node's points */
+    uint8_t *body = NEW("mesh.body", mesh->grid.n, uint8_t); /* 1 + body of the points around the node */
     status s = OK;
     for (int64_t i = 0; i < p->n && s == OK; i++)
         for (int c = 0; c < 1 << p->dim && mesh->place[i] >= 0; c++) {
@@ -102,7 +102,8 @@ static status bodies_apart(const struct mesh *mesh, const struct particles *p)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
-/* Whole: all points exist, of one material, none leaves stress to bonds, and all corners are nodes of the grid. */
+/* Returns the kind of cell I. A whole cell has all points, of one material and without partial stresses, and all
+ * corners are nodes of the grid. */
 static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -132,10 +133,10 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
     mesh->run[mesh->runs++] = (struct mesh_run){(int32_t)I, 1, material, false};
 }
 
-/* Layers of cells (along the last axis) in a band: bands that are not neighbours share no node. */
+/* Returns the number of layers of cells, along the last axis, in a band. Bands that are not adjacent share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
-/* Finds the span of nodes with mass in each row of nodes. */
+/* Rows of nodes have one span each, which may contain nodes without mass. */
 void mesh_spans_make(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -148,7 +149,7 @@ void mesh_spans_make(struct mesh *mesh)
     }
 }
 
-/* Material of whole cell I; p: particles of the mesh, NULL without. */
+/* Returns the material of whole cell I. p: particles of the mesh, NULL: a mesh without points. */
 static uint8_t material_of(const struct mesh *mesh, const struct particles *p, int64_t I)
 {
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
@@ -174,7 +175,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Finds the kinds of the cells marked in `dirty` (NULL: of all), and makes runs and partial cells anew. */
+/* Determines the kinds of the cells marked in `dirty` (NULL: of all), and rebuilds runs and partial cells. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -227,7 +228,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     bool changed;
     g->dim = dim, g->h = like->h;
     for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
-    high[0] += LANES * g->h; /* whole vectors are read and added to beyond the last cell of a row */
+    high[0] += LANES * g->h; /* whole vectors are read and written beyond the last cell of a row */
     TRY(grid_cover(g, from, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
@@ -245,7 +246,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     return OK;
 }
 
-/* Is a cell round node I not absent? */
+/* Returns true if a cell around node I has particles. */
 static bool node_filled(const struct mesh *mesh, int64_t I)
 {
     bool filled = false;
@@ -254,7 +255,7 @@ static bool node_filled(const struct mesh *mesh, int64_t I)
     return filled;
 }
 
-/* Marks the cells whose particles are not made, and lists the others. */
+/* Marks the cells without particles, and lists the others. */
 static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
 {
     mesh->absent = NEW("mesh.absent", mesh->grid.n, uint8_t);
@@ -271,7 +272,7 @@ static void mesh_absent_make(struct mesh *mesh, const struct hollow *h)
     }
 }
 
-/* Makes the nodes of the mesh, and the places of its points. */
+/* Makes the nodes of the mesh, and the positions of its points. */
 static status nodes_make(struct mesh *mesh, const struct particles *p, const struct grid *like,
                          const struct mesh_source *source)
 {
@@ -344,7 +345,7 @@ void mesh_free(struct mesh *mesh)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Takes particle i out of the mesh. Returns the kinetic energy of its share of the nodes less its own [J]. */
+/* Removes particle i from the mesh. Returns the kinetic energy of its share of the nodes minus its own [J]. */
 static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
 {
     const int64_t place = mesh->place[i];
@@ -362,7 +363,7 @@ static real mesh_release(struct mesh *mesh, struct particles *p, int64_t i)
     return energy;
 }
 
-/* Computes the masses of the nodes of the cells marked in `left` anew; nodes without mass are set to rest. */
+/* Recomputes the masses of the nodes of the cells marked in `left`; nodes without mass are set to rest. */
 static void nodes_lighten(struct mesh *mesh, const struct particles *p, const uint8_t *left)
 {
     uint8_t *done = NEW("mesh.done", mesh->grid.n, uint8_t);

@@ -1,14 +1,14 @@
-/* Points of the mesh whose motion is needed in every step: beside bonds, loaded, or with an image. */
+/* Exposed points of the mesh, whose motion is needed in every step: with bonds, loads or images. */
 #include "mesh/active_nodes.h"
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Points that bonds or loads reach, and the cells that hold such. */
+/* Marks of points that bonds or loads use, and of the cells that contain them. */
 struct exposure {
     uint8_t *point, *cell;
 };
 
-/* Threads may mark the same one. */
+/* Marks a point; several threads may mark the same one. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
 {
 #pragma omp atomic write
@@ -18,8 +18,8 @@ static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
     e->cell[mesh->place[i] >> mesh->grid.dim] = 1;
 }
 
-/* The particles whose images are among the neighbours nbr [LANES] of a column of bonds: images move as their sources.
- * Most columns lead to no image. */
+/* Marks the particles whose images are among the neighbours nbr[LANES] of a column of bonds: images move with their
+ * sources. Most columns contain no image. */
 static void images_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                           const struct image *image, const int32_t *nbr)
 {
@@ -29,14 +29,14 @@ static void images_expose(struct exposure *e, const struct mesh *mesh, const str
         if (nbr[l] >= p->n) point_expose(e, mesh, image_root(p, image, nbr[l]));
 }
 
-/* May a bond in column k of row block g lead to an image? */
+/* Returns true if a bond in column k of row block g may lead to an image. */
 static bool meets_images(const struct bonds *b, const struct particles *p, int64_t g, int64_t k)
 {
     const int64_t first = column_first(b, g, k);
     return first < 0 || first + LANES > p->n;
 }
 
-/* Adds cell I to the exposed cells. */
+/* Appends cell I to the exposed cells. */
 static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -49,7 +49,7 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Those that the bonds of a row block reach. */
+/* Marks the points that the bonds of a row block use. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

@@ -6,13 +6,13 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* The nodes around the inserted points, ascending. */
+/* Nodes around the inserted points, in ascending order. */
 struct nodes {
     int64_t n;
     int32_t *at;
 };
 
-/* Finds the nodes around the n listed points. */
+/* Finds the nodes around n listed points. */
 static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct particles *p, const int32_t *list,
                        int64_t n)
 {
@@ -27,7 +27,7 @@ static void nodes_find(struct nodes *t, const struct mesh *mesh, const struct pa
     memory_free(mark);
 }
 
-/* Kinetic energy of the listed nodes [J]. */
+/* Returns the kinetic energy of the listed nodes [J]. */
 static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
 {
     real sum = 0;
@@ -37,8 +37,8 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Puts the n listed points in. The nodes get the sum of their momentum and that of the points (grid.momentum is used
- * for this alone). */
+/* Inserts n listed points. The momentum of nodes and points is summed at the nodes (grid.momentum is used for this
+ * alone). */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;
@@ -65,7 +65,7 @@ static void points_enter(struct mesh *mesh, struct particles *p, const struct no
     }
 }
 
-/* Nodes that had no mass, marked in `light`, start from the mean displacement of the inserted points, weighted by
+/* Sets the displacement of nodes that had no mass, marked in `light`, to the mean of the inserted points, weighted by
  * mass. */
 static void mesh_insert_nodes_start(struct mesh *mesh, const struct particles *p, const uint8_t *light,
                                     const int32_t *list, int64_t n)

@@ -1,8 +1,8 @@
-/* Search for inverted cells of the mesh: a linear stress law does not prevent a cell from being compressed through zero
+/* Search for inverted cells of the mesh: a linear stress law does not prevent compression of a cell through zero
  * volume. */
 #include "mesh_parts.h"
 
-/* Current over reference volume at a place: the determinant of 1 + sum u_c (x) grad N_c [1]. */
+/* Returns the present over the reference volume at a quarter point: the determinant of 1 + sum u_c (x) grad N_c [1]. */
 static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
 {
     const int32_t cell = place >> dim;
@@ -16,8 +16,8 @@ static real volume_ratio(const struct mesh *mesh, int32_t place, int dim)
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
 }
 
-/* Necessary condition for an inverted cell, cheap to test. No entry of the displacement gradient exceeds the largest
- * difference of a component between corners, over h; and a gradient whose row sums are less than 1 inverts no cell. */
+/* Tests a necessary condition for an inverted cell at small cost: no entry of the displacement gradient exceeds the
+ * largest difference of a component between corners over h, and a gradient with row sums below 1 inverts no cell. */
 static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int dim)
 {
     real most = 0;
@@ -33,7 +33,7 @@ static inline bool may_invert(const struct mesh *mesh, int64_t cell, const int d
     return !(dim * most < mesh->grid.h);
 }
 
-/* Lowest index of a particle at which the cell is inverted, `first` if there is none below `first`. */
+/* Returns the lowest index of a particle below `first` at which the cell is inverted, or `first`. */
 static int64_t inverted_in(const struct mesh *mesh, int64_t cell, int dim, int64_t first)
 {
     for (int64_t place = cell << dim; place < (cell + 1) << dim; place++) {
@@ -58,7 +58,7 @@ int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
 #pragma omp parallel for schedule(static) reduction(min : first)
     for (int64_t row = 0; row < mesh->rows; row++) {
         const int64_t start = row * mesh->grid.count[0];
-        const bool box = start < mesh->slits.first; /* behind it cells are not beside the nodes of their index */
+        const bool box = start < mesh->slits.first; /* extra cells are not beside the nodes of the same index */
         const int64_t from = box ? mesh->span[2 * row] : start,
                       end = box ? mesh->span[2 * row + 1] : start + mesh->grid.count[0];
         for (int64_t cell = from; cell < end; cell++)

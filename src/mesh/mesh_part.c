@@ -1,4 +1,4 @@
-/* Bodies in the reference frame, as a part of a run. */
+/* Row of the bodies in the reference frame in the table of parts. */
 #include "mesh/mesh_part.h"
 #include "base/memory.h"
 #include "run/part.h"
@@ -11,7 +11,7 @@ static void frame_free_all(struct run *e)
     frame_hollow_points_free(&f->shown);
 }
 
-/* Coarse cells, by level, and how often they have changed. */
+/* Writes the number of cells of each level, and the number of changes. */
 static void put_levels(const struct run *e, struct json *j)
 {
     const struct mesh_levels *l = &e->frame->levels;

@@ -1,4 +1,4 @@
-/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_partial.h), from the points they have left.
+/* Partial cells of the mesh and their stiffness by modes (kernels/mesh/mesh_partial.h), from their remaining points.
  *
  * The strain at a point is the mean strain plus each bending mode times a product of coordinates +-1/4. The stiffness
  * thus consists of sums over the points of D, the matrix of stress by strain at a point, times products of signs: one
@@ -12,8 +12,8 @@
 
 enum { TERMS_MAX = 3 };
 
-/* A term of a mode in the strain: it adds the mode, times `factor`, times the signs of the coordinates along the axes
- * in `set`, to symmetric component `row`. */
+/* A term of a mode in the strain: the mode, times `factor`, times the signs of the coordinates along the axes in `set`,
+ * is added to symmetric component `row`. */
 struct mode_term {
     uint8_t row, set;
     real factor;
@@ -25,7 +25,7 @@ struct mode_terms {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Index of symmetric component ij. */
+/* Returns the index of symmetric component ij. */
 static int component(int dim, int i, int j)
 {
     for (int k = 0; k < symmetric_count(dim); k++) {
@@ -36,8 +36,8 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Terms of the bending modes: mode M of component i adds to the slope of u_i along each axis of M the product of the
- * coordinates along the other axes of M. */
+/* Makes the terms of the bending modes: mode M of component i adds to the slope of u_i along each axis of M the product
+ * of the coordinates along the other axes of M. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -50,7 +50,7 @@ static void bends_terms(struct mode_terms *t, int dim)
             }
 }
 
-/* Terms of all modes, t [MODES_MAX], in the order of kernels/mesh/mesh_partial.h. */
+/* Makes the terms of all modes, t[MODES_MAX], in the order of kernels/mesh/mesh_partial.h. */
 static void modes_terms(struct mode_terms *t, int dim)
 {
     const int symmetric = symmetric_count(dim);
@@ -66,12 +66,12 @@ struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int dim, modes, columns; /* columns of D: symmetric components                        */
-    real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX]; /* [materials] stress by strain     */
+    int dim, modes, columns; /* dimension; number of modes; columns of D: symmetric components */
+    real (*whole)[SYM_MAX * SYM_MAX], (*isotropic)[SYM_MAX * SYM_MAX]; /* [materials] stress by strain */
     struct mode_terms in[MODES_MAX];
 };
 
-/* Matrix C [n][n] of stress by strain [Pa]; shear strains are angles. */
+/* Computes the matrix C [n][n] of stress by strain [Pa]; shear strains are angles. */
 static void constants(const struct elastic *m, real *C, int dim)
 {
     const int n = symmetric_count(dim);
@@ -85,7 +85,7 @@ static void constants(const struct elastic *m, real *C, int dim)
     }
 }
 
-/* D of point i: the constants of its material less what bonds carry (partial stress) [Pa]. */
+/* Computes D of point i: the constants of its material minus the part carried by bonds (partial stress) [Pa]. */
 static void point_constants(const struct cell_maker *c, int32_t i, real *D)
 {
     const int n = c->columns;
@@ -101,8 +101,8 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* For each set of axes the sum over the points of D/corners times the signs of their coordinates along these axes:
- * butterflies along one axis after the other [Pa]. */
+/* Computes for each set of axes the sum over the points of D/corners times the signs of their coordinates along these
+ * axes [Pa], by butterflies along one axis after the other. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -121,7 +121,7 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
             }
 }
 
-/* Entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
+/* Returns an entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -133,7 +133,8 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
     return value;
 }
 
-/* Stiffness K of cell I, as one lane of its group. D is symmetric but for round-off; K is symmetric to the last bit. */
+/* Computes the stiffness K of cell I in one lane of its group. D is symmetric up to round-off; K is bitwise
+ * symmetric. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -143,7 +144,7 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
         for (int b = a; b < n; b++, K += LANES) *K = mesh_partial_entry_of(c, sum, &c->in[a], &c->in[b]);
 }
 
-/* ---- ends of bonds ----------------------------------------------------------------------------------------------- */
+/* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
 static void ends_free(struct mesh *mesh)
 {
@@ -153,8 +154,8 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* What each mode adds to the mean strain of the family of a point at `place`, share [modes] [1]: by the part of the
- * strain that the bonds of the point do not measure (`local`, of struct partial_stress). */
+/* Computes the contribution of each mode to the mean strain of the family of a point at a quarter point, share[modes]
+ * [1]: by the part of the strain that the bonds of the point do not measure (local: of struct partial_stress). */
 static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -167,13 +168,13 @@ static void end_share(const struct cell_maker *c, const real *local, int place, 
     }
 }
 
-/* Partial-stress entry of point i if it is an end of state-based bonds, else -1. */
+/* Returns the partial-stress entry of point i if it has state-based PD-MPM bonds, else -1. */
 static int64_t end_entry(const struct cell_maker *c, int32_t i)
 {
     return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Adds the ends of bonds in partial cell k to mesh->end, behind the *n that are there. */
+/* Appends the points of partial cell k with state-based PD-MPM bonds to mesh->end, after the first *n. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -186,7 +187,7 @@ static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t 
     }
 }
 
-/* Lists the ends of state-based bonds in all partial cells, group by group. */
+/* Lists the points of state-based PD-MPM bonds in all partial cells, group by group. */
 static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -236,7 +237,7 @@ void mesh_partial_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Material of the point of cell I with the lowest trigger. */
+/* Returns the material of the point of cell I with the lowest trigger. */
 static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -263,7 +264,7 @@ static struct cell_maker maker_of(const struct mesh *mesh, const struct particle
     return c;
 }
 
-/* First number of a partial cell in an array with `each` numbers per cell; NULL of NULL. */
+/* Returns the first number of a partial cell in an array with `each` numbers per cell; NULL for NULL. */
 static real *lane_of(real *from, int64_t cell, int each)
 {
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
@@ -274,7 +275,7 @@ static void lane_copy(real *to, real *from, int each)
     for (int k = 0; k < each && to; k++) to[k * LANES] = from ? from[k * LANES] : 0;
 }
 
-/* Fills the last group of cells up with its first cell, which has no stiffness in these lanes. */
+/* Fills the last group of cells with its first cell, which has no stiffness in these lanes. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_groups(mesh) * LANES, partial_cells = mesh->partial_cells;
@@ -282,7 +283,8 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Index of each partial cell among the old ones, -1 where its stiffness has to be made. The caller frees the result. */
+/* Returns the index of each partial cell among the old ones, -1: its stiffness must be computed. The caller frees the
+ * result. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = NEW("mesh.from", mesh->partial_cells, int64_t);
@@ -296,7 +298,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
     return from;
 }
 
-/* Array of `each` numbers for every partial cell, uninitialised but for the last group, which is 0. */
+/* Returns an array of `each` numbers for every partial cell, uninitialised except for the last group, which is 0. */
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_groups(mesh), size = each * LANES;
@@ -312,7 +314,7 @@ static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 }
 
 /* Finds groups of equal stiffness (mesh->alike). Cells that an edge of the body cuts in the same way follow each other,
- * so that each group is compared with the one before. */
+ * so that each group is compared with the preceding one. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_groups(mesh);
@@ -355,8 +357,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may no
- * longer be equal. */
+/* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may differ
+ * now. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)

@@ -7,8 +7,8 @@
 
 bool mesh_cell_holds(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
-/* Box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. False: more nodes than can
- * be numbered. */
+/* Makes a box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. Returns false if
+ * the number of nodes is too large. */
 static bool box_make(struct mesh *box, const struct particles *p, const struct grid *like)
 {
     struct grid *g = &box->grid;
@@ -25,8 +25,8 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
     return true;
 }
 
-/* Root of the set of node I (union-find; shortens the path): `above` holds 1 + the node above a node, for a root 1 +
- * the node itself, 0 where no particle is. */
+/* Returns the root of the set of node I (union-find with path compression). above: 1 + parent of a node, for a root 1 +
+ * the node itself, 0: no particles. */
 static int32_t mesh_pieces_root_of(int32_t *above, int32_t I)
 {
     while (above[I] != I + 1) {
@@ -45,7 +45,7 @@ static void join(int32_t *above, int32_t I, int32_t J)
     above[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-/* Joins the nodes of cells whose particles are not made. */
+/* Joins the nodes of each cell without particles. */
 static void hollow_join(int32_t *above, const struct mesh *box, const struct hollow *h)
 {
     for (int64_t I = 0; h && h->absent && I < h->box.n; I++) {

@@ -8,20 +8,20 @@
 
 enum { ITERATIONS_MOST = 500 };
 enum { ROW_NONE = -1, ROW_BESIDE = -2 };
-#define TOLERANCE 1e-15 /* of the largest nodal momentum */
+#define TOLERANCE 1e-15 /* tolerance of the residual [largest nodal momentum] */
 
-/* Data of a projection. `node`: marks the nodes that are unknown, all others stay; NULL: all nodes are unknown. */
+/* Data of a projection. node: marks of the unknown nodes, others are unchanged; NULL: all nodes are unknown. */
 struct projection {
     const struct mesh *mesh;
     const struct particles *p;
     const uint8_t *node;
-    real *mass;      /* [nodes] of one point, where a node has all its points and they are of one mass; else 0 [kg] */
-    int32_t *row_of; /* [nodes] row of all other unknown nodes; ROW_NONE; ROW_BESIDE: beside a slit,
-                      * where nodes around are not in line */
-    real *row;       /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
+    real *mass; /* [nodes] mass of a point, if a node has all its points with equal masses; else 0 [kg] */
+    /* [nodes] row of each other unknown node; ROW_NONE; ROW_BESIDE: beside a slit, nodes around it are not in line */
+    int32_t *row_of;
+    real *row; /* [rows][3^dim] of the mass matrix, by the nodes around [kg] */
 };
 
-/* sum m_p N_I value_p over the points of a cell of which I is corner c. */
+/* Returns the sum of m_p N_I value_p over the points of a cell of which I is corner c. */
 static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int c, const real *value, const int dim)
 {
     const int32_t *point = m->mesh->point + (cell << dim);
@@ -33,7 +33,7 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
 
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
-/* Index of corner k of a cell among the 3^dim nodes around a node that is corner c of the cell. */
+/* Returns the index of corner k of a cell among the 3^dim nodes around a node that is corner c of the cell. */
 static int node_around(int dim, int c, int k)
 {
     int at = 0;
@@ -41,7 +41,7 @@ static int node_around(int dim, int c, int k)
     return at;
 }
 
-/* sum m_p N_I N_J over the points round node I, for the nodes J around it. */
+/* Computes the sums of m_p N_I N_J over the points around node I, for the nodes J around it. */
 static void row_make(const struct projection *m, int64_t I, real *row)
 {
     const int dim = m->p->dim;
@@ -53,7 +53,7 @@ static void row_make(const struct projection *m, int64_t I, real *row)
     }
 }
 
-/* Row of the mass matrix times nodal values, `from` at the node of the row. */
+/* Returns the product of a row of the mass matrix with nodal values. from: value at the node of the row. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -63,8 +63,9 @@ static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t
     return sum;
 }
 
-/* Row of the mass matrix times nodal values where all points around the node exist and have mass 1, direction by
- * direction: with two points in a cell sum_q N_I N_J is 5/8 in each of the two cells, and 3/8 for either neighbour. */
+/* Returns the product of a row of the mass matrix with nodal values if all points around the node exist and have mass
+ * 1, for one direction: with two points in a cell sum_q N_I N_J is 5/8 in each of the two cells, and 3/8 for either
+ * neighbour. */
 static ALWAYS_INLINE real line_product(const real *from) { return 0.375 * (from[-1] + from[1]) + 1.25 * from[0]; }
 
 static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
@@ -85,7 +86,7 @@ static bool is_unknown(const struct projection *m, int64_t I)
     return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
 }
 
-/* sum m_p N_I value_p over the points around node I, cell by cell; 0 where it is not unknown. */
+/* Returns the sum of m_p N_I value_p over the points around node I, cell by cell; 0 if the node is not unknown. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
@@ -95,7 +96,7 @@ static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const
     return sum;
 }
 
-/* Does a slit divide a cell around node I, or give it extra nodes? */
+/* Returns true if a slit divides a cell around node I, or gives it extra nodes. */
 static bool beside_slit(const struct mesh *mesh, int64_t I)
 {
     bool beside = false;
@@ -106,7 +107,7 @@ static bool beside_slit(const struct mesh *mesh, int64_t I)
     return beside;
 }
 
-/* Row of the mass matrix times nodal values beside a slit: point by point. */
+/* Returns the product of a row of the mass matrix with nodal values beside a slit, point by point. */
 static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, const real *from, const int dim)
 {
     real sum = 0;
@@ -122,8 +123,8 @@ static ALWAYS_INLINE real slit_product(const struct projection *m, int64_t I, co
     return sum;
 }
 
-/* Right side from values at points (`value` not NULL), or mass matrix times nodal values `from`, at all unknown nodes,
- * and 0 at all others. Each node is written by one thread. */
+/* Computes for all unknown nodes the right side from values at points (`value` not NULL), or the product of the mass
+ * matrix with nodal values `from`; 0 at other nodes. Each node is written by one thread. */
 static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *value, const real *from, real *to,
                                        const int dim)
 {
@@ -156,7 +157,7 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Mass of a single point around node I if all its points exist and have one mass, else 0 [kg]. */
+/* Returns the mass of a point around node I if all its points exist and have equal masses, else 0 [kg]. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -223,8 +224,8 @@ static real mesh_project_largest_of(const real *a, int64_t n)
     return most;
 }
 
-/* Solves for x [nodes] by conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner. All
- * nodes unknown: starts from the lumped projection; else from x. */
+/* Solves for x [nodes] by conjugate gradients on the consistent mass matrix, with the lumped one as preconditioner;
+ * starts from the lumped projection if all nodes are unknown, else from x. */
 static void project(const struct projection *m, const real *value, real *x)
 {
     const int64_t n = m->mesh->grid.n;

@@ -1,12 +1,12 @@
-/* How coarse cells may be by how thick the body is where they are: a cell bends too stiffly, and few of them across a
- * part do. Level L is allowed where a cube of CELLS_ACROSS of its cells fits into the body: in the opening of the body,
- * eroded and then dilated by half of that (Serra 1982). */
+/* Largest level of cells by the thickness of the body: cells are too stiff in bending if few of them are across a part.
+ * Level L is allowed where a cube of CELLS_ACROSS of its cells fits into the body: in the opening of the body, eroded
+ * and then dilated by half of this width (Serra 1982). */
 #include <string.h>
 
 #include "mesh_parts.h"
 #include "mesh/levels.h"
 
-/* Is the middle of cell I beyond a plane of symmetry? There the body goes on as its image. */
+/* Returns true if the middle of cell I is beyond a plane of symmetry, where the body continues as its image. */
 static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_plane *mirror, int mirrors)
 {
     bool beyond = false;
@@ -18,7 +18,7 @@ static bool beyond_mirror(const struct grid *g, int64_t I, const struct mirror_p
     return beyond;
 }
 
-/* Marks the cells outside the body, and those at slits, which are faces of it. */
+/* Marks the cells outside the body, and cells at slits, which are faces of the body. */
 static void outside_mark(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *mark)
 {
     const int64_t cells = mesh->slits.split ? mesh->slits.first : mesh->grid.n;

@@ -1,19 +1,20 @@
 /* Slits of the mesh: cells and nodes that free surfaces between points divide (struct mesh_slits in data/mesh.h).
  *
- * Two points are together if no slit passes between them. The points of a cell fall into pieces, each of which is then
- * a cell; around a node pieces are together if a point of one and a point of the other are, or if others join them.
- * Where there are no points nothing joins: a slit that ends at a face of the body opens there, one that ends inside
- * does not. */
+ * Two points are connected if no slit passes between them. The points of a cell form connected pieces, each of which
+ * becomes a cell; around a node two pieces are connected if a point of one is connected with a point of the other,
+ * directly or through other pieces. Regions without points connect nothing: a slit that ends at a face of the body
+ * opens there, a slit that ends inside does not. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX }; /* around a node: of 2^dim cells as many each */
+/* largest number of pieces around a node: of 2^dim cells as many each */
+enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
-/* An extra node or cell in the making. Pieces around a node have bits 8 c + g: piece g of the cell of which the node is
- * corner c; an extra cell has piece `piece` of cell `base`. */
+/* An extra node or cell under construction. Pieces around a node have bits 8 c + g: piece g of the cell of which the
+ * node is corner c; an extra cell is piece `piece` of cell `base`. */
 struct extra {
     int64_t base;
     uint64_t pieces;
@@ -29,11 +30,11 @@ struct slit_maker {
     const struct mesh *mesh;
     const struct particles *p;
     const struct mesh_source *source;
-    int32_t *point;        /* [nodes << dim] particle at a place of a cell, -1: none */
-    uint8_t *piece;        /* [nodes << dim] of its cell that it is in */
-    uint8_t *pieces;       /* [nodes] of a cell with points near a slit, else 0 */
+    int32_t *point;        /* [nodes << dim] particle at a quarter point of a cell, -1: none */
+    uint8_t *piece;        /* [nodes << dim] piece of the cell that it belongs to */
+    uint8_t *pieces;       /* [nodes] number of pieces of a cell with points near a slit, else 0 */
     uint8_t *split, *open; /* [nodes] as in struct mesh_slits */
-    uint8_t *voids;        /* [nodes] 1 within two cells of a particle with a void near */
+    uint8_t *voids;        /* [nodes] 1: within two cells of a particle near a void */
     struct extras node, cell;
 };
 
@@ -45,8 +46,8 @@ static void extra_add(struct extras *to, struct extra one)
 
 /* ---- pieces of cells --------------------------------------------------------------------------------------------- */
 
-/* Does a slit, or a void near particle i, part two places of its body? */
-static bool places_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
+/* Returns true if a slit, or a void near particle i, separates two positions of its body. */
+static bool positions_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
     const struct voids *v = m->source->voids;
     if (voids_near(v, i) && voids_between(v, m->p->body[i], a, b, NULL)) return true;
@@ -60,7 +61,7 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     real a[DIM_MAX], b[DIM_MAX];
     particle_place(m->p, i, a);
     particle_place(m->p, j, b);
-    return places_parted(m, i, a, b);
+    return positions_parted(m, i, a, b);
 }
 
 /* Marks the cells within two of cell I. */
@@ -76,7 +77,7 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Is some slit or void within two cells of node I? */
+/* Returns true if a slit or void is within two cells of node I. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
@@ -116,23 +117,23 @@ static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Do places q and r of cells of which a node is corners c and k face each other across what the cells share? The node
- * is a lower corner of the cell above it. */
-static bool places_face(int q, int r, int c, int k)
+/* Returns true if quarter points q and r of cells of which a node is corners c and k face each other across the common
+ * face or edge of the cells. A node is a lower corner of the cell above it. */
+static bool quarter_points_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k; /* directions in which the cells follow each other */
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
-/* Point of piece `bit` around node I at place q, -1: none. */
+/* Returns the point of piece `bit` around node I at quarter point q, or -1. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
     const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Is a point of one piece around node I together with one of the other? Of points that face each other; where there are
- * none, of any. */
+/* Returns true if two pieces around node I are connected by points that face each other or, without such points, by
+ * any. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -140,7 +141,7 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     for (int pass = 0; pass < 2 && !faced && c != k; pass++)
         for (int q = 0; q < corners; q++)
             for (int r = 0; r < corners; r++) {
-                if (pass == 0 && !places_face(q, r, c, k)) continue;
+                if (pass == 0 && !quarter_points_face(q, r, c, k)) continue;
                 const int32_t i = piece_point(m, I, one, q), j = piece_point(m, I, other, r);
                 if (i < 0 || j < 0) continue;
                 if (!points_parted(m, i, j)) return true;
@@ -149,7 +150,7 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Those of the pieces in `open` that are together with the lowest of them. */
+/* Returns the pieces of `open` that are connected with the lowest of them, one bit each. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
     uint64_t group = open & -open;
@@ -164,18 +165,18 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
     return group;
 }
 
-/* Is point i parted from its image in a plane? */
+/* Returns true if point i is separated from its image in a plane. */
 static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
 {
     real a[DIM_MAX], b[DIM_MAX];
     particle_place(m->p, i, a);
     memcpy(b, a, sizeof b);
     b[plane->axis] = 2 * plane->at - b[plane->axis];
-    return places_parted(m, i, a, b);
+    return positions_parted(m, i, a, b);
 }
 
-/* Are the pieces of a group around node I together with their images in a plane through the node? As for pieces: by
- * points that face the plane, or where there are none by any. */
+/* Returns true if the pieces of a group around node I are connected with their images in a plane through the node: by
+ * points that face the plane or, without such points, by any. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -192,7 +193,8 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Bits of the axes of mirrors through node I from whose other side slits part a group of pieces. */
+/* Returns the axes of mirrors through node I, one bit each, beyond which slits separate a group of pieces from its
+ * image. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;
@@ -245,17 +247,18 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Extra nodes and cells fill rows but for their ends, beyond which whole vectors are read and written. */
+/* Returns the number of extra nodes or cells in a row: not at its ends, beyond which whole vectors are read and
+ * written. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Index of extra node or cell k. */
-static int64_t extra_place(const struct mesh *mesh, int64_t k)
+/* Returns the index of extra node or cell k. */
+static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
     return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
 }
 
-/* Corners of its own for cell I; `at`: the cell of the grid at its place. */
+/* Returns the separate list of corners of cell I, allocated if necessary. at: cell of the grid at its position. */
 static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -268,21 +271,21 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Piece g of cell I, as a cell. */
+/* Returns the cell of piece g of cell I. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
     return I;
 }
 
-/* Places of the extra cells: chains from the cells that they are pieces of, and the cells of their points. */
+/* Sets the positions of the extra cells: chains from the cells that they are pieces of, and cells of their points. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
     const int corners = 1 << mesh->grid.dim;
     int32_t cuts = 0;
     for (int64_t k = 0; k < m->cell.n; k++) {
-        const int64_t base = m->cell.at[k].base, cell = extra_place(mesh, k);
+        const int64_t base = m->cell.at[k].base, cell = extra_index(mesh, k);
         s->next[piece_cell(mesh, base, m->cell.at[k].piece - 1)] = (int32_t)cell;
         corners_of(mesh, cell, base);
         if (s->cut[base] < 0) s->cut[base] = cuts++;
@@ -296,13 +299,13 @@ static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
     }
 }
 
-/* Places of the extra nodes, and the cells that have them as corners. */
+/* Sets the positions of the extra nodes, and the cells of which they are corners. */
 static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
     for (int64_t k = 0; k < m->node.n; k++) {
         const struct extra *e = &m->node.at[k];
-        const int64_t I = extra_place(mesh, k);
+        const int64_t I = extra_index(mesh, k);
         s->base[I - s->first] = (int32_t)e->base;
         s->split[I] = 1, s->open[I] = e->open;
         for (uint64_t left = e->pieces; left; left &= left - 1) {
@@ -320,7 +323,7 @@ static int32_t *none_make(const char *label, int64_t n)
     return all;
 }
 
-/* Puts what is extra behind the box, whose nodes were s->first in number. */
+/* Stores extra nodes and cells behind the box, which had s->first nodes. */
 static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -349,7 +352,7 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     real far[DIM_MAX];
     bool changed;
     for (int d = 0; d < g->dim; d++) far[d] = to[d];
-    far[last] += g->h * (real)(layers + 4); /* a box grows by steps of four nodes (grid_cover) */
+    far[last] += g->h * (real)(layers + 4); /* a box grows in steps of four nodes (grid_cover) */
     return grid_cover(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
@@ -369,7 +372,7 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
     m.voids = NEW("slits.voids", n, uint8_t);
     slits_divide(&m);
     const bool any = m.node.n > 0 || memchr(m.open, 1 << 0, (size_t)n) || memchr(m.open, 1 << 1, (size_t)n) ||
-                     memchr(m.open, 1 << 2, (size_t)n); /* of several mirrors: some node is on one alone */
+                     memchr(m.open, 1 << 2, (size_t)n); /* of several mirrors: a node is on one only */
     if (any) result = box_extend(&mesh->grid, from, to, m.node.n > m.cell.n ? m.node.n : m.cell.n);
     if (any && result == OK) slits_tables_make(mesh, &m);
     memory_free(m.point);

@@ -7,7 +7,8 @@
 #include "mesh_parts.h"
 #include "kernels/mesh/mesh_point.h"
 
-/* Adds to the stiffness K of the corner displacements [N/m], column by column, the part of a point at place q. */
+/* Adds the contribution of a point at quarter point q to the stiffness K for displacements of the corners [N/m], column
+ * by column. */
 static void point_stiffness(real *K, const struct elastic *m, int dim, real h, real V, int q)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -49,7 +50,7 @@ struct scaled_cell {
     int n;
 };
 
-/* y = K x with K scaled by the masses, column by column: whole vectors. */
+/* Computes y = K x with K scaled by the masses, column by column in whole vectors. */
 static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled_cell *c = context;
@@ -58,8 +59,9 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
         for (int a = 0; a < c->n; a++) y[a] += c->K[b * c->n + a] * x[b];
 }
 
-/* Largest eigenvalue of m^-1/2 K m^-1/2 for one cell with points at `places` [1/s^2]. No eigenvalue of the mesh exceeds
- * that of its stiffest cell alone, with the masses of the cell's own points. */
+/* Returns the largest eigenvalue of m^-1/2 K m^-1/2 for one cell with points at the quarter points `places`, one bit
+ * each [1/s^2]. No eigenvalue of the mesh exceeds that of its stiffest cell alone, with the masses of the points of the
+ * cell. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;
@@ -74,7 +76,7 @@ static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, re
     return largest_eigenvalue(n, mesh_scaled_stiffness, &(struct scaled_cell){K, n});
 }
 
-/* Places of cell I that hold a point, one bit each. */
+/* Returns the quarter points of cell I with a point, one bit each. */
 static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
 {
     const int dim = mesh->grid.dim;
@@ -83,7 +85,7 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Do points of cell I leave part of their stress to bonds? The cell is then softer than it would be without bonds. */
+/* Returns true if points of cell I leave a part of their stress to bonds: the cell is softer than without bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;
