@@ -92,7 +92,7 @@ typedef void bench_field(const void *context, const real *X, real *v);
 void bench_engine_start(struct run *e, bench_field *field, const void *context);
 
 /* Runs to the end of step `until`; the last step is a sample. spent: the times of the sections of a step are added. */
-status bench_engine_run(struct run *e, int64_t until, struct laps *spent);
+status bench_engine_run(struct run *e, int64_t until, struct timers *spent);
 
 /* Overrides whose texts are composed one by one; the pointers in `at` are set by bench_overrides_ready. */
 enum { OVERRIDES_MAX = 24, OVERRIDE_LENGTH = 160 };
@@ -198,7 +198,7 @@ enum { SPEED_TARGETS_MAX = 8 };
 struct targets {
     int figures;
     struct target_figure figure[SPEED_TARGETS_MAX]; /* [figures] */
-    struct bench_table laps;
+    struct bench_table timers;
 };
 
 /* Measures the peak memory. Call before anything large is allocated: a child process inherits the high-water mark of

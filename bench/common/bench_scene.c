@@ -62,7 +62,7 @@ void bench_engine_free(struct run *e, struct scene *s)
     scene_free(s);
 }
 
-status bench_engine_run(struct run *e, int64_t until, struct laps *spent)
+status bench_engine_run(struct run *e, int64_t until, struct timers *spent)
 {
     const int64_t steps = e->clock.steps;
     memory_free(e->report->record); /* each call of engine_run allocates its own */
@@ -70,7 +70,7 @@ status bench_engine_run(struct run *e, int64_t until, struct laps *spent)
     e->clock.steps = until < steps ? until : steps;
     status ran = engine_run(e);
     e->clock.steps = steps;
-    for (int k = 0; spent && k < LAPS; k++) spent->spent[k] += e->laps.spent[k];
+    for (int k = 0; spent && k < TIMERS; k++) spent->spent[k] += e->timers.spent[k];
     return ran;
 }
 

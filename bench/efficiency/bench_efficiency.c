@@ -78,10 +78,10 @@ static status run_pieces(struct run_times *r, struct run *e)
 /* Stores the time of each part of a loop, from the timers of the sections. */
 static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
-    r->part[PART_BONDS][repetition] = spent[LAP_BONDS];
-    r->part[PART_POINTS][repetition] = spent[LAP_SCATTER] + spent[LAP_GRID] + spent[LAP_GATHER];
-    r->part[PART_CONVERSION][repetition] = spent[LAP_CONVERT];
-    r->part[PART_SAMPLES][repetition] = spent[LAP_SAMPLE];
+    r->part[PART_BONDS][repetition] = spent[TIMER_BONDS];
+    r->part[PART_POINTS][repetition] = spent[TIMER_SCATTER] + spent[TIMER_GRID] + spent[TIMER_GATHER];
+    r->part[PART_CONVERSION][repetition] = spent[TIMER_CONVERT];
+    r->part[PART_SAMPLES][repetition] = spent[TIMER_SAMPLE];
 }
 
 static status efficiency_run_once(struct result *x, int variant, int repetition)
@@ -92,7 +92,7 @@ static status efficiency_run_once(struct result *x, int variant, int repetition)
     struct run_times *r = &x->run[variant];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
     r->seconds[repetition] = e.report->loop_seconds;
-    parts_keep(r, e.laps.spent, repetition);
+    parts_keep(r, e.timers.spent, repetition);
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);
     bench_engine_free(&e, &s);

@@ -312,7 +312,7 @@ status bench_kernels(bool quick)
     printf("kernels\n");
     status s = kernels_run(b, quick);
     for (int d = 1; d <= DIM_MAX; d++) ground_free(&b->ground[d]);
-    bench_table_free(&b->targets.laps);
+    bench_table_free(&b->targets.timers);
     memory_free(b->job);
     memory_free(b);
     return s;

@@ -70,7 +70,7 @@ static status time_frames(struct size_result *r, const struct bench_block *block
     status ran = output_open(&out, folder.folder, s.text, OUTPUT_OVERWRITE, false);
     if (ran == OK) {
         ran = engine_run(&e);
-        r->frame = e.laps.spent[LAP_OUTPUT] / FRAMES;
+        r->frame = e.timers.spent[TIMER_OUTPUT] / FRAMES;
         FILE *f = fopen(path_join(folder.folder, "frames/000001.hdf").text, "r");
         if (f && fseek(f, 0, SEEK_END) == 0) r->frame_bytes = (double)ftell(f) / (double)e.part.n;
         if (f) fclose(f);

@@ -39,7 +39,7 @@ static const struct target_run target_runs[RUNS] = {
 /* Times of the fastest repetition of a run, by threads - 1. */
 struct timing {
     double seconds[TARGET_THREADS];
-    struct laps laps[TARGET_THREADS];
+    struct timers timers[TARGET_THREADS];
     double particles, bonds;
 };
 
@@ -51,19 +51,19 @@ struct targets_bench {
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
-static double loop_of(const struct laps *l)
+static double loop_of(const struct timers *l)
 {
     double sum = 0;
-    for (int k = 0; k < LAPS; k++) sum += k == LAP_OUTPUT ? 0 : l->spent[k];
+    for (int k = 0; k < TIMERS; k++) sum += k == TIMER_OUTPUT ? 0 : l->spent[k];
     return sum;
 }
 
-static void keep_fastest(struct timing *t, int threads, const struct laps *spent)
+static void keep_fastest(struct timing *t, int threads, const struct timers *spent)
 {
     const double seconds = loop_of(spent) / STEPS_TIMED;
     if (seconds >= t->seconds[threads - 1]) return;
     t->seconds[threads - 1] = seconds;
-    t->laps[threads - 1] = *spent;
+    t->timers[threads - 1] = *spent;
 }
 
 static status targets_time_run(struct targets_bench *b, int which)
@@ -80,7 +80,7 @@ static status targets_time_run(struct targets_bench *b, int which)
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 0; k < ROUNDS * b->threads && ran == OK; k++) {
         const int threads = 1 + k % b->threads;
-        struct laps spent = {0};
+        struct timers spent = {0};
         team_make(threads);
         s.samples = (int)(rate * (real)(e.clock.step + STEPS_TIMED)); /* in the piece, as the engine counts them */
         ran = bench_engine_run(&e, e.clock.step + STEPS_TIMED, &spent);
@@ -143,15 +143,15 @@ static void add_speed(struct targets *f, const struct targets_bench *b)
 
 static void add_laps(struct targets *f, const struct targets_bench *b)
 {
-    bench_table_make(&f->laps, "laps", "method,threads,bonds_s,scatter_s,grid_s,gather_s,convert_s,watch_s,step_s");
+    bench_table_make(&f->timers, "laps", "method,threads,bonds_s,scatter_s,grid_s,gather_s,convert_s,watch_s,step_s");
     for (int w = 0; w < RUNS; w++)
         for (int threads = 1; threads <= b->threads; threads++) {
             const struct timing *t = &b->run[w];
-            bench_text(&f->laps, target_runs[w].name);
-            bench_number(&f->laps, threads);
-            for (int k = 0; k < LAP_OUTPUT; k++)
-                bench_number(&f->laps, t->laps[threads - 1].spent[k] / STEPS_TIMED / t->particles);
-            bench_number(&f->laps, t->seconds[threads - 1] / t->particles);
+            bench_text(&f->timers, target_runs[w].name);
+            bench_number(&f->timers, threads);
+            for (int k = 0; k < TIMER_OUTPUT; k++)
+                bench_number(&f->timers, t->timers[threads - 1].spent[k] / STEPS_TIMED / t->particles);
+            bench_number(&f->timers, t->seconds[threads - 1] / t->particles);
         }
 }
 
@@ -209,11 +209,11 @@ static bool met(const struct target_figure *a)
     return a->at_least ? ratio >= a->asked : ratio <= a->asked;
 }
 
-static void print_laps(const struct bench_table *t)
+static void print_timers(const struct bench_table *t)
 {
     printf("  where a step goes, ns per particle (0.5 mm; one sample in %d steps unless said otherwise)\n    %-36s",
            STEPS_TIMED, "threads");
-    for (int k = 0; k < LAP_OUTPUT; k++) printf(" %8s", lap_name[k]);
+    for (int k = 0; k < TIMER_OUTPUT; k++) printf(" %8s", timer_name[k]);
     printf(" %8s\n", "step");
     for (int64_t row = 0; row < t->cells; row += t->columns) {
         printf("    %-34s %1.0f", t->cell[row].text, t->cell[row + 1].number);
@@ -237,7 +237,7 @@ void bench_targets_print(const struct targets *f)
                a->at_least ? ">=" : "<=", a->asked, met(a) ? "ok" : "NOT MET");
     }
     printf("\n");
-    if (f->laps.cells) print_laps(&f->laps);
+    if (f->timers.cells) print_timers(&f->timers);
 }
 
 void bench_targets_table(const struct targets *f, struct bench_table *t)

@@ -67,8 +67,8 @@ static status kernels_draw_write_tables(const struct kernel_bench *b)
     struct bench_table table[4];
     fill_tables(b, &table[0], &table[1]);
     bench_targets_table(&b->targets, &table[2]);
-    table[3] = b->targets.laps;
-    status s = bench_write("kernels", table, b->targets.laps.cells ? 4 : 3);
+    table[3] = b->targets.timers;
+    status s = bench_write("kernels", table, b->targets.timers.cells ? 4 : 3);
     for (int k = 0; k < 3; k++) bench_table_free(&table[k]);
     return s;
 }

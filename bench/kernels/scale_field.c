@@ -42,7 +42,7 @@ static const struct field_run {
 enum { FIELD_RUNS = COUNT_OF(field_runs), DIRECT = 2, FIELD_SAMPLES = 100 };
 
 struct field_row {
-    double made, body, bytes, seconds, sampling, lap[LAPS];
+    double made, body, bytes, seconds, sampling, timer[TIMERS];
     int64_t n;
     double t[FIELD_SAMPLES + 2], K[FIELD_SAMPLES + 2], peak; /* time [s]; K [Pa m^0.5] */
     double off[DIRECT];                                      /* difference from each direct run [1] */
@@ -91,11 +91,11 @@ static status field_read(struct field_row *r, const char *folder, double later, 
                   {"loop_seconds", &r->seconds},
                   {"wall_seconds", &wall}};
     for (size_t k = 0; k < COUNT_OF(figure); k++) TRY(summary_number(folder, figure[k].key, figure[k].value));
-    for (int k = 0; k < LAPS; k++) {
+    for (int k = 0; k < TIMERS; k++) {
         char key[64];
-        snprintf(key, sizeof key, "laps.%s", lap_name[k]);
-        TRY(summary_number(folder, key, &r->lap[k]));
-        r->lap[k] *= fmin(1, processor / wall);
+        snprintf(key, sizeof key, "laps.%s", timer_name[k]);
+        TRY(summary_number(folder, key, &r->timer[k]));
+        r->timer[k] *= fmin(1, processor / wall);
     }
     r->seconds *= fmin(1, processor / wall);
     TRY(history_read(&h, folder));
@@ -154,7 +154,7 @@ static double cells_in_front(const struct field_bench *b, int k)
     return 0.5 * b->pulse * b->speed / (1e-3 * b->spacing * (2 << field_runs[k].levels));
 }
 
-static double steps_of(const struct field_row *r) { return r->seconds - r->lap[LAP_SAMPLE]; }
+static double steps_of(const struct field_row *r) { return r->seconds - r->timer[TIMER_SAMPLE]; }
 
 static void field_print_row(const struct field_bench *b, int k)
 {
@@ -170,12 +170,12 @@ static void field_print_row(const struct field_bench *b, int k)
     fflush(stdout);
 }
 
-static enum lap largest_lap(const struct field_row *r)
+static enum timer largest_timer(const struct field_row *r)
 {
     int most = 0;
-    for (int k = 0; k < LAP_OUTPUT; k++)
-        if (r->lap[k] > r->lap[most]) most = k;
-    return (enum lap)most;
+    for (int k = 0; k < TIMER_OUTPUT; k++)
+        if (r->timer[k] > r->timer[most]) most = k;
+    return (enum timer)most;
 }
 
 /* Prints the fastest of the runs that are sufficiently close to a direct run, beside the goal. */
@@ -197,9 +197,10 @@ static void field_print_aim(const struct field_bench *b, int direct, bool part)
     if (ratio >= TIME_AIM)
         printf("met\n");
     else
-        printf("MISSED, the lap `%s` stands in the way with %.0f %% of the loop; of the steps without samples 1/%.1f\n",
-               lap_name[largest_lap(r)], 100 * r->lap[largest_lap(r)] / r->seconds,
-               steps_of(&b->at[direct]) / steps_of(r));
+        printf(
+            "MISSED, the timer `%s` stands in the way with %.0f %% of the loop; of the steps without samples 1/%.1f\n",
+            timer_name[largest_timer(r)], 100 * r->timer[largest_timer(r)] / r->seconds,
+            steps_of(&b->at[direct]) / steps_of(r));
 }
 
 static void field_print_aims(const struct field_bench *b)

@@ -18,7 +18,7 @@
 #include "output/summary_read.h"
 #include "plot/gnuplot.h"
 
-enum { SPACINGS = 5, LAPS_SHOWN = LAP_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
+enum { SPACINGS = 5, TIMERS_SHOWN = TIMER_OUTPUT, SERIES = 4, AIMS = 3, REPEATED = 3 };
 #define SHORT 3.0          /* loops shorter than this are repeated [s] */
 #define QUICK_DURATION 6.0 /* end of quick runs [us] */
 #define STEP_PER_MM 0.05   /* time step at a spacing of 1 mm [us] */
@@ -45,13 +45,13 @@ struct growth_row {
     double spacing;                                   /* [mm] */
     double made, body, bonded, bytes, seconds, share; /* numbers [1], memory [byte], loop time [s], fraction of the
                                                        * critical step */
-    double lap[LAPS_SHOWN];                           /* [s] */
+    double timer[TIMERS_SHOWN];                       /* [s] */
     double start, angle;                              /* start [s] and angle [degree] of the crack */
 };
 
 struct growth_fit {
     double of[AIMS], last[AIMS];        /* exponents: over all rows, over the last two */
-    enum lap binds;                     /* section of the step that exceeds the goal for time most */
+    enum timer binds;                   /* section of the step that exceeds the goal for time most */
     double binds_exponent, binds_share; /* exponent of that section; its share of the loop at the finest spacing */
 };
 
@@ -109,10 +109,10 @@ static status growth_read(struct growth_row *r, const char *folder, double proce
     r->start = bench_summary_figure(folder, "crack.start_time");
     r->angle = bench_summary_figure(folder, "crack.angle_deg");
     share = r->seconds < SHORT ? 1 : fmin(1, processor / wall); /* short loops are repeated instead */
-    for (int k = 0; k < LAPS_SHOWN; k++) {
-        snprintf(key, sizeof key, "laps.%s", lap_name[k]);
-        TRY(summary_number(folder, key, &r->lap[k]));
-        r->lap[k] *= share;
+    for (int k = 0; k < TIMERS_SHOWN; k++) {
+        snprintf(key, sizeof key, "laps.%s", timer_name[k]);
+        TRY(summary_number(folder, key, &r->timer[k]));
+        r->timer[k] *= share;
     }
     r->seconds *= share;
     r->share = step / critical, r->known = true;
@@ -165,7 +165,7 @@ static double cost_of(const struct growth_row *r, int which)
     return which == 0 ? r->made : which == 1 ? r->bytes : r->seconds;
 }
 
-static double lap_of(const struct growth_row *r, int which) { return fmax(r->lap[which], 1e-6); }
+static double timer_of(const struct growth_row *r, int which) { return fmax(r->timer[which], 1e-6); }
 
 static int rows_of(const struct growth_row *row)
 {
@@ -184,14 +184,14 @@ static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, 
         f->of[a] = n > 1 ? exponent_of(row, 0, n, cost_of, a) : NAN;
         f->last[a] = n > 1 ? exponent_of(row, n - 2, n, cost_of, a) : NAN;
     }
-    for (int k = 0; k < LAPS_SHOWN && n > 1; k++) {
+    for (int k = 0; k < TIMERS_SHOWN && n > 1; k++) {
         const struct growth_row *coarse = &row[0], *fine = &row[n - 1];
         const double asked = isfinite(s->aim[2]) ? s->aim[2] : s->dim + 1;
-        const double beyond = fine->lap[k] - coarse->lap[k] * pow(coarse->spacing / fine->spacing, asked);
+        const double beyond = fine->timer[k] - coarse->timer[k] * pow(coarse->spacing / fine->spacing, asked);
         if (beyond <= most) continue;
-        most = beyond, f->binds = (enum lap)k;
-        f->binds_exponent = exponent_of(row, 0, n, lap_of, k);
-        f->binds_share = fine->lap[k] / fine->seconds;
+        most = beyond, f->binds = (enum timer)k;
+        f->binds_exponent = exponent_of(row, 0, n, timer_of, k);
+        f->binds_share = fine->timer[k] / fine->seconds;
     }
 }
 
@@ -204,7 +204,7 @@ static void growth_print_header(void)
            STEP_PER_MM);
     printf("  %-11s %8s %10s %10s %8s %9s %7s %8s %9s %7s |", "", "spacing", "made", "of body", "bonded", "peak MB",
            "byte/m", "of crit", "loop s", "angle");
-    for (int k = 0; k < LAPS_SHOWN; k++) printf(" %7s", lap_name[k]);
+    for (int k = 0; k < TIMERS_SHOWN; k++) printf(" %7s", timer_name[k]);
     printf("  [s]\n");
 }
 
@@ -212,7 +212,7 @@ static void growth_print_row(const struct growth_series *s, const struct growth_
 {
     printf("  %-8s %dD %5g mm %10.0f %10.0f %8.0f %9.1f %7.0f %8.3f %9.3f %7.1f |", s->name, s->dim, r->spacing,
            r->made, r->body, r->bonded, 1e-6 * r->bytes, r->bytes / r->made, r->share, r->seconds, r->angle);
-    for (int k = 0; k < LAPS_SHOWN; k++) printf(" %7.2f", r->lap[k]);
+    for (int k = 0; k < TIMERS_SHOWN; k++) printf(" %7.2f", r->timer[k]);
     putchar('\n');
     fflush(stdout);
 }
@@ -229,8 +229,8 @@ static void growth_print_fits(const struct growth_bench *b)
             printf("    %-8s %dD %-9s %5.2f  last %5.2f", series[k].name, series[k].dim, name[a], f->of[a], f->last[a]);
             if (isfinite(series[k].aim[a])) printf("  aim %.1f  %s", series[k].aim[a], missed ? "MISSED" : "met");
             if (missed && a == 2)
-                printf(": the lap `%s` stands in the way (its exponent %.2f, %.0f %% of the finest loop)",
-                       lap_name[f->binds], f->binds_exponent, 100 * f->binds_share);
+                printf(": the timer `%s` stands in the way (its exponent %.2f, %.0f %% of the finest loop)",
+                       timer_name[f->binds], f->binds_exponent, 100 * f->binds_share);
             if (missed && a < 2)
                 printf(": %s stands in the way",
                        f->of[0] > series[k].aim[0] ? "the number of particles made" : "memory beside the particles");
@@ -255,7 +255,7 @@ static status growth_write_table(const struct growth_bench *b)
                                   r->bytes,      r->seconds,        r->share, r->angle};
             bench_text(&t[0], series[k].name);
             for (size_t c = 0; c < COUNT_OF(row); c++) bench_number(&t[0], row[c]);
-            for (int c = 0; c < LAPS_SHOWN; c++) bench_number(&t[0], r->lap[c]);
+            for (int c = 0; c < TIMERS_SHOWN; c++) bench_number(&t[0], r->timer[c]);
         }
         if (rows_of(b->at[k]) < 2) continue;
         bench_text(&t[1], series[k].name), bench_number(&t[1], series[k].dim);

@@ -55,19 +55,19 @@ real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const voi
 void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                const void *context, real *sum);
 
-/* Timed sections of a step (laps of a stop watch). */
-enum lap { LAP_BONDS, LAP_SCATTER, LAP_GRID, LAP_GATHER, LAP_CONVERT, LAP_SAMPLE, LAP_OUTPUT, LAPS };
-extern const char *const lap_name[LAPS];
+/* Timed sections of a step (timers of a stop watch). */
+enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
+extern const char *const timer_name[TIMERS];
 
 /* Time spent in each section, and the time of the last booking [s]. */
-struct laps {
-    double last, spent[LAPS];
+struct timers {
+    double last, spent[TIMERS];
 };
 
 /* Starts the stop watch and clears all sections. */
-void laps_start(struct laps *l);
+void timers_start(struct timers *l);
 
 /* Books the time since the last call (or start) on section `which`. */
-void lap(struct laps *l, enum lap which);
+void timer_book(struct timers *l, enum timer which);
 
 #endif

@@ -58,7 +58,7 @@ bool grid_mirror_between(const struct grid *g, const struct scene *s);
 status grid_sort(struct run *e, bool *lost);
 
 /* Steps 1 and 3 of the algorithm (step.c): maps mass, momentum and forces of points to the nodes. */
-void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct laps *laps);
+void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers);
 
 /* Steps 3, 4, 6 and 7 of the algorithm: moves the nodes, then the points, and updates strain and stress. middle: time
  * in the middle of the step [s]. */

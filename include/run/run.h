@@ -60,7 +60,7 @@ struct run {
     /* energy dissipated so far by damping, friction on the grid, and conversion and splitting of cells [J] */
     real damped;
     struct warnings warnings; /* of the set-up and of the run */
-    struct laps laps;
+    struct timers timers;
     struct grid_method *grid;        /* material points on the grid of the current frame: grid/grid_part.h */
     struct reference_frame *frame;   /* bodies in the reference frame: mesh/mesh_part.h */
     struct rigid_set *rigid;         /* rigid/rigid_part.h */

@@ -110,7 +110,7 @@ static double all_steps(struct run *e)
     e->report->quiet = e->warnings.silent = true;
     memory_reuse(true);
     if (report_start(e) != OK) return NAN;
-    laps_start(&e->laps);
+    timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
         if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
         if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;

@@ -338,14 +338,14 @@ double team_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-const char *const lap_name[LAPS] = {
-    [LAP_BONDS] = "bonds",     [LAP_SCATTER] = "scatter", [LAP_GRID] = "grid",     [LAP_GATHER] = "gather",
-    [LAP_CONVERT] = "convert", [LAP_SAMPLE] = "sample",   [LAP_OUTPUT] = "output",
+const char *const timer_name[TIMERS] = {
+    [TIMER_BONDS] = "bonds",     [TIMER_SCATTER] = "scatter", [TIMER_GRID] = "grid",     [TIMER_GATHER] = "gather",
+    [TIMER_CONVERT] = "convert", [TIMER_SAMPLE] = "sample",   [TIMER_OUTPUT] = "output",
 };
 
-void laps_start(struct laps *l) { *l = (struct laps){.last = team_clock()}; }
+void timers_start(struct timers *l) { *l = (struct timers){.last = team_clock()}; }
 
-void lap(struct laps *l, enum lap which)
+void timer_book(struct timers *l, enum timer which)
 {
     double now = team_clock();
     l->spent[which] += now - l->last;

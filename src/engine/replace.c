@@ -57,7 +57,7 @@ static void rest_take(struct run *e, struct run *old)
 {
     nodes_take(e, old);
     e->damped = old->damped;
-    e->warnings = old->warnings, e->laps = old->laps;
+    e->warnings = old->warnings, e->timers = old->timers;
     old->warnings = (struct warnings){0};
     *e->report = *old->report;
     *old->report = (struct run_report){.out = NULL};

@@ -9,7 +9,7 @@ static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
     const struct warnings warnings = e->warnings;
-    const struct laps laps = e->laps;
+    const struct timers timers = e->timers;
     const struct scene *s = e->scene;
     struct hollow hollow = e->frame->hollow;
     memory_free(hollow.absent);
@@ -19,7 +19,7 @@ static status remake(struct run *e, uint8_t *absent)
     engine_free(e);
     const status made = engine_make_again(e, s, NULL, hollow, NULL);
     memory_free(e->report->record), memory_free(e->report);
-    e->report = report, e->warnings = warnings, e->laps = laps;
+    e->report = report, e->warnings = warnings, e->timers = timers;
     return made;
 }
 

@@ -43,7 +43,7 @@ status engine_run(struct run *e)
     if (scene_at_rest(e->scene)) return engine_solve(e);
     if (scene_in_steps(e->scene)) return engine_steps(e);
     TRY(report_start(e));
-    laps_start(&e->laps);
+    timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
         TRY(engine_step(e));
         TRY(stability_check(e));

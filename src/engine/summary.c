@@ -111,10 +111,10 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
 }
 
 /* Times of the parts of the loop in this process [s]. */
-static void put_laps(struct json *j, const struct laps *laps)
+static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');
-    for (int k = 0; k < LAPS; k++) json_number(j, lap_name[k], laps->spent[k], JSON_TIMING);
+    for (int k = 0; k < TIMERS; k++) json_number(j, timer_name[k], timers->spent[k], JSON_TIMING);
     json_close(j, '}');
 }
 
@@ -129,7 +129,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
         if ((*p)->summary) (*p)->summary(e, &j);
     if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
     put_machine(&j, e->report, e->clock.step, threads, wall_seconds);
-    put_laps(&j, &e->laps);
+    put_timers(&j, &e->timers);
     fputs("\n}\n", file);
 }
 

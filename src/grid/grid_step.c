@@ -166,20 +166,20 @@ static void grids_remap(struct run *e, const struct grid_side *side)
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
     }
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
-    lap(&e->laps, LAP_SCATTER);
+    timer_book(&e->timers, TIMER_SCATTER);
     for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
     if (side) e->damped += grid_contact_remapped(&e->grid->contact, side);
-    lap(&e->laps, LAP_GRID);
+    timer_book(&e->timers, TIMER_GRID);
 }
 
-void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct laps *laps)
+void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers)
 {
     if (!grid_holds(p)) {
         for (int k = 0; k < mpm->fields; k++) grid_idle(&mpm->field[k].grid);
         return;
     }
     grid_receive(mpm, p, kernels);
-    lap(laps, LAP_SCATTER);
+    timer_book(timers, TIMER_SCATTER);
 }
 
 void grid_step(struct run *e, real middle)
@@ -190,7 +190,7 @@ void grid_step(struct run *e, real middle)
     if (!grid_holds(&e->part)) return;
     struct grid_side *side = meeting_find(e->grid, &e->part);
     grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
-    lap(&e->laps, LAP_GRID);
+    timer_book(&e->timers, TIMER_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
     if (side) grid_contact_clock(&e->grid->contact, e->clock.t);
     for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */

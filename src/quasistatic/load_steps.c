@@ -347,7 +347,7 @@ static status check_held(struct run *e, bool *apart)
 status engine_steps(struct run *e)
 {
     TRY(report_start(e));
-    laps_start(&e->laps);
+    timers_start(&e->timers);
     if (!e->statics->node) statics_unknowns_make(e); /* a run that goes on has them */
     statics_touch_start(e);
     e->statics->opens[0] = particles_nearest(&e->part, e->scene->steps.from);
@@ -367,7 +367,7 @@ status engine_steps(struct run *e)
         sample_rest(e);
         statics_record_keep(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
-        lap(&e->laps, LAP_BONDS);
+        timer_book(&e->timers, TIMER_BONDS);
         if (e->clock.step == e->clock.steps) say_at_end(e);
         snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
                  (long long)e->statics->solutions);

@@ -130,7 +130,7 @@ static status solve_step(struct run *e, bool *done)
     const struct static_body body = static_body_of(e);
     if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
     TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
-    lap(&e->laps, LAP_BONDS);
+    timer_book(&e->timers, TIMER_BONDS);
     e->clock.step++;
     return OK;
 }
@@ -144,7 +144,7 @@ static void solve_start(struct solver *s, const struct particles *p)
 status engine_solve(struct run *e)
 {
     TRY(report_start(e));
-    laps_start(&e->laps);
+    timers_start(&e->timers);
     if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_rest(e);
     if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
     while (e->clock.step < e->clock.steps) {

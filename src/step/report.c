@@ -248,7 +248,7 @@ status report_step(struct run *e)
     r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     r->bond_visits += e->bonds.n;
     r->inactive += report_inactive_share(&e->bonds, &e->frame->mesh, &e->part);
-    lap(&e->laps, LAP_SAMPLE);
+    timer_book(&e->timers, TIMER_SAMPLE);
     /* before any checkpoint, so that a finished run has nothing left to write */
     if (last && !in_steps) sample_last(e);
     TRY(r->history_status);
@@ -267,9 +267,9 @@ status report_step(struct run *e)
                               (long long)e->clock.steps);
     }
     progress(e, false);
-    lap(&e->laps, LAP_OUTPUT);
-    r->loop_seconds = r->loop_before - e->laps.spent[LAP_OUTPUT];
-    for (int k = 0; k < LAPS; k++) r->loop_seconds += e->laps.spent[k];
+    timer_book(&e->timers, TIMER_OUTPUT);
+    r->loop_seconds = r->loop_before - e->timers.spent[TIMER_OUTPUT];
+    for (int k = 0; k < TIMERS; k++) r->loop_seconds += e->timers.spent[k];
     return OK;
 }
 

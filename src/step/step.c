@@ -40,7 +40,7 @@ static void conversion(struct run *e, struct step *now)
     const bool marked = conversion_mark(e);
     sample_breaks(e, now->broken);
     now->converted = conversion_pass(e, now->broken, marked, cracks_fade(e->fracture));
-    lap(&e->laps, LAP_CONVERT);
+    timer_book(&e->timers, TIMER_CONVERT);
 }
 
 /* Who may touch whom in this step, and how peridynamic particles move in it. */
@@ -50,7 +50,7 @@ static void motion_begin(struct run *e, struct step *now)
                    e->diagnostics->bonds_broken, e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have freed it */
-    lap(&e->laps, LAP_CONVERT);
+    timer_book(&e->timers, TIMER_CONVERT);
 }
 
 /* Points on the grid into cells. FAILED where they have left it. */
@@ -124,12 +124,12 @@ static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
     viscosity_lend(e->viscosity, &e->part, true);
-    grid_map(e->grid, &e->part, &e->kernels, &e->laps); /* 1, 3: mass, momentum, force to nodes */
+    grid_map(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
     viscosity_lend(e->viscosity, &e->part, false);
     if (e->clock.step == 0) residual_keep(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
     if (any && e->part.end_strain) partial_points_update(&e->coupling->partial, &e->part, e->scene->material);
-    if (any) lap(&e->laps, LAP_GATHER);
+    if (any) timer_book(&e->timers, TIMER_GATHER);
     if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, &e->part);
 }
 
@@ -149,7 +149,7 @@ static void step_hold(struct run *e, const struct step *now)
     for (int k = 0; k < e->grid->fields; k++) loads_react(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
     if (loads_hold(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
     loads_mirror(&e->loads, &e->part);
-    lap(&e->laps, LAP_GRID);
+    timer_book(&e->timers, TIMER_GRID);
 }
 
 /* The line of history.csv of a sample, at t_n; damping; then t and the step advance. */
@@ -163,7 +163,7 @@ static void finish(struct run *e, const struct step *now)
     if (damps) damping_end(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
-    lap(&e->laps, LAP_SAMPLE);
+    timer_book(&e->timers, TIMER_SAMPLE);
 }
 
 bool step_convert(struct run *e, int64_t broken)
@@ -203,14 +203,14 @@ status step(struct run *e)
     push_contact(e);
     rigids_book(e->rigid, now.dt_velocity, e->loads.impulse);
     loads_apply(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
-    lap(&e->laps, LAP_BONDS);
+    timer_book(&e->timers, TIMER_BONDS);
     sample_energy(e);
     now.broken += cracks_grow(e);
-    lap(&e->laps, LAP_SAMPLE);
+    timer_book(&e->timers, TIMER_SAMPLE);
 
     move_peridynamic(e, &now.motion);                                            /* 4 */
     rigids_move(e->rigid, now.middle, e->clock.dt, now.dt_velocity / now.share); /* rigid bodies are not damped */
-    lap(&e->laps, LAP_BONDS);
+    timer_book(&e->timers, TIMER_BONDS);
     move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
     move_frame(e, &now); /* 3, 4, 7 */
     step_hold(e, &now);

@@ -182,20 +182,20 @@ static void team_has_the_threads_asked_for(void **state)
     team_make(2);
 }
 
-static void laps_book_time_where_it_went(void **state)
+static void timers_book_time_where_it_went(void **state)
 {
     (void)state;
-    struct laps l;
+    struct timers l;
     double begin = team_clock();
-    laps_start(&l);
+    timers_start(&l);
     usleep(20000);
-    lap(&l, LAP_BONDS);
-    lap(&l, LAP_OUTPUT);
+    timer_book(&l, TIMER_BONDS);
+    timer_book(&l, TIMER_OUTPUT);
     double whole = team_clock() - begin;
-    assert_true(l.spent[LAP_BONDS] >= 0.02 && l.spent[LAP_BONDS] <= whole);
-    assert_true(l.spent[LAP_OUTPUT] >= 0 && l.spent[LAP_BONDS] + l.spent[LAP_OUTPUT] <= whole + 1e-9);
-    assert_exact(l.spent[LAP_GRID], 0);
-    for (int k = 0; k < LAPS; k++) assert_true(strlen(lap_name[k]) > 0);
+    assert_true(l.spent[TIMER_BONDS] >= 0.02 && l.spent[TIMER_BONDS] <= whole);
+    assert_true(l.spent[TIMER_OUTPUT] >= 0 && l.spent[TIMER_BONDS] + l.spent[TIMER_OUTPUT] <= whole + 1e-9);
+    assert_exact(l.spent[TIMER_GRID], 0);
+    for (int k = 0; k < TIMERS; k++) assert_true(strlen(timer_name[k]) > 0);
 }
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
@@ -448,7 +448,7 @@ int main(void)
         cmocka_unit_test(out_of_memory_says_so),
         cmocka_unit_test(sums_do_not_depend_on_threads),
         cmocka_unit_test(team_has_the_threads_asked_for),
-        cmocka_unit_test(laps_book_time_where_it_went),
+        cmocka_unit_test(timers_book_time_where_it_went),
         cmocka_unit_test(solids_are_closed_and_grow),
         cmocka_unit_test(regions_build_in_order),
         cmocka_unit_test(bounds_hold_the_added_solids),
