@@ -4,30 +4,31 @@
 #include "kernels/kernels.h"
 #include "loads/loads.h"
 
-/* Velocities before a step moves them, of particles and of nodes, where damping acts; from step to step it has no
- * state. */
+/* Velocities of particles [0] and of nodes of the reference frame [1] before the kick of the current step [n, m/s].
+ * They are set in every step, so that checkpoints do not contain them. */
 struct damping_state {
     real *before[2][DIM_MAX];
 };
 
-/* Returns the share of a kick that is left at its end, exp(-c dt/2); 1 without damping [1]. decay: c dt of a step. */
+/* Returns the factor exp(-c dt/2) that damping applies to the kick of a step; 1 without damping [1]. decay: c dt of
+ * a step. */
 real damping_share(real decay);
 
-/* Slows all velocities by half a step, before the first kick; returns the kinetic energy that is lost [J]. */
+/* Multiplies all velocities by exp(-c dt/2), before the first kick; returns the kinetic energy that is lost [J]. */
 real damping_start(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
 
-/* Keeps all velocities, before a step moves anything. */
+/* Stores all velocities before the kick of a step. */
 void damping_keep(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
-/* Returns the energy lost since the previous step [J], by the velocities kept in this one. After the first step only.
- */
+/* Returns the energy lost since the previous step [J], from the velocities stored in this step. Valid from the
+ * second step on. */
 real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
-/* Slows all velocities by a whole step, for the next one. */
+/* Multiplies all velocities by exp(-c dt) at the end of a step. */
 void damping_end(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
 
-/* Returns the energy lost in the kick after the last step [J], by the kinetic energy before the kick and the one across
- * the kick, 1/2 m v- . v+ [J]. */
+/* Returns the energy lost in the kick after the last step [J]. kinetic_before: kinetic energy before the kick;
+ * kinetic: 1/2 m v- . v+ with the velocities before and after the kick [J]. */
 real damping_last(real decay, real kinetic_before, real kinetic);
 
 #endif

@@ -1,4 +1,4 @@
-/* What a run leaves and says, and when. */
+/* Reports of a run: frames, checkpoints, history, warnings and the progress line, and when each is due. */
 #ifndef CLEAVE_REPORT
 #define CLEAVE_REPORT
 
@@ -7,79 +7,99 @@
 #include "output/output.h"
 #include "run/run.h"
 
-/* A sample that is being taken: it describes t_n, and its parts are taken between the phases of the step from t_n
- * (sample.h). */
+/* A sample in progress. It describes the body at t_n; its quantities are computed between the phases of the step
+ * from t_n (sample.h). */
 struct sampling {
-    bool due;
-    real kinetic, work, constraint_work, absorbed; /* [J] before the step */
-    real *before[DIM_MAX];                         /* velocities at its begin, where something is on the grid [m/s] */
-    struct energy energy;                          /* of the positions of t_n; kinetic comes last */
-    real rigid, rigid_work;                        /* of rigid bodies: kinetic at the begin; work up to t_n [J] */
-    int64_t pd, bonds;                             /* peridynamic particles and directed bonds at t_n */
-    real t_velocity, momentum[DIM_MAX]; /* time of the velocities before the step [s]; momentum then [kg m/s] */
+    bool due;                                      /* a sample is taken in this step */
+    real kinetic, work, constraint_work, absorbed; /* at the start of the step [J] */
+    real *before[DIM_MAX];  /* [n] velocities at the start of the step; only stored if points are on the grid [m/s] */
+    struct energy energy;   /* at the positions of t_n; the kinetic energy is set last */
+    real rigid;             /* kinetic energy of rigid bodies at the start of the step [J] */
+    real rigid_work;        /* work of rigid bodies up to t_n [J] */
+    int64_t pd, bonds;      /* numbers of peridynamic particles and of directed bonds at t_n */
+    real t_velocity;        /* time of the velocities at the start of the step [s] */
+    real momentum[DIM_MAX]; /* at the start of the step [kg m/s] */
 };
 
-/* Half-width of the 95 % interval of a figure of the summary, from a study of convergence (study/uncertainty.h). */
+/* Half-width of the 95 % interval of a figure of the summary, from a convergence study (study/uncertainty.h). */
 struct error_bar {
     char figure[NAME_MAX_LENGTH];
     double half_width;
 };
 enum { ERROR_BARS_MOST = 128 };
 
-/* What a run leaves and says, and when. */
+/* State of the reports of a run. */
 struct run_report {
-    struct output *out; /* borrowed; NULL: a run without files (tests, benches) */
+    struct output *out; /* kept by reference; NULL for a run without files (tests, benches) */
     struct sampling sampling;
-    real *record;                  /* one line of history.csv */
-    status history_status;         /* of the last line written */
-    int64_t particle_steps[KINDS]; /* updates done, by kind */
-    int64_t bond_visits;
-    real inactive; /* inactive share of the body, summed over the steps ... */
+    real *record;                  /* values of one line of history.csv */
+    status history_status;         /* result of writing the last line of history.csv */
+    int64_t particle_steps[KINDS]; /* particle updates so far, by kind */
+    int64_t bond_visits;           /* directed bonds times steps so far */
+    real inactive;                 /* share of the body at rest, summed over all steps [1] */
     struct {
         real inactive;
         int64_t step;
-    } sampled;                        /* ... and over those before the last sample */
-    double loop_seconds, loop_before; /* in the loop, without output; by processes before a restart [s] */
-    double began, started, last_progress, last_checkpoint; /* wall clock: made, first step of this process, ... [s] */
-    double checkpoint_seconds;                             /* of the longest checkpoint so far */
-    int64_t step_started;                                  /* first step of this process */
-    bool yield_said;                                       /* bonds have yielded, and it was said how they do */
-    bool excerpt; /* the first steps of a run, for the export: no word on its balance */
-    bool quiet;
-    char note[96];               /* of load steps, for the progress line */
-    const struct error_bar *bar; /* borrowed, for the summary; NULL: no study is at hand */
+    } sampled;                             /* inactive and step at the last sample */
+    double loop_seconds;                   /* time in the loop without output [s] */
+    double loop_before;                    /* loop_seconds of processes before a restart [s] */
+    double began, started;                 /* wall-clock times of the start of the process, and of its first step [s] */
+    double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
+    double checkpoint_seconds;             /* longest time that a checkpoint took [s] */
+    int64_t step_started;                  /* number of the first step of this process */
+    bool yield_said;                       /* the warning that bonds yield has been printed */
+    bool excerpt;                /* only the first steps run, for the export: the energy balance is not judged */
+    bool quiet;                  /* no progress line */
+    char note[96];               /* text for the progress line of load steps */
+    const struct error_bar *bar; /* [bars] half-widths for the summary, kept by reference; NULL without a study */
     int bars;
-    const volatile sig_atomic_t *stop; /* set by a signal: checkpoint and leave; NULL: never */
+    const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };
 
-/* Returns how many frames of the body follow the one of t = 0. */
+/* Returns the number of frames of the body after the frame at t = 0. */
 int64_t report_frames(const struct scene *s, const struct run_clock *clock);
 
-/* Returns the step after which frame k of the body is written, k = 0 at t = 0. */
+/* Returns the step after which frame k of the body is written; frame 0 is at t = 0. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k);
 
-/* Returns bits of the series, 0 the body's, of which a frame is due once `step` steps are done; 0 without files (out
- * NULL). With solvers that are not explicit, frames are due at the start and at the end. */
+/* Returns the set of series of frames that are due after `step` steps, as bits: bit 0 is the body, bit k region k.
+ * Returns 0 if out is NULL (a run without files). Solvers other than `explicit` have frames at the start and the
+ * end. */
 unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                            int64_t step);
 
-/* Is the step to come one of those that samples are spread over? */
+/* Returns true if a sample is taken in the next step. Samples are spread evenly over the run. */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
-/* Before the first step of this process: history file, frame 0, first checkpoint; a restart has the last two already.
- */
+
+/* Starts the reports before the first step of this process: opens history.csv and writes frame 0 and the first
+ * checkpoint, unless the run is resumed. FAILED if a file cannot be written. */
 status report_start(struct run *e);
-/* After every step: frame, checkpoint and progress line if due; INTERRUPTED after a checkpoint if a signal came. */
+
+/* Completes a step: writes the frames, the checkpoint and the progress line that are due, and the last sample after
+ * the last step. FAILED if a file cannot be written or the energies are wrong (energy_check); INTERRUPTED, after a
+ * checkpoint, if a signal or time.wall stops the run. */
 status report_step(struct run *e);
-/* After the last step. */
+
+/* Ends the reports after the last step: waits for the frames and writes the last checkpoint. FAILED if a file cannot
+ * be written. */
 status report_end(struct run *e);
-/* Returns the share of all particles that are at rest now (data/active_set.h) [1]. */
+
+/* Returns the share of all particles that are at rest, so that steps skip them (data/active_set.h) [1]. */
 real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
-/* Warnings at the end: of energy and angular momentum that were not kept; of bonds that have yielded. */
+
+/* Warns at the end of a run if energy or angular momentum is not conserved, or if bonds broke in a shock too sharp
+ * for the spacing. */
 void say_balance(struct run *e);
+
+/* Warns once, as soon as a bond has yielded, how bonds that yield differ from von Mises' law. */
 void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
-/* What a frame is asked for that particles do not keep: made once all particles are up to date and extra->more is
- * known; freed when the frame has been begun. */
+
+/* Computes the fields in `asked` (bits ASK_...) that particles do not store, and adds them to a frame. Call it once
+ * all particles are synchronised and extra->more is set; release the fields with fields_free when the frame has been
+ * begun. */
 void fields_make(struct run *e, unsigned asked, struct frame_extra *extra);
+
+/* Frees the fields that fields_make has added to a frame. */
 void fields_free(struct frame_extra *extra);
 
 #endif

@@ -4,13 +4,13 @@
 #include "base/rise.h"
 #include "run/run.h"
 
-/* What stability checks compare (stability.c). */
+/* State of the stability checks (stability.c). */
 struct stability {
-    struct rise speed, excess; /* of the largest speed^2 [m^2/s^2]; of energy from nowhere [J] */
-    real start_speed;          /* largest at t = 0 [m/s] */
-    bool diverged;             /* a peridynamic particle moves faster than waves */
-    bool lost;                 /* an energy of the last sample is no finite number */
-    bool stretched;            /* the run has said that points are stretched past the reach of the law */
+    struct rise speed, excess; /* records of the largest squared speed [m^2/s^2], and of energy without a source [J] */
+    real start_speed;          /* largest speed of particles at t = 0 [m/s] */
+    bool diverged;             /* a peridynamic particle is faster than the fastest wave */
+    bool lost;                 /* an energy of the last sample is not finite */
+    bool stretched;            /* the warning that points on the grid are stretched too far has been printed */
 };
 
 #endif

@@ -1,25 +1,31 @@
-/* Room `step`: one step in time, its samples, reports, checks of stability. It knows every part but load steps; those
- * and the engine call it. */
+/* Room `step`: one time step, samples, reports and stability checks. It calls all parts of a run except load steps;
+ * load steps and the engine call it. */
 #ifndef CLEAVE_STEP
 #define CLEAVE_STEP
 
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* One step in time. FAILED where material points have left every grid. */
+/* Makes one time step. FAILED if material points have left the background grid and diverged. */
 status step(struct run *e);
-/* Conversion between load steps, a step without motion, after so many directed bonds have broken; true if particles
- * have converted. */
+
+/* Converts material points to peridynamic particles between load steps, without motion. broken: directed bonds
+ * broken since the last call. Returns true if points have converted. */
 bool step_convert(struct run *e, int64_t broken);
-/* Internal forces at the present positions, those of the nodes of a mesh first of all: of bonds into part.f, of bonds
- * and cells into the mesh's nodes. Points of the mesh to which bonds reach, and images, are brought up to date. The
- * same parts as in a step, without any motion; bonds beyond their limit break. */
+
+/* Computes the internal forces at the present positions, without motion: of bonds into part.f, of bonds and cells
+ * into the forces of mesh nodes. Points of the mesh to which bonds reach, and mirror images, are synchronised first.
+ * Bonds beyond their limit break. */
 void run_forces(struct run *e);
-/* Positions, velocities and stresses of all particles, up to date for a frame. */
+
+/* Synchronises positions, velocities and stresses of all particles, as frames need them. */
 void run_sync(struct run *e);
-/* The time step and the number of steps. REFUSED for a step that coarse cells do not bear. */
+
+/* Chooses the time step and the number of steps. REFUSED if time.step is too long for coarse cells, or the run would
+ * have more than 1e12 steps. */
 status time_step_make(struct run *e);
-/* What probes may look at, read only. */
+
+/* Returns the read-only view of a run that probes measure; all pointers borrow from the run. */
 struct observed run_observed(const struct run *e);
 
 #endif

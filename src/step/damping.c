@@ -1,15 +1,15 @@
-/* Bulk damping: the force -c m v on every particle and node, mass-proportional as the first part of Rayleigh's damping.
+/* Bulk damping: the force -c m v on every particle and node, the mass-proportional part of Rayleigh damping.
  *
- * Between two steps all velocities shrink by D = exp(-c dt), half of it before the kick of the forces and half behind
- * it, so that motion is of second order in c dt: v+ = D v + s dt f/m, s = exp(-c dt/2), v the velocity of the step
- * before. Under a constant force it tends to f/(c m) (c dt/2)/sinh(c dt/2). However large c dt is, that only takes
- * energy: the product of the two roots of the difference equation of an oscillator is D, so that its amplitude shrinks
- * by s a step to the last digit.
+ * From one step to the next all velocities are multiplied by D = exp(-c dt), half of it before the kick by the forces
+ * and half after it, which is second-order accurate in c dt: v+ = D v + s dt f/m with s = exp(-c dt/2), v the velocity
+ * before the step. Under a constant force v tends to f/(c m) (c dt/2)/sinh(c dt/2). The scheme dissipates energy for
+ * any c dt: the product of the two roots of an oscillator's difference equation is D, so that the amplitude decreases
+ * by the factor s in each step, up to round-off.
  *
- * In the code kicks have the length s dt, and velocities are slowed by D behind a step, by s before the first. The loss
- * follows from the energy that leap-frog keeps, E = 1/2 m v- . v+/s + U, v- and v+ before and after a kick. With the v+
- * of one step, the v- = D v+ of the next and its w+, the same forces that do the work give E' - E = -1/2 m (1 - D)/s v+
- * . (v+ + w+). */
+ * In the code kicks have the length s dt, and velocities are multiplied by D at the end of a step, by s before the
+ * first kick. The loss follows from the energy that leap-frog conserves, E = 1/2 m v- . v+/s + U, with v- and v+
+ * before and after a kick. With v+ of one step, v- = D v+ and w+ of the next, the forces that do the work give E' -
+ * E = -1/2 m (1 - D)/s v+ . (v+ + w+). */
 #include <math.h>
 #include <string.h>
 
@@ -18,21 +18,21 @@
 #include "mesh/mesh_part.h"
 #include "step/damping.h"
 
-#define EXPONENT_MOST 50.0 /* of what is then no more */
+#define EXPONENT_MOST 50.0 /* largest c dt: beyond it, exp(-c dt) is round-off */
 
-/* What has mass and velocity; flag NULL: nodes. */
+/* Particles, or nodes of a mesh (flag is NULL), whose velocities are damped. */
 struct damped {
     int64_t n;
     int dim;
-    real factor; /* D */
+    real factor; /* of the velocities [1] */
     const real *mass;
-    real *const *v, *const *before; /* before: v- of this step */
+    real *const *v, *const *before; /* before: v- of the current step */
     const uint8_t *flag;
 };
 
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
-/* The loss of those from first to end - 1 since the step before [J]. */
+/* Adds the energy that entries first .. end - 1 have lost since the previous step to sum[0] [J]. */
 static void loss_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -44,7 +44,8 @@ static void loss_block(const void *context, int64_t first, int64_t end, real *su
         }
 }
 
-/* Slows them; sums are the momentum by component that they lose [N s], and their kinetic energy before [J]. */
+/* Multiplies the velocities of entries first .. end - 1 by the factor. Adds the momentum that they lose to sum[0 ..
+ * dim - 1] [N s], and their kinetic energy before to sum[DIM_MAX] [J]. */
 static void slow_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct damped *a = context;
@@ -63,8 +64,8 @@ static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
 real damping_share(real decay) { return exp(-0.5 * capped(decay)); }
 
-/* Lists particles and the nodes of a mesh, with the factor of their velocities; returns how many of the two there are.
- */
+/* Fills all[0] with the particles and all[1] with the nodes of the mesh; returns 2, or 1 if the mesh has no points.
+ * factor: of their velocities [1]. */
 static int damped_find(const struct particles *p, const struct mesh *mesh, real factor, struct damped all[2])
 {
     all[0] = (struct damped){.n = p->n, p->dim, factor, p->mass, p->v, .flag = p->flag};
@@ -72,8 +73,8 @@ static int damped_find(const struct particles *p, const struct mesh *mesh, real 
     return mesh->points > 0 ? 2 : 1;
 }
 
-/* Multiplies all velocities by the factor; subtracts the momentum that they lose from the impulse of loads. Returns the
- * kinetic energy before [J]. */
+/* Multiplies all velocities by the factor, and subtracts the lost momentum from the impulse of the loads. Returns
+ * the kinetic energy before [J]. */
 static real slow_all(struct particles *p, const struct mesh *mesh, struct loads *l, real factor)
 {
     struct damped all[2];

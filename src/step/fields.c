@@ -1,19 +1,22 @@
-/* What frames show that particles do not keep, worked out where a run asks for it: displacement gradients, plastic
- * work, levels of cells. */
+/* Fields of frames that particles do not store: displacement gradients, plastic work and strain, levels of cells. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-#define NEAR_REACH 1.5   /* neighbours of material points: those of a lattice with diagonals [spacings] */
-#define SHAPE_LEAST 1e-6 /* determinant of neighbours that span space, over that of a ball */
+#define NEAR_REACH                                                                                                     \
+    1.5 /* radius of neighbours of a material point: the nearest lattice neighbours, diagonal ones included [spacings] \
+         */
+#define SHAPE_LEAST                                                                                                    \
+    1e-6 /* least determinant of K over (tr K/3)^3, which is 1 if neighbours are isotropic: below it they do not span  \
+            the space */
 
 /* ---- displacement gradients -------------------------------------------------------------------------------------- */
 
-/* Sums over the neighbours of a particle: K = sum xi xi and M = sum u xi, xi and u their reference place and
- * displacement against its own. H = M K^-1 fits u = H xi by least squares; it is the shape tensor and the deformation
- * gradient of Silling et al. 2007, without weights, less 1. */
+/* Sums over the neighbours of a particle: K = sum xi xi^T and M = sum u xi^T, with the reference vector xi and the
+ * relative displacement u of a neighbour. H = M K^-1 is the least-squares fit of u = H xi; K and I + H are the shape
+ * tensor and the deformation gradient of Silling et al. 2007 with unit weights. */
 struct gradient_sum {
     real K[3][3], M[3][3];
 };
@@ -29,13 +32,13 @@ static void gradient_add(struct gradient_sum *s, const struct particles *p, int6
         for (int b = 0; b < p->dim; b++) s->K[a][b] += xi[a] * xi[b], s->M[a][b] += u[a] * xi[b];
 }
 
-/* H of particle i; 0 where its neighbours do not span the space. */
+/* Stores the displacement gradient H of particle i; 0 if its neighbours do not span the space. */
 static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const *H)
 {
     real mean = 0, C[3][3];
     for (int d = 0; d < dim; d++) mean += s->K[d][d] / dim;
     for (int d = dim; d < 3; d++) s->K[d][d] = mean;
-    for (int a = 0; a < 3; a++) /* the symmetric K's cofactors */
+    for (int a = 0; a < 3; a++) /* cofactors of the symmetric K */
         for (int b = 0; b < 3; b++) {
             const int c = (a + 1) % 3, d = (a + 2) % 3, e = (b + 1) % 3, f = (b + 2) % 3;
             C[a][b] = s->K[c][e] * s->K[d][f] - s->K[c][f] * s->K[d][e];
@@ -50,7 +53,7 @@ static void gradient_fit(struct gradient_sum *s, int dim, int64_t i, real *const
         }
 }
 
-/* Of a peridynamic particle: over its intact bonds. */
+/* Computes the displacement gradient of a peridynamic particle from its intact bonds. */
 static void gradient_of_bonds(const struct bonds *bonds, const struct particles *part, int64_t i, real *const *H)
 {
     struct gradient_sum sum = {{{0}}, {{0}}};
@@ -59,8 +62,8 @@ static void gradient_of_bonds(const struct bonds *bonds, const struct particles 
     gradient_fit(&sum, part->dim, i, H);
 }
 
-/* Of a material point on the grid: over the near points of its body on its side of pre-cracks, but peridynamic ones
- * with broken bonds, behind which a crack may pass. */
+/* Computes the displacement gradient of a material point on the grid from near points of its body on its side of
+ * pre-cracks. Peridynamic neighbours with broken bonds are left out: a crack may separate them. */
 static void gradient_of_points(const struct particles *p, const struct bond_source *source, const struct near *near,
                                int64_t i, real *const *H)
 {
@@ -76,7 +79,7 @@ static void gradient_of_points(const struct particles *p, const struct bond_sour
     gradient_fit(&sum, p->dim, i, H);
 }
 
-/* Is a particle a point of the mesh of the reference frame? */
+/* Returns true if particle i is a point of the mesh of the reference frame. */
 static bool in_mesh(const struct reference_frame *frame, int64_t i)
 {
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
@@ -104,8 +107,9 @@ static void gradients_make(const struct run *e, real **H)
 
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
-/* Of material points sigma_y a + H a^2/2 of the equivalent plastic strain a; of peridynamic particles half that of
- * their bonds. */
+/* Returns the plastic work per volume [n, J/m^3], NULL if nothing yields: sigma_y a + H a^2/2 of material points,
+ * with the equivalent plastic strain a and the hardening modulus H; the work of its bonds over the volume of a
+ * peridynamic particle. The caller frees it. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b, const struct material *material)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
@@ -123,8 +127,8 @@ static real *plastic_work_make(const struct particles *p, const struct bonds *b,
     return work;
 }
 
-/* The equivalent plastic strain: of points their own, of peridynamic particles the mean plastic path of their bonds.
- * NULL: no bond yields. */
+/* Returns the equivalent plastic strain [n]: that of material points, and the mean plastic path of the bonds of
+ * peridynamic particles. Returns NULL if no bond yields. The caller frees it. */
 static real *plastic_strain_make(const struct particles *p, const struct bonds *bonds)
 {
     if (!bonds->plastic_path) return NULL;
@@ -147,7 +151,7 @@ static uint8_t *cell_levels_make(const struct reference_frame *frame, const stru
     return level;
 }
 
-/* Of points of coarse cells: their spacing doubles from level to level. */
+/* Returns the levels of points of coarse cells: the spacing doubles from level to level. The caller frees it. */
 static uint8_t *point_levels_make(const struct reference_frame *frame, const struct scene *scene)
 {
     uint8_t *level = NEW("report.level", frame->shown.part.n, uint8_t);

@@ -1,4 +1,4 @@
-/* Internal forces without any motion. */
+/* Internal forces at fixed positions. */
 
 #include "mesh/mesh_part.h"
 

@@ -1,4 +1,4 @@
-/* What probes may look at. */
+/* The read-only view of a run that probes measure. */
 #include "fracture/fracture_part.h"
 #include "grid/grid_part.h"
 #include "coupling/coupling_part.h"

@@ -1,4 +1,4 @@
-/* Schedule, frames, checkpoints and the progress line of a run. */
+/* Reports of a run: schedule, frames, checkpoints and the progress line. */
 #include "step/report.h"
 
 #include <math.h>
@@ -19,19 +19,19 @@
 #include "step/sample.h"
 #include "step/checks.h"
 
-#define PROGRESS_SECONDS 0.5       /* between progress lines on a terminal */
-#define PROGRESS_SECONDS_FILE 60.0 /* and in files                         */
+#define PROGRESS_SECONDS 0.5       /* between progress lines on a terminal [s] */
+#define PROGRESS_SECONDS_FILE 60.0 /* between progress lines in a file [s] */
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
-/* The nearest step at which all levels of cells are at one time. */
+/* Returns the nearest step after which all levels of coarse cells are at the same time. */
 static int64_t common_step(const struct run_clock *clock, int64_t step)
 {
     return (step + clock->stride / 2) / clock->stride * clock->stride;
 }
 
-/* Returns the step of event k of n evenly spread over the run: k steps / n, rounded, without the product k steps, which
- * has no room in 64 bits where a run has very many steps. */
+/* Returns the step of event k of n events spread evenly over the run: k steps / n, rounded. The product k steps is
+ * avoided: it can exceed 64 bits. */
 static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
 {
     if (n <= 0) return clock->steps;
@@ -44,8 +44,8 @@ int64_t report_frames(const struct scene *s, const struct run_clock *clock)
     return s->frames < most ? s->frames : most;
 }
 
-/* The step nearest to the time of the frame, or evenly spread. A step writes one frame at the most, so frames closer
- * than a step are moved apart and keep their number. */
+/* Takes the step nearest to the time of the frame, or spreads frames evenly. A step writes at most one frame of the
+ * body: frames closer together than a step are moved apart and keep their number. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -59,14 +59,14 @@ int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, 
 bool report_sample_due(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride, n = s->samples < most ? s->samples : most;
-    if (!scene_moves(s)) return clock->step == 0; /* and the equilibrium, at the end */
+    if (!scene_moves(s)) return clock->step == 0; /* the start; the equilibrium is a sample of its own */
     return due_step(clock, (clock->step * n + clock->steps / 2) / clock->steps, n) == clock->step;
 }
 
 /* ---- frames and checkpoints -------------------------------------------------------------------------------------- */
 
-/* FAILED if a frame would hold a number that is not finite. The stability check covers positions and speeds of every
- * step, the energy check the energies of samples; this check covers stresses and the rest of a frame. */
+/* Returns FAILED if stress, position or velocity of a particle is not finite. The stability check covers positions and
+ * speeds in every step and the energy check samples; this check covers the stresses, which only frames show. */
 static status frame_sound(const struct run_clock *clock, const struct particles *p)
 {
     int64_t first = p->n;
@@ -85,14 +85,15 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
-/* Is frame number `frames` of the body due once `step` steps are done? */
+/* Returns true if frame number `frames` of the body is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
     return frames <= report_frames(s, clock) && step >= report_frame_step(s, clock, frames);
 }
 
-/* Is frame number `frames` of a region due? Where its time passes more than once in a step, a step writes one; the last
- * one is that of the end. every, duration: of its frames, of the run [s]. */
+/* Returns true if frame number `frames` of a region is due after `step` steps. If several frames are due in one
+ * step, one is written; the last frame is at the end of the run. every: time between frames [s]; duration: of the
+ * run [s]. */
 static bool region_frame_due(const struct run_clock *clock, real every, real duration, int frames, int64_t step)
 {
     if (frames > (int64_t)ceil(duration / every * (1 - 1e-12))) return false;
@@ -112,13 +113,13 @@ unsigned report_frames_due(const struct output *out, const struct scene *s, cons
     return due;
 }
 
-/* Fields that the frames of series k are asked for. */
+/* Returns the fields that the scene requests for frames of series k (bits ASK_...). */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
 }
 
-/* A frame of each series that is due. Before the first step nothing has been pushed. */
+/* Writes a frame of each series that is due (bits of report_frames_due). Frames at t = 0 have no contact forces. */
 static status write_frames(struct run *e, unsigned due)
 {
     const bool parts = e->scene->method == METHOD_PD && scene_cracks(e->scene);
@@ -126,7 +127,7 @@ static status write_frames(struct run *e, unsigned due)
     struct fragments fragments = {0};
     unsigned asked = 0;
     status s = OK;
-    if (e->frame->shown.part.n > 0) TRY(output_wait(out)); /* which still reads them */
+    if (e->frame->shown.part.n > 0) TRY(output_wait(out)); /* the writer may still read the points */
     run_sync(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
@@ -158,13 +159,13 @@ static status write_checkpoint(struct run *e)
     return OK;
 }
 
-/* True if the wall time left is at most twice that of the longest checkpoint so far. */
+/* Returns true if the wall time left is less than twice the time of the longest checkpoint. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
     return team_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Warns of frames and profiles that a resumed run had written and that are lost. */
+/* Warns of frames and profiles of a resumed run that are missing. FAILED if the frames cannot be read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[PATH_NAME_ROOM + 200];
@@ -181,7 +182,7 @@ status report_start(struct run *e)
     r->started = r->last_progress = r->last_checkpoint = team_clock();
     r->step_started = e->clock.step;
     r->loop_before = r->loop_seconds;
-    /* the first checkpoint, of step 0, already counts the first frame */
+    /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
     TRY(sample_start(e, resumed));
     if (!r->out) return OK;
@@ -189,7 +190,7 @@ status report_start(struct run *e)
     if (resumed) return say_lost(r->out, &e->probing->probes, &e->warnings);
     profiles_remove(&e->probing->probes, r->out);
     TRY(write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) |
-                            1)); /* the body's, also where it is the only one */
+                            1)); /* frame 0 of the body is always written */
     return write_checkpoint(e);
 }
 
@@ -205,7 +206,7 @@ static void duration_text(char *text, size_t size, double seconds)
         snprintf(text, size, "%.1f h", seconds / 3600);
 }
 
-/* Prints the progress line if it is due; `last`: after the last step. */
+/* Prints the progress line if it is due. last: after the last step. */
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
@@ -249,7 +250,7 @@ status report_step(struct run *e)
     r->bond_visits += e->bonds.n;
     r->inactive += report_inactive_share(&e->bonds, &e->frame->mesh, &e->part);
     timer_book(&e->timers, TIMER_SAMPLE);
-    /* before any checkpoint, so that a finished run has nothing left to write */
+    /* before the checkpoint, so that a finished run is complete */
     if (last && !in_steps) sample_last(e);
     TRY(r->history_status);
     TRY(energy_check(e));

@@ -1,5 +1,5 @@
-/* Samples: the lines of history.csv. The energies of t_n lie between the forces and the motion of a step, the kinetic
- * energy between the velocities before and after it, so that a sample is taken in three parts. */
+/* Samples: the lines of history.csv. The energies of t_n are known between the forces and the motion of a step, and
+ * velocities half a step before and after t_n; a sample is therefore taken in three parts (sample.h). */
 #include <math.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@
 
 enum { RECORD_FIXED = 25 };
 
-/* Columns that every run has; those between are rows of the ledger. */
+/* Columns of all runs; the columns left out here are energies (run/ledger.h). */
 static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"step", ""},
                                                           [7] = {"balance_error", ""},
@@ -45,7 +45,8 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           [20] = {"mpm_share", ""},
                                                           {"rest_share", ""}};
 
-/* Mean inactive share of the body over the steps since the last sample; 0 where there was none. */
+/* Returns the mean share of the body at rest over the steps since the last sample [1]; 0 if there was no step.
+ * Starts the next mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
     const int64_t steps = clock->step - report->sampled.step;
@@ -54,14 +55,15 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
     return share;
 }
 
-/* Does nothing outside the deforming bodies act on them, and have all of them particles or nodes of one mesh? */
+/* Returns true if angular momentum must be conserved: no boundary, rigid body or damping acts on the bodies. False
+ * also with coarse cells, whose nodes diagnostics_spin does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
            frame->levels.n == 0;
 }
 
-/* Columns of the angular momentum of free bodies, NULL: only counted. Returns how many. */
+/* Writes the columns of the angular momentum of free bodies if column is not NULL. Returns their number. */
 static int spin_columns(const struct scene *s, const struct reference_frame *frame, struct column *column)
 {
     static const char *const name[] = {"angular_momentum_x", "angular_momentum_y", "angular_momentum_z"};
@@ -71,7 +73,7 @@ static int spin_columns(const struct scene *s, const struct reference_frame *fra
     return n;
 }
 
-/* Fills one line of history.csv, the record [RECORD_FIXED + columns of probes]. */
+/* Fills the record, one line of history.csv, with the sample that is complete. */
 static void fill_record(struct run *e)
 {
     const struct energy_balance *l = &e->diagnostics->now;
@@ -109,7 +111,8 @@ static void fill_record(struct run *e)
     for (int c = 0; c < spin_columns(e->scene, e->frame, NULL); c++) r[c] = l->spin[e->part.dim == 2 ? 2 : c];
 }
 
-/* Columns of probes, of the parts of the run, and of the angular momentum, NULL: only counted. Returns how many. */
+/* Writes the columns of probes, of the parts of a run and of the angular momentum if column is not NULL. Returns
+ * their number. */
 static int own_columns(const struct run *e, struct column *column)
 {
     const struct probes *probes = &e->probing->probes;
@@ -141,7 +144,7 @@ status sample_start(struct run *e, bool resume)
 
 /* ---- samples ----------------------------------------------------------------------------------------------------- */
 
-/* True if a probe uses stresses of peridynamic particles, which are computed only then. */
+/* Returns true if a probe reads stresses of peridynamic particles, which are computed on demand. */
 static bool wants_stress(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++) {
@@ -158,8 +161,8 @@ void run_sync(struct run *e)
     run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
-/* True if a probe reads the motion of particles, for which points of a mesh are updated; damage and bonds are always up
- * to date. */
+/* Returns true if a probe reads the motion of particles, so that points of a mesh are synchronised. Damage and bonds
+ * are always current. */
 static bool wants_motion(const struct scene *s)
 {
     bool motion = false;
@@ -175,7 +178,7 @@ static real kinetic_now(const struct particles *p, const struct reference_frame 
     return diagnostics_kinetic(p) + frame_kinetic(reference);
 }
 
-/* Meshes of the reference frame and of its coarse cells, whose nodes have momentum; returns their number. */
+/* Lists the grids of the reference frame and of its coarse cells, whose nodes carry momentum; returns their number. */
 static int meshes(const struct reference_frame *frame, const struct grid *nodes[LEVELS_MAX + 1])
 {
     const struct mesh_levels *levels = &frame->levels;
@@ -184,7 +187,7 @@ static int meshes(const struct reference_frame *frame, const struct grid *nodes[
     return 1 + levels->n;
 }
 
-/* Momentum of all bodies at present [dim, kg m/s]. */
+/* Computes the present momentum of all bodies [dim, kg m/s]. */
 static void momentum_now(const struct particles *p, const struct reference_frame *frame, real *momentum)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -192,15 +195,15 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     diagnostics_momentum_of(p, nodes, grids, momentum);
 }
 
-/* Momentum of a sample at time t [s], linear between those of the velocities before and after the step; it has that
- * after the step at first [dim, kg m/s]. */
+/* Interpolates the momentum of a sample linearly to its time t [s]. momentum: after the step on entry, at t on
+ * return [dim, kg m/s]. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
     for (int d = 0; d < dim; d++) momentum[d] = now->scale * ((1 - share) * s->momentum[d] + share * momentum[d]);
 }
 
-/* Samples all quantities but energies: stress, momentum, tips, probes. */
+/* Samples stress, momentum, tips and probes: all quantities except energies. */
 static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
@@ -222,7 +225,7 @@ real sample_strain(struct run *e)
            diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + frame_strain(e->frame, &e->part);
 }
 
-/* Energies of a sample at the current positions, but the kinetic energy [J]. */
+/* Computes the energies of a sample at the present positions, except the kinetic energy [J]. */
 static void sample_energies(struct run *e)
 {
     const struct material *m = e->scene->material;
@@ -238,7 +241,8 @@ static void sample_energies(struct run *e)
     };
 }
 
-/* Completes a sample and writes its line. now: of the present velocities; kinetic, work [J]. */
+/* Completes a sample and writes its line of history.csv. now: time of the present velocities; kinetic, work: of the
+ * sample [J]. */
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
@@ -251,14 +255,15 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     }
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
-    if (e->stability->lost) return; /* energy_check reports it; nothing is written */
+    if (e->stability->lost) return; /* no line is written; energy_check reports the failure */
     diagnostics_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
         e->report->history_status = output_history(e->report->out, e->report->record);
 }
 
-/* Keeps the velocities before a step: forces on the grid appear at points only as a change of their velocity. */
+/* Stores the velocities at the start of a step if points are on the grid: grid forces reach points only as changes
+ * of velocity. */
 static void keep_velocities(struct sampling *sampling, const struct particles *p, enum coupling kind)
 {
     if (p->n_free == 0 && !coupling_moves_by_grid(kind)) return;
@@ -268,9 +273,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Excess of the mean of the kinetic energies before and after a step over 1/2 m v_before . v_after [J]
- * (diagnostics_kick). Dashpots take part of a kick while it lasts: with half of what they take in it booked, what is
- * kept is that of the other forces alone. */
+/* Returns the mean of the kinetic energies before and after a step minus 1/2 m v_before . v_after [J]
+ * (diagnostics_kick). The part of absorbing faces, whose dashpots act during the kick, is subtracted. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -308,7 +312,7 @@ void sample_energy(struct run *e)
     e->report->sampling.rigid_work = rigids_energy(e->rigid, e->clock.dt).work;
 }
 
-/* True if a boundary drives particles at a speed, so that velocities jump in the first step. */
+/* Returns true if a boundary drives particles at a speed, so that velocities jump in the first step. */
 static bool velocity_jumps(const struct scene *s)
 {
     bool drives = false;
@@ -318,8 +322,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* False where the first step changes velocities by more than forces do, and the two cannot be separated: with APIC, for
- * points beside driven ones, and for bodies that meet on the grid. */
+/* Returns false if the first step changes velocities not only by forces: with APIC, with points beside driven ones,
+ * and with bodies in contact on the grid. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -332,10 +336,10 @@ void sample_end(struct run *e)
     const real share = damping_share(e->scene->damping * e->clock.dt);
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
-    if (first) { /* velocities of t = 0, not of half a step before; nothing is damped yet */
+    if (first) { /* the stored velocities are of t = 0, and nothing is damped yet */
         sampling->energy.damped = sampling->energy.absorbed = 0;
         sample_write(e, &now, sampling->kinetic + sampling->rigid, sampling->work);
-        /* leap-frog keeps 1/2 m v- . v+, v+- = v +- a dt/2, and not the 1/2 m v^2 of the start */
+        /* leap-frog conserves 1/2 m v- . v+ with v+- = v +- a dt/2; at t = 0 the sample has 1/2 m v^2 */
         if (start_separable(e->scene, &e->part, e->grid)) e->diagnostics->energy_start -= 2 * kick_now(e) / share;
         return;
     }
@@ -356,7 +360,8 @@ void sample_rest(struct run *e)
                  e->loads.work + e->loads.constraint_work + rigids_energy(e->rigid, e->clock.dt).work);
 }
 
-/* Sum of v . f of particles that bonds move and of nodes in the reference frame [W]; serial, as calls are few. */
+/* Returns the sum of v . f over particles that bonds move and over nodes of the reference frame [W]. Serial, since
+ * it is called once a run. */
 static real power_now(const struct particles *p, const struct reference_frame *reference)
 {
     const struct grid *g = &reference->mesh.grid;
@@ -370,7 +375,7 @@ static real power_now(const struct particles *p, const struct reference_frame *r
     return power + levels_power(&reference->levels);
 }
 
-/* The part of it on nodes of meshes that loads hold or drive [W]: work of these loads, no change of velocity. */
+/* Returns the part of power_now on nodes that loads hold or drive [W]: work of the loads, not a change of velocity. */
 static real power_of_walls(const struct reference_frame *reference)
 {
     const struct mesh_levels *levels = &reference->levels;
@@ -386,15 +391,15 @@ static real power_of_walls(const struct reference_frame *reference)
     return power;
 }
 
-/* Adds to reactions what the nodes of a mesh that loads hold bear by the present forces. */
+/* Adds the forces on held nodes to the reactions of their loads. */
 static void reactions_add(struct loads *l, const struct grid *g)
 {
     for (int64_t k = 0; k < g->walls; k++)
         l->load[g->wall[k].load].reaction[g->wall[k].component] -= g->force[g->wall[k].component][g->wall[k].node];
 }
 
-/* Completes the reactions of the loads, those on particles being known, by those on nodes that the forces after the
- * last step have met. grid: NULL where nothing is on the grid. */
+/* Adds the forces on nodes after the last step to the reactions of the loads, which have the forces on particles
+ * already. grid: NULL if no particle is on the grid. */
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
@@ -405,9 +410,9 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Sum of v . f by the forces after the last step, which no motion follows [W]: no bond breaks, and the accounts of
- * loads but for reactions are restored. *held: work of walls of grids and meshes in that step [J], which is no part of
- * the power; that of driven particles is. */
+/* Returns the sum of v . f with the forces after the last step, which no motion follows [W]. No bond breaks, and the
+ * accounts of the loads, except reactions, are restored. *held: work that walls of grids and meshes would do in that
+ * step [J], which is not part of the power; work of driven particles is. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
@@ -434,8 +439,8 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* The last sample. No force follows the last step: kinetic energy is 1/2 m v- . v+, as in all samples before, with v+
- * after the kick of the forces at the end. */
+/* Uses 1/2 m v- . v+ as the kinetic energy, as in all samples; v+ is the velocity after a kick by the forces at the
+ * end, which no motion follows. */
 void sample_last(struct run *e)
 {
     real held = 0;
@@ -462,8 +467,8 @@ void sample_probes(struct run *e)
     probes_step(&e->probing->probes, &o);
 }
 
-/* Warns that the first bonds of driven particles break, with the first boundary that drives such particles. when: "at"
- * or "in" and the time. */
+/* Warns that the first bonds of driven particles break, and names the first boundary that drives such particles.
+ * when: the time, as "at 1 s" or "in load step 1". */
 static void say_torn(struct warnings *to, const struct loads *loads, const struct particles *p, const char *when)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
@@ -486,7 +491,8 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
 
 void sample_breaks(struct run *e, int64_t broken)
 {
-    const bool in_steps = scene_in_steps(e->scene); /* whose bonds break before its end, which is its time */
+    /* a load step breaks bonds before its end, but is recorded at its end */
+    const bool in_steps = scene_in_steps(e->scene);
     const real step = e->scene->duration / (real)e->scene->steps.number;
     const real t = in_steps ? step * (real)e->clock.load_step : e->clock.t;
     struct observed o = run_observed(e);

@@ -1,4 +1,4 @@
-/* What a run says at its end of energy and angular momentum that it has not kept. */
+/* Warnings at the end of a run: energy or angular momentum that is not conserved. */
 #include <math.h>
 #include <stdio.h>
 
@@ -9,10 +9,12 @@
 #include "run/say.h"
 #include "step/checks.h"
 
-#define ENERGY_DOUBTFUL 0.05 /* share lost or gained that is warned of: ten times that of scenes in inputs/ */
-#define DAMPED_DOUBTFUL 0.1  /* share damped beside bonds: three times the most of scenes in inputs/ */
+#define ENERGY_DOUBTFUL                                                                                                \
+    0.05 /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
+#define DAMPED_DOUBTFUL                                                                                                \
+    0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
 
-/* Says that breaking bonds released more than they had held. */
+/* Warns that breaking bonds released more energy than they had stored. */
 static void say_released(const struct scene *s, const struct diagnostics *w, struct warnings *to)
 {
     char text[320];
@@ -25,9 +27,10 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     warnings_say(to, text);
 }
 
-#define SPIN_DOUBTFUL 0.01 /* share of the angular momentum of bodies */
+#define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */
 
-/* Says that bodies have lost, or gained, angular momentum that nothing took from them. */
+/* Warns that the bodies gained or lost angular momentum although no load acts on them. apic: points on the grid use
+ * APIC. */
 static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to)
 {
     const real error = w->now.spin_error;
@@ -40,13 +43,13 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
     warnings_say(to, text);
 }
 
-/* Is damping of the interface zone all that took energy? */
+/* Returns true if interface damping acts and nothing else in a moving scene damps. */
 static bool zone_damps(const struct scene *s, const struct coupling_state *coupling)
 {
     return coupling->damping_share > 0 && coupling->zone.points > 0 && !(s->damping > 0) && scene_moves(s);
 }
 
-/* Says that the interface zone took motion that was more than noise. share: of the energy [1]. */
+/* Warns that interface damping dissipated more than high-frequency noise. share: of the largest energy [1]. */
 static void say_damped(real share, struct warnings *to)
 {
     char text[320];
@@ -58,7 +61,8 @@ static void say_damped(real share, struct warnings *to)
     warnings_say(to, text);
 }
 
-/* Writes that the first bonds broke in a collision whose fronts ring; false: none did. */
+/* Writes to text that the first bonds broke in a collision faster than fronts are resolved; returns false if that is
+ * not so. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t room)
 {
     const struct shock shock = shock_expected(s);

@@ -1,4 +1,4 @@
-/* Stability checks: when a diverged run is stopped, and its remedy: another step, another load, or neither. */
+/* Stability checks: they stop a diverged run and name a remedy: another step, another load, or another method. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,25 +13,26 @@
 #include "rigid/rigid_part.h"
 #include "step/checks.h"
 
-#define LOAD_SHARE_LEAST 0.5      /* least share of a motion by loads that explain it: speeds double at free faces */
-#define LARGE_STRAIN 0.1          /* initial strain; its stresses are a tenth of the modulus */
-#define ENERGY_STEPS 50           /* steps before the energy check begins */
-#define ENERGY_OF_ROUND_OFF 1e-24 /* [kinetic energy of the body at its wave speed] */
-/* share of all energies that no stable run gains: the first steps of a jump in velocity show 0.1, unstable runs that
- * break all bonds 0.9 */
+#define LOAD_SHARE_LEAST 0.5 /* least share of the motion that a load must explain: speeds double at free faces */
+#define LARGE_STRAIN 0.1     /* initial strain that counts as the cause: stresses of a tenth of the modulus */
+#define ENERGY_STEPS 50      /* steps before the energy check begins */
+/* Energy below which all is round-off, over the kinetic energy of the body at its wave speed */
+#define ENERGY_OF_ROUND_OFF 1e-24
+/* Least energy without a source that fails a run, over the largest energy. Empirical: the first steps after a jump
+ * in velocity show 0.1, unstable runs that break all bonds 0.9. */
 #define ENERGY_FROM_NOWHERE 0.5
-/* share of all energies that bonds may release as they break without having held it: the scenes of inputs/ show none
- * with any model, ospd under pressure 0.4 */
+/* Least energy that bonds release when they break beyond what they had stored, over the largest energy, that fails a
+ * run. Empirical: scenes in inputs/ show none with any model; ospd under pressure shows 0.4. */
 #define RELEASED_FROM_NOWHERE 0.25
-/* kinetic energy 1/2 m v- . v+ below this share of the strain energy, negative: velocities change sign in every step.
- * Steps below the critical one keep it above -(dt/dt_critical)^2. */
+/* Kinetic energy 1/2 m v- . v+ over strain energy below which velocities change sign in every step. Steps below the
+ * critical step have at least -(dt/dt_critical)^2. */
 #define KINETIC_LEAST -0.9
 enum { INVERSION_STEPS = 50 }; /* steps between checks for inverted cells, which cost about half a step */
 enum { MOMENTS = 256 };        /* samples of a function of time */
 
 /* ---- speeds ------------------------------------------------------------------------------------------------------ */
 
-/* Largest speed, or component of the velocity of a mesh's node [m/s]. */
+/* Returns the largest speed of particles, or the largest velocity component of a node of the reference frame [m/s]. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
     const real moving = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
@@ -48,7 +49,7 @@ void stability_make(struct stability *s, const struct particles *p)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Largest and mean |factor| of a function of time between `from` and `to` [s]. */
+/* Computes the largest and the mean |factor| of a function of time from `from` to `to` [s]. */
 static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
 {
     *most = *mean = 0;
@@ -59,8 +60,8 @@ static void factors(const struct time_function *f, real from, real to, real *mos
     }
 }
 
-/* Speed that a load alone gives the fastest of its particles in the last `steps` [m/s]; for a driving boundary the
- * largest speed that it has prescribed. */
+/* Returns the speed to which a load alone accelerates the fastest of its particles in the last `steps` steps [m/s];
+ * for a driving boundary, its largest prescribed speed. */
 static real load_speed(const struct run_clock *clock, const struct particles *p, const struct load *load, real steps)
 {
     const struct boundary *b = load->boundary;
@@ -79,14 +80,15 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* True if initial energy and work of loads, `given` [J], are at least LOAD_SHARE_LEAST times the kinetic energy. */
+/* Returns true if initial energy and work of the loads (given [J]) are at least LOAD_SHARE_LEAST times the kinetic
+ * energy. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = diagnostics_kinetic(p) + frame_kinetic(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
-/* Largest entry of the displacement gradients of the initial states. */
+/* Returns the largest component of the displacement gradients of the initial states [1]. */
 static real start_strain(const struct scene *s)
 {
     real most = 0;
@@ -96,8 +98,8 @@ static real start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to `text` which load or initial state explains the motion; false if none does. steps: of the last tenfold
- * rise. */
+/* Writes to text which load or initial state explains the motion; returns false if none does. steps: in which the
+ * squared speed grew tenfold last. */
 static bool load_explanation(const struct run *e, real steps, char *text, size_t room)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
@@ -151,7 +153,7 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
 
 /* ---- remedy ------------------------------------------------------------------------------------------------------ */
 
-/* Advises a smaller step; returns the length of the text. */
+/* Advises a smaller time step; returns the length of the text. */
 static int say_step(const struct scene *s, const struct run_clock *clock, char *text, size_t room)
 {
     return snprintf(text, room, "choose a smaller time.%s (now dt = %.3g s, %.2f of the critical %.3g s)",
@@ -166,8 +168,7 @@ static bool holds_images(const struct scene *s)
     return false;
 }
 
-/* Lists the alternatives of a scene where something gains energy: another choice for each of its parts that may be left
- * out. */
+/* Lists alternatives for a scene that gains energy: another choice for each option that the scene can do without. */
 static void say_others(const struct scene *s, const struct reference_frame *reference, enum coupling coupling,
                        char *text, size_t room)
 {
@@ -185,9 +186,9 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
         used += snprintf(text + used, room - (size_t)used, "%s%s", k == 0 ? "" : k == n - 1 ? " or " : ", ", other[k]);
 }
 
-#define SQUEEZED 0.4 /* a bond's length over its own, below which no law here holds */
+#define SQUEEZED 0.4 /* ratio of a bond's length to its reference length below which the bond laws are not valid */
 
-/* The smallest length of a bond over its own, 1 at the most. */
+/* Returns the smallest ratio of an intact bond's length to its reference length, at most 1. */
 static real shortest_bond(const struct bonds *b, const struct particles *p)
 {
     real least2 = 1;
@@ -200,7 +201,7 @@ static real shortest_bond(const struct bonds *b, const struct particles *p)
     return sqrt(least2);
 }
 
-/* Says how far bonds are squeezed, if so far that it explains what happens. */
+/* Writes to text how far bonds are compressed; returns false if not so far that it explains the divergence. */
 static bool squeeze_explanation(const struct bonds *b, const struct particles *p, const struct run_clock *clock,
                                 char *text, size_t room)
 {
@@ -219,7 +220,7 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     real steps;
     char others[256];
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
-    if (scene_in_steps(e->scene)) { /* no step in time */
+    if (scene_in_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, room,
                  "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
                  "the way to find where it comes from; please report the scene");
@@ -267,7 +268,8 @@ status divergence_check(const struct run *e, bool peridynamic, bool meshed)
     return status_set(s, "%s; %s", status_message(), remedy);
 }
 
-/* FAILED for an inverted cell of the mesh, which resists like an intact one: neither energy nor speed shows it. */
+/* Returns FAILED if a cell of the mesh is inverted. It resists deformation like an intact one, so that neither energy
+ * nor speed shows it. */
 static status inversion_check(const struct run_clock *clock, const struct particles *p,
                               const struct reference_frame *reference)
 {
@@ -289,9 +291,9 @@ static status inversion_check(const struct run_clock *clock, const struct partic
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
-/* FAILED where a formula had no finite value in the step that has been made, which asks for values at its ends and
- * middle, of the step before and of the next: then the impulse is no number. At the end of the run all formulas are
- * asked once. */
+/* Returns FAILED if a formula of a load had a value that is not finite in the last step. A step evaluates formulas at
+ * its ends and middle and at those of its neighbours; a value that is not finite makes the impulse not finite. After
+ * the last step all formulas are evaluated once. */
 static status formula_check(const struct loads *l, const struct particles *p, const struct run_clock *clock)
 {
     const real *impulse = l->impulse;
@@ -333,12 +335,12 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
     return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-/* What bonds released as they broke without ever having held it [J]. A row of a state-based model may hold more after a
- * break than before: its dilatation changes. */
+/* The fracture energy is negative if bonds released more than they had stored. State-based models can do so: when a
+ * bond breaks, the dilatation of the particle changes, and its other bonds may store more. */
 real energy_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
-/* True if the body has more energy than stable runs gain. The balance of the first steps is left out, where half a step
- * of a load is a large share of all energy, but for steps above the critical one. */
+/* Returns true if the body has more energy than a stable run can gain. The first steps are left out, in which half a
+ * step of a load is a large share of all energy, unless the step is above the critical one. */
 static bool gains(const struct run_clock *clock, const struct diagnostics *w)
 {
     const bool counts = clock->step >= ENERGY_STEPS || clock->dt > clock->dt_critical;
@@ -346,31 +348,31 @@ static bool gains(const struct run_clock *clock, const struct diagnostics *w)
            energy_released(w) > RELEASED_FROM_NOWHERE * w->energy_scale;
 }
 
-/* True if velocities change sign in every step, by a step above the critical one. */
+/* Returns true if the time step is above the critical one and velocities change sign in every step. */
 static bool swings(const struct run_clock *clock, const struct energy *energy)
 {
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* FAILED with step, time and the fastest particle of "a body " and `what`. */
+/* Returns FAILED with step, time and the fastest particle; what: completes "a body ...". */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);
-    char place[96];
+    char position[96];
     int used = 0;
     for (int d = 0; d < p->dim; d++)
-        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+        used += snprintf(position + used, sizeof position - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
                       "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body %s; %s",
-                      (long long)clock->step, clock->t, (int)p->id[i], place, what, remedy);
+                      (long long)clock->step, clock->t, (int)p->id[i], position, what, remedy);
 }
 
-/* Elastic strain of points in the current frame beyond which they come apart: a strip that is pulled tears or gains
- * energy from strains of 0.09 on, with every shape and transfer (tests/scenes/test_frame.sh). */
+/* Elastic strain of points on the grid at which a warning is printed. A strip under tension tears or gains energy at
+ * strains above 0.09 with every shape function and transfer (tests/scenes/test_frame.sh). */
 #define STRETCH_MOST 0.08
 
-/* Warns of the first point in the current frame that is stretched farther than its grid holds it together; returns true
- * if there is one. t: present time [s]. */
+/* Warns of the first point on the grid with a strain above STRETCH_MOST; returns true if there is one. t: present
+ * time [s]. */
 static bool say_stretched(const struct particles *p, const struct material *material, real t, struct warnings *to)
 {
     const int n = symmetric_count(p->dim);
@@ -380,7 +382,8 @@ static bool say_stretched(const struct particles *p, const struct material *mate
         char text[360];
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
         for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
-        if (2 * sum < square(STRETCH_MOST * m->young)) continue; /* no less than the square of a principal stress */
+        /* cheap bound: the sum is at least half the squared principal stress */
+        if (2 * sum < square(STRETCH_MOST * m->young)) continue;
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
         snprintf(text, sizeof text,
@@ -394,8 +397,8 @@ static bool say_stretched(const struct particles *p, const struct material *mate
     return false;
 }
 
-/* For unstable runs without a particle that is too fast for diagnostics_divergence: a body that breaks all its bonds,
- * or one that swings. A body at rest, whose energy is round-off, is left out. */
+/* Covers unstable runs in which no particle is faster than waves: a body that breaks all its bonds, or one whose
+ * velocities change sign in every step. Bodies whose energy is round-off are left out. */
 status energy_check(struct run *e)
 {
     if (e->stability->lost)

@@ -1,4 +1,4 @@
-/* Samples, frames and checkpoints, bulk damping and stability, as parts of a run. */
+/* Rows of the table of parts: reports (samples, frames, checkpoints), bulk damping, stability checks. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,14 +26,15 @@ static void damping_free_all(struct run *e)
         for (int d = 0; d < DIM_MAX; d++) memory_free(e->damping->before[k][d]);
 }
 
-/* Figures of one probe follow each other: a new name closes the object of the probe before. */
+/* Writes figures of probes to JSON. All figures of one probe come in succession; a new name ends the object of the
+ * previous probe. */
 struct probe_sink {
     struct json *json;
     char name[NAME_MAX_LENGTH];
     bool open;
 };
 
-/* Sink of the figures of probes; `context`: struct probe_sink. */
+/* Writes one figure of a probe; context: struct probe_sink. Figures that are not finite are omitted. */
 static void put_figure(void *context, const char *probe, const char *quantity, real value)
 {
     struct probe_sink *sink = context;
@@ -56,7 +57,7 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
     json_close(j, '}');
 }
 
-/* Half-widths of the figures above, where a study of this scene is at hand. */
+/* Writes the half-widths of the figures above, if a study of this scene exists. */
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;

@@ -1,6 +1,6 @@
-/* The critical time step of a scene, and the step that is taken.
+/* The critical time step of a scene, and the choice of the time step.
  *
- * `bench stability` observes the limits independently, by the growth of the largest mode under the step itself. */
+ * `bench stability` measures the limits independently, from the growth of the largest mode under the step itself. */
 #include <math.h>
 
 #include "step/stability.h"
@@ -12,11 +12,12 @@
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Critical steps in h/(c + |v|) for n points per cell and direction: slightly below the least that is observed over all
- * positions of the points in their cells, which a moving body passes through. Strains of re-mapped momentum (FLIP,
- * MUSL) hardly depend on how little mass the nodes beyond an edge have; strains of the updated velocity (APIC) do:
- * their share falls with the size of the points. Linear shapes are worst where points are on nodes and round-off
- * decides their cell (observed over 1500 steps); elsewhere they would allow three times as much. */
+/* Returns the critical step of points on a grid over h/(c + |v|), for n points per cell and direction [1].
+ * Empirical: slightly below the least limit measured over all positions of the points in their cells, which a moving
+ * body passes through. With FLIP and MUSL the limit hardly depends on the mass of nodes beyond an edge; with APIC,
+ * whose strains follow from the updated velocity, it decreases with the size of the points. Linear shapes are
+ * limited by points on nodes, where round-off decides the cell (measured over 1500 steps); elsewhere the limit is
+ * three times as large. */
 static real points_share(const struct scene *s)
 {
     const real n = s->cell;
@@ -34,10 +35,11 @@ static real points_share(const struct scene *s)
     }
 }
 
-/* Factor for nearly incompressible materials. Nodes that move against each other in all directions have the stiffness
- * c11 + (dim - 1) c12, waves c11: near nu = 1/2 the ratio is 2 in the plane and 3 in space. The shares above were
- * observed up to a ratio of 5/3 (nu 1/4 in space); beyond, limits fall with its root: from nu 0.25 to 0.499 in space by
- * 0.80 (FLIP) and 0.76 (APIC), where the root gives 0.75. */
+/* Returns the factor for nearly incompressible materials [1]. Nodes that move against each other in all directions
+ * have the stiffness c11 + (dim - 1) c12, waves have c11: the ratio approaches 2 in the plane and 3 in space as nu
+ * approaches 1/2. The limits of points_share were measured up to a ratio of 5/3 (nu = 1/4 in space); beyond, they
+ * are reduced by the root of the ratio. From nu = 0.25 to 0.499 in space, measured limits fall to 0.80 (FLIP) and
+ * 0.76 (APIC), and the root gives 0.75. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
@@ -47,7 +49,7 @@ static real volume_share(const struct scene *s, const struct material_tables *ta
     return sqrt(observed / most);
 }
 
-/* Returns the largest speed to be expected [m/s]: at the start, `speed`, and of what boundaries drive. */
+/* Returns the largest speed expected: `speed`, or what boundaries drive [m/s]. */
 static real fastest_driven(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -58,7 +60,7 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
     return speed;
 }
 
-/* Critical step of points on a grid with node distance h [m] that move at `speed` at most [m/s] [s]. */
+/* Returns the critical step of points on a grid [s]. h: node distance [m]; speed: the largest of the points [m/s]. */
 static real critical_of_points(const struct scene *s, const struct material_tables *tables, real h, real speed)
 {
     return points_share(s) * volume_share(s, tables) * h / (tables->wave_speed + speed);
@@ -66,12 +68,11 @@ static real critical_of_points(const struct scene *s, const struct material_tabl
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Shares for a grid that moves all particles (pmg, pgg) and does not resolve the shortest waves of the bonds: of the
- * observed limits of bodies in one, two and three dimensions, with cells of one spacing and of two (`bench
- * stability`). */
+/* Factors of the critical step if a grid moves all particles (pmg, pgg) and does not resolve the shortest waves of
+ * the bonds. Limits measured by `bench stability`, for cells of one spacing and of two, by dimension. */
 static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4, 2.5}};
-/* Shares for a grid that moves particles near points (pm, pg), where FLIP keeps motion that the grid does not resolve;
- * worst where few particles share a node. */
+/* Factors of the critical step if a grid moves particles near points (pm, pg) and FLIP retains motion that the grid
+ * does not resolve. Measured where few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
@@ -81,13 +82,14 @@ static real share_of_coupling(const struct scene *s, enum coupling coupling)
     return coupling_moves_by_grid(coupling) && s->transfer == TRANSFER_FLIP ? met_by_grid[two][s->dim] : 1;
 }
 
-/* Force kernel of elastic bonds: yielding bonds are no stiffer. */
+/* Returns the force kernel of elastic bonds; bonds that yield are not stiffer. */
 static bond_force_fn *elastic_force(const struct scene *s, const struct kernels *kernels)
 {
     return s->model == MODEL_BOND ? bond_force_table[s->dim][PD_BOND] : kernels->bond_force;
 }
 
-/* Smallest critical step of the lattices of all materials [s]; *bound: the smallest of their bounds [s]. */
+/* Returns the smallest critical step of infinite lattices of each material [s]. *bound: the smallest of the
+ * estimates by row sums for these lattices [s]. */
 static real critical_of_lattices(const struct bond_source *all, const struct particles *p, bond_force_fn *force,
                                  real *bound)
 {
@@ -99,7 +101,7 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
     }
     for (int m = 0; m < all->materials; m++) {
         real its_bound;
-        struct bond_source one = *all; /* its particles are of material 0 */
+        struct bond_source one = *all; /* all particles of the lattice are of material 0 */
         one.material = &all->material[m], one.materials = 1;
         if (all->modulus) one.modulus = &all->modulus[m];
         one.yield = (struct bond_yield){0};
@@ -109,11 +111,12 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
     return step;
 }
 
-enum { ITERATED_MOST = 15000 }; /* particles: an iteration has some 30 rounds of a few steps each */
+/* Number of particles up to which the whole body is iterated: an iteration takes about 30 rounds of a few steps each */
+enum { ITERATED_MOST = 15000 };
 
-/* Critical step of bonds [s]. By iteration on the body where all of it is peridynamic. Where particles convert later,
- * or are many on a lattice, by iteration on a block of this lattice, reduced as the bound over all particles is smaller
- * than that of the block: scattered particles, corrected surfaces, heavy neighbours. */
+/* Returns the critical step of bonds [s]. A small or irregular peridynamic body is iterated as a whole. Else a block
+ * of its lattice is iterated, and the result is multiplied by the ratio of the row-sum estimates of body and block,
+ * which is below 1 for scattered particles, corrected surfaces and heavy neighbours. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -122,7 +125,8 @@ static real critical_of_bonds(struct run *e)
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
         const real step = critical_step_of(&e->bonds, &e->part, force, &e->loads, s->spacing);
-        return isfinite(step) ? step : s->spacing / e->tables.wave_speed; /* no bond: any step that the loads allow */
+        /* without bonds the wave speed limits the step */
+        return isfinite(step) ? step : s->spacing / e->tables.wave_speed;
     }
     const real step = critical_of_lattices(&e->source, &e->part, force, &bound);
     const real share = real_min(1, bonds_critical_step(&e->part, &e->source) / bound);
@@ -131,41 +135,44 @@ static real critical_of_bonds(struct run *e)
 
 /* ---- the step ---------------------------------------------------------------------------------------------------- */
 
-#define STEPS_MOST 1e12 /* as in scene_check.c: more than any machine can do */
+#define STEPS_MOST 1e12 /* limit of scene_check.c */
 
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
         return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
-    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12)); /* a little less: round-off adds no step */
+    clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12)); /* the factor keeps round-off from adding a step */
     if (clock->steps < 1) clock->steps = 1;
     clock->steps += (clock->stride - clock->steps % clock->stride) % clock->stride;
     clock->dt = s->duration / (real)clock->steps;
     return OK;
 }
 
-/* Share of the step that contact allows: it begins and ends within steps, which costs or gives up to k/2 times the
- * square of the way of a step. Bars of 50 particles change their energy by 0.3 % a collision in a plane at 0.8 of it,
- * by 0.1 % at 0.5; in a line, where all of a face meets in one step, bars of 100 by 1 % at 0.8 and 0.1 % at 0.35.
- * Faces of cracks within one body meet gently: 0.7. A step that is meant to be too long is not shortened. */
+/* Returns the largest share of the contact's critical step [1]. Contact begins and ends within steps, which changes
+ * the energy by up to k/2 times the square of the motion in a step. Measured change per collision: bars of 50
+ * particles in a plane 0.3 % at 0.8 and 0.1 % at 0.5; bars of 100 particles in a line, whose faces meet in one step,
+ * 1 % at 0.8 and 0.1 % at 0.35. Crack faces of one body meet gently: 0.7. If safety is above 1, contact within a
+ * body does not limit the step. */
 static real contact_safety(const struct scene *s)
 {
     if (!scene_bodies_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
     return real_min(s->safety, s->dim == 1 ? 0.35 : 0.5);
 }
 
-/* Below it motion against bulk damping is within 1 % of c v = f/m (damping.c); no stability asks for it. */
+/* Returns the largest step for which motion against bulk damping is within 1 % of c v = f/m (damping.c) [s]. It is a
+ * limit of accuracy, not of stability. */
 static real damping_step(const struct scene *s) { return s->damping > 0 ? 0.5 / s->damping : INFINITY; }
 
-/* Stiffness of the cores of bonds that the step bears, as kernels/pd/bond_core.h has it; of no step: the most. */
+/* Returns the stiffness of bond cores that the time step allows (kernels/pd/bond_core.h), at most CORE_STIFFNESS
+ * [1]. */
 static real core_stiffness(const struct scene *scene, const struct run_clock *clock)
 {
     if (!scene_moves(scene)) return CORE_STIFFNESS;
     return real_max(0, real_min(CORE_STIFFNESS, square(clock->dt_critical / clock->dt) - 1));
 }
 
-/* Least mass of a particle over that of its material, where lists say it; 1 where none is lighter [1]. */
+/* Returns the smallest ratio of a particle's mass, if lists prescribe it, to that of its material, at most 1 [1]. */
 static real lightest_share(const struct scene *s, const struct particles *p)
 {
     real least = 1;
@@ -176,7 +183,7 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* The critical step is the smallest limit of all methods, whichever kinds are present at the start, since particles
+/* Takes the smallest limit of all methods of the scene, whichever particles exist at the start, since particles
  * convert. */
 status time_step_make(struct run *e)
 {

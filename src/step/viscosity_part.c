@@ -1,4 +1,4 @@
-/* Bulk viscosity of bonds, points and cells. */
+/* Bulk viscosity of bonds, points on the grid and cells of the reference frame. */
 #include "step/viscosity.h"
 
 #include <math.h>
@@ -10,7 +10,8 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
-/* Makes the arrays, once. Returns false where no material is viscous. */
+/* Allocates the arrays on the first call. Returns false if no material is viscous. n, nodes: particles; nodes of the
+ * mesh. */
 static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n, int64_t nodes)
 {
     if (v->work || !scene_viscous(s)) return v->work != NULL;
@@ -24,14 +25,15 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* q over rho c^2 at a rate of compression [1/s], by the wave crossing time h/c of a spacing [s] [1]. */
+/* Returns q/(rho c^2) [1]. crossing: time h/c in which a wave crosses the resolved length [s]; rate: of compression
+ * [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
 {
     const real x = crossing * rate;
     return (linear + quadratic * x) * x;
 }
 
-/* The same of a material as a pressure [Pa]; rate: of volume, 0 or more where it grows [1/s]. */
+/* Returns q of a material [Pa], 0 in expansion. h: resolved length [m]; rate: relative rate of volume growth [1/s]. */
 static real viscous_pressure(const struct material *m, real h, real rate)
 {
     if (!(rate < 0)) return 0;
@@ -43,24 +45,24 @@ static real taken_by(const void *work, int64_t i) { return ((const real *)work)[
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* Adds the force of a bond of particle i to f [N]. Of a bond between two materials coefficients are means. stiffness:
- * of the bonds. */
+/* Adds the viscous force of a bond to the force f [dim, N] of its particle i. Bonds between two materials have the
+ * mean of their coefficients. stiffness: of the bonds (struct bonds). */
 static void bond_push(const struct material *material, const struct particles *p, int64_t i, const struct bond *bond,
                       real stiffness, real *f)
 {
     const struct material *a = &material[p->material[i]], *b = &material[p->material[bond->nbr]];
-    real way[DIM_MAX], length2 = 0, rate = 0;
+    real span[DIM_MAX], length2 = 0, rate = 0;
     for (int d = 0; d < p->dim; d++) {
-        way[d] = p->x[d][bond->nbr] - p->x[d][i];
-        length2 += square(way[d]);
-        rate += way[d] * (p->v[d][bond->nbr] - p->v[d][i]);
+        span[d] = p->x[d][bond->nbr] - p->x[d][i];
+        length2 += square(span[d]);
+        rate += span[d] * (p->v[d][bond->nbr] - p->v[d][i]);
     }
     if (!(rate < 0)) return;
     const real length = sqrt(length2), crossing = 2 / bond->inverse_length / (a->wave_speed + b->wave_speed);
     const real strain = viscous_strain(0.5 * (a->viscosity.linear + b->viscosity.linear),
                                        0.5 * (a->viscosity.quadratic + b->viscosity.quadratic), crossing,
                                        -rate / length * bond->inverse_length);
-    for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * way[d] / length;
+    for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * span[d] / length;
 }
 
 static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
@@ -98,7 +100,7 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
     v->taken += team_sum(p->n, taken_by, v->work);
 }
 
-/* Half of the time over which forces of the previous step and of this one do work [s]. */
+/* Returns the half step by which mean forces of two steps do work [s]; 0 in the first step. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
 void viscosity_push(struct run *e)
@@ -108,7 +110,7 @@ void viscosity_push(struct run *e)
     points_pressure(e->viscosity, &e->part, &e->coupling->partial, e->clock.dt);
 }
 
-void viscosity_lend(struct viscosity *v, const struct particles *p, bool on)
+void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on)
 {
     for (int d = 0; d < p->dim && v->work; d++) {
 #pragma omp parallel for schedule(static)
@@ -124,7 +126,7 @@ void viscosity_lend(struct viscosity *v, const struct particles *p, bool on)
 
 /* ---- cells of the reference frame -------------------------------------------------------------------------------- */
 
-/* Determinant of F, and its inverse [dim dim]. */
+/* Computes the inverse of F [dim dim]; returns its determinant. */
 static real invert_gradient(const real *F, int dim, real *inverse)
 {
     if (dim == 1) {
@@ -147,8 +149,8 @@ static real invert_gradient(const real *F, int dim, real *inverse)
     return J;
 }
 
-/* Turns the displacement gradient H of point i, and that of its velocity G, into what its volume and q give to the
- * slopes of shares: volume0 J q F^-T, in H [dim dim, N m]. */
+/* Replaces the displacement gradient H of point i [1] by its viscous part of the nodal forces, volume0 J q F^-T [dim
+ * dim, N m], to be multiplied by the gradients of shape functions. G: velocity gradient [1/s]. */
 static void viscous_stress(const struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                            int64_t i, real *const *H, real *const *G)
 {
@@ -164,22 +166,22 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
 
-/* Adds what the points of a cell push its nodes with. */
+/* Adds the viscous forces of the points of cell I to its nodes. P: from viscous_stress. */
 static void cell_push(const struct mesh *mesh, int64_t I, real *const *P, real *const *f)
 {
     const int dim = mesh->grid.dim;
-    for (int place = 0; place < 1 << dim; place++) {
-        const int32_t i = mesh->point[(I << dim) + place];
+    for (int slot = 0; slot < 1 << dim; slot++) {
+        const int32_t i = mesh->point[(I << dim) + slot];
         for (int c = 0; c < 1 << dim && i >= 0; c++) {
             const int64_t node = mesh_node(mesh, I, c);
             for (int a = 0; a < dim; a++)
                 for (int b = 0; b < dim; b++)
-                    f[a][node] += P[a * dim + b][i] * mesh_slope(dim, c, place, b) / mesh->grid.h;
+                    f[a][node] += P[a * dim + b][i] * mesh_slope(dim, c, slot, b) / mesh->grid.h;
         }
     }
 }
 
-/* Colour of a cell of the grid: cells of one colour share no node. Extra cells of slits have a colour of their own. */
+/* Returns the colour of a cell: cells of one colour share no node. Cells beside slits share one colour of their own. */
 static int cell_colour(const struct mesh *mesh, int64_t I)
 {
     const struct grid *g = &mesh->grid;
@@ -189,7 +191,7 @@ static int cell_colour(const struct mesh *mesh, int64_t I)
     return colour;
 }
 
-/* Forces of all cells on nodes, f [grid.n]: colour by colour, those beside slits one by one. */
+/* Adds the viscous forces of all cells to f [grid.n, N], colour by colour; cells beside slits serially. */
 static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
 {
     const int colours = 1 << mesh->grid.dim;
@@ -202,7 +204,7 @@ static void cells_push(const struct mesh *mesh, real *const *P, real *const *f)
         if (mesh->kind[I] && cell_colour(mesh, I) == colours) cell_push(mesh, I, P, f);
 }
 
-/* Books the work of the nodes' forces of the step before and of now, f [grid.n]; these become the former. */
+/* Adds viscous forces f [grid.n, N] to the nodes, and their work since the previous step to the dissipated energy. */
 static void nodes_book(struct viscosity *v, const struct grid *g, real half, real *const *f)
 {
     real *work = NEW("viscosity.node_work", g->n, real);
@@ -241,10 +243,13 @@ void viscosity_push_nodes(struct run *e)
 
 /* ---- shocks that a scene expects --------------------------------------------------------------------------------- */
 
-#define SHOCK 0.1 /* of the speed that breaks or yields a body, from which on it is said */
+#define SHOCK                                                                                                          \
+    0.1 /* least collision speed that is reported, over the speed at which a front breaks or yields a body             \
+         */
 
-/* Smallest strain at which a material breaks or yields, times its wave speed [m/s]; INFINITY: it does neither. */
-static real speed_borne(const struct scene *s)
+/* Returns the smallest particle speed of a front that breaks or yields a material: its strain limit times its wave
+ * speed [m/s]; INFINITY without limits. */
+static real speed_limit(const struct scene *s)
 {
     real least = INFINITY;
     for (int m = 0; m < s->materials; m++) {
@@ -256,8 +261,8 @@ static real speed_borne(const struct scene *s)
     return least;
 }
 
-/* Speed at which bodies a and b come together, by the boxes round them, along the axis on which these are apart [m/s];
- * 0: they do not meet in the duration. */
+/* Returns the speed at which bodies a and b approach along the axis on which their bounding boxes are apart [m/s]; 0
+ * if they do not meet within the duration. */
 static real closing_speed(const struct scene *s, const struct scene_body *a, const struct scene_body *b)
 {
     real from[2][DIM_MAX], to[2][DIM_MAX], gap = -INFINITY, speed = 0;
@@ -283,13 +288,13 @@ struct shock shock_expected(const struct scene *s)
             if (b >= s->bodies || s->contact_between != CONTACT_NONE)
                 shock.speed = real_max(shock.speed, closing_speed(s, &s->body[a], &s->body[b]));
     const bool acts = !viscous && scene_moves(s) && s->space != SPACE_PLANE_STRESS && s->model == MODEL_BOND;
-    if (acts && shock.speed > SHOCK * speed_borne(s)) shock.share = shock.speed / speed_borne(s);
+    if (acts && shock.speed > SHOCK * speed_limit(s)) shock.share = shock.speed / speed_limit(s);
     return shock;
 }
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Largest speed of the start and of what supports drive [m/s]. */
+/* Returns the largest initial or prescribed speed [m/s]. */
 static real speed_expected(const struct scene *s, const struct particles *part)
 {
     real most = real_max(diagnostics_fastest(part, part->list[KIND_PD], part->n_of[KIND_PD]),
