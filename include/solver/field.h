@@ -4,7 +4,7 @@
 
 #include "base/base.h"
 
-/* One vector for each particle or node: of[d][k] is component d of number k. */
+/* A vector for each particle or node: of[d][k] is component d of node k. */
 struct field {
     real *of[DIM_MAX];
 };

@@ -1,4 +1,4 @@
-/* Newton's method with conjugate gradients, without a matrix. */
+/* Newton's method with conjugate gradients, without a stored matrix (equilibrium.h). */
 #include "solver/equilibrium.h"
 
 #include <math.h>
@@ -8,34 +8,39 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-enum { CORRECTIONS_MOST = 80 };  /* of Newton's method; linear bodies need two or three */
-enum { DIRECTIONS_MOST = 2000 }; /* of conjugate gradients in a correction */
-enum { DIRECTIONS_IDLE = 100 };  /* without progress, after which a correction ends: nearly singular, or round-off */
-enum { LOOKS_MOST = 10 };        /* for the length of a correction */
+enum { CORRECTIONS_MOST = 80 };  /* largest number of Newton corrections; linear bodies need two or three */
+enum { DIRECTIONS_MOST = 2000 }; /* largest number of directions in a correction */
+/* directions without progress that end a correction: the matrix is nearly singular, or the residual is round-off */
+enum { DIRECTIONS_IDLE = 100 };
+enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line search */
 
-/* Largest strain of the way over which forces are differenced: second-order terms are of its size, and the round-off of
- * forces, 1e-14 of a strain in a body of 100 spacings, is 1e-8 of the difference. */
+/* Largest strain of the increment over which forces are differenced. Second-order terms are of its size; the
+ * round-off of forces, a strain of 1e-14 in a body of 100 spacings, is 1e-8 of the difference. */
 #define DIFFERENCE_STRAIN 1e-6
-/* Largest turn of bonds over it. What hangs on a bond or two turns and is hardly strained. */
+/* Largest rotation of bonds over that increment: fragments that hang on one or two bonds rotate and are hardly
+ * strained. */
 #define DIFFERENCE_TURN 1e-5
-/* Turn of bonds up to which a body that gives way is followed in one correction. */
-#define WAY_TURN 0.1
+/* Largest rotation of bonds in a correction along a direction of negative stiffness. */
+#define TURN_MOST 0.1
 
-/* A correction has the right length where forces along it have fallen to this share of what they were, and work along
- * it is taken from the middle, too, where forces after it are more than this share of those before. */
+/* PUSH_LEFT: a line search ends once forces along the correction are below this share of their initial value.
+ * WORK_CURVED: work is integrated by Simpson's rule if the residual after the correction is above this share of that
+ * before. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
-enum { WORK_PARTS = 16 }; /* of that way where forces have kinks: 2 leave a 24th of the work beyond one */
+/* intervals of Simpson's rule for forces with kinks; with 2, a 24th of the work beyond a kink would be missed */
+enum { WORK_PARTS = 16 };
 
-/* Share of the residual that a correction leaves: the least is what one-sided differences resolve. */
+/* Share of the residual that a correction leaves; the least is the accuracy of one-sided differences. */
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
-/* Share of the largest loads so far that a body is still measured by once it has broken and bears nothing. */
+/* Least share of the largest loads so far that scales the residual, for a body that has broken and carries no load. */
 #define SCALE_LEAST 1e-2
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
+/* Lists all vectors of q [FIELDS]. */
 static void all_fields(struct equilibrium *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
@@ -66,7 +71,7 @@ void equilibrium_free(struct equilibrium *q)
 
 static bool is_held(const struct equilibrium *q, int64_t i, int d) { return q->held[i] >> d & 1; }
 
-/* to = a x + b y. */
+/* Computes to = a x + b y. */
 static void combine(const struct equilibrium *q, struct field *to, real a, const struct field *x, real b,
                     const struct field *y)
 {
@@ -78,12 +83,13 @@ static void combine(const struct equilibrium *q, struct field *to, real a, const
     }
 }
 
-/* What dot_block reads: two vectors, of which free components count. */
+/* Two vectors whose product is summed. */
 struct product {
     const struct equilibrium *q;
     const struct field *a, *b;
 };
 
+/* Adds products of free components to sum[0], of held ones to sum[1]. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -91,7 +97,7 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
         for (int64_t i = first; i < end; i++) sum[is_held(s->q, i, d)] += s->a->of[d][i] * s->b->of[d][i];
 }
 
-/* Sums over free components, and over held ones. */
+/* Computes the product of a and b over free components, sum[0], and over held components, sum[1]. */
 static void dots(const struct equilibrium *q, const struct field *a, const struct field *b, real sum[2])
 {
     team_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
@@ -106,13 +112,14 @@ static real dot_free(const struct equilibrium *q, const struct field *a, const s
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
+/* Computes the forces at displacement u and counts the evaluation. */
 static void forces_at(struct equilibrium *q, const struct field *u, struct field *f)
 {
     q->force(q->context, u, f);
     q->forces++;
 }
 
-/* Plain products: vectors whose held components are 0, or count, too. */
+/* Adds the product over all components; used if held components are 0 or count. */
 static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -132,21 +139,21 @@ static real dot_all(const struct equilibrium *q, const struct field *a, const st
     return sum;
 }
 
-/* Widths over which the largest component `most` of a way [m] stands for a turn of bonds: as wide as the region of the
- * nodes that move [m]. */
-static real turning_width(const struct equilibrium *q, const struct field *way, real most)
+/* Returns the width over which the largest component `most` of an increment [m] rotates bonds: that of the region of
+ * moving nodes [m]. */
+static real turning_width(const struct equilibrium *q, const struct field *increment, real most)
 {
-    return q->length * pow(real_max(1, dot_all(q, way, way) / square(most)), 1.0 / q->dim);
+    return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Share of a way over which forces are differenced: limits to strains, and to turns where only few nodes move. `most`:
- * its largest component [m]. */
-static real difference_step(const struct equilibrium *q, const struct field *way, real most)
+/* Returns the factor of an increment over which forces are differenced, limited by strain and by rotation. most: its
+ * largest component [m]. */
+static real difference_step(const struct equilibrium *q, const struct field *increment, real most)
 {
-    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, way, most)) / most;
+    return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
-/* out = K in at u, where the forces are f: the decrease of forces along `in`, over its length. */
+/* Computes out = K in at u with forces f: the decrease of forces along `in`, over its length. */
 static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
 {
     const real most = solver_largest(in, q->dim, q->n);
@@ -159,14 +166,15 @@ static void stiffness(struct equilibrium *q, const struct field *in, struct fiel
         combine(q, out, 0, out, 0, out);
 }
 
-/* Strain of a direction with this curvature d . K d, over its largest component: sets the next difference. */
+/* Stores the strain of a direction with curvature d . K d over its largest component, which sets the next
+ * difference. */
 static void strain_note(struct equilibrium *q, const struct field *d, real curvature)
 {
     const real most = solver_largest(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Norm of the residual on free components, and of the forces on held ones [N]; sets residual, scale and worst. */
+/* Computes residual, scale and worst from the forces on free and on held components. */
 static void equilibrium_measure(struct equilibrium *q)
 {
     real sum[2], most = -1;
@@ -183,7 +191,7 @@ static void equilibrium_measure(struct equilibrium *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* r = what supports and the guess x leave of the forces: f - K x, of free components. */
+/* Computes the residual r = f - K x on free components, for the motion of supports and the initial guess x. */
 static void residual_of_guess(struct equilibrium *q)
 {
     if (solver_largest(&q->x, q->dim, q->n) == 0) {
@@ -197,8 +205,8 @@ static void residual_of_guess(struct equilibrium *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Leaves the guess of free components out where forces are nearer to balance without it: what has broken off, and
- * turned, is not where proportional loads would have it. */
+/* Removes the guess of free components from x if the residual is smaller without it: a fragment that broke off and
+ * rotated does not follow proportional loads. */
 static void guess_check(struct equilibrium *q)
 {
     residual_of_guess(q);
@@ -211,23 +219,23 @@ static void guess_check(struct equilibrium *q)
     if (with < dot_free(q, &q->r, &q->r)) combine(q, &q->x, 1, &q->z, 0, &q->z);
 }
 
-/* What a pass over vectors reads and writes. */
+/* Vectors and factor of advance_block. */
 struct step {
     struct equilibrium *q;
     real scale;
 };
 
-/* x += scale d, r -= scale K d of free components; adds up r . r. */
+/* Computes x += scale d and r -= scale K d on free components; adds r . r to *sum. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
     const struct equilibrium *q = s->q;
     for (int d = 0; d < q->dim; d++) {
         real *x = q->x.of[d], *r = q->r.of[d], part = 0;
-        const real *way = q->d.of[d], *force = q->q.of[d];
+        const real *increment = q->d.of[d], *force = q->q.of[d];
 #pragma omp simd reduction(+ : part)
         for (int64_t i = first; i < end; i++) {
-            x[i] += s->scale * way[i];
+            x[i] += s->scale * increment[i];
             r[i] = q->held[i] >> d & 1 ? 0 : r[i] - s->scale * force[i];
             part += r[i] * r[i];
         }
@@ -235,16 +243,16 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
     }
 }
 
-/* The body gives way along d: x goes on as far as that may be followed. */
-static void give_way(struct equilibrium *q)
+/* Extends x along d, a direction of negative stiffness, by a rotation of at most TURN_MOST. */
+static void follow_negative(struct equilibrium *q)
 {
     const real most = solver_largest(&q->d, q->dim, q->n);
-    if (most > 0) combine(q, &q->x, 1, &q->x, WAY_TURN * turning_width(q, &q->d, most) / most, &q->d);
+    if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
-/* x: the correction K x = f of free components, from the x that it holds; its held components stay. Residual down to
- * `wanted` [N], or to FORCING_LEAST of what the guess leaves. Where stiffness along a direction is negative, x goes on
- * there as a body does that gives way (Steihaug 1983); not if supports are on their way. */
+/* Solves K x = f on free components from the initial x; held components of x do not change. Stops at a residual of
+ * `wanted` [N], or of FORCING_LEAST of that of the initial x. At a direction of negative stiffness x is extended
+ * along it (Steihaug 1983), unless supports move. */
 static void correction(struct equilibrium *q, real wanted, bool prescribed)
 {
     real rz = 0, left2, best2 = INFINITY;
@@ -263,7 +271,7 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
         const real curvature = dot_all(q, &q->d, &q->q);
         q->directions++;
         if (!(curvature > 0)) {
-            if (!prescribed) give_way(q);
+            if (!prescribed) follow_negative(q);
             break;
         }
         strain_note(q, &q->d, curvature);
@@ -273,27 +281,27 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Forces at u + share x, into q, of the place z. */
+/* Computes the position z = u + share x and the forces q there. */
 static void forces_along(struct equilibrium *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
     forces_at(q, &q->z, &q->q);
 }
 
-/* Share of the correction x after which forces push on no more: 1 in linear bodies. Energy falls until then: less where
- * they push back as hard, more where they still push as hard. A `prescribed` way is gone whole. Leaves in z and q the
- * place and the forces there. */
-static real way_length(struct equilibrium *q, real left, bool prescribed)
+/* Returns the factor of the correction x at which forces along x have vanished; 1 for linear bodies. The energy
+ * decreases up to that point: the factor is reduced while forces point back and increased while they push on. A
+ * prescribed increment is made in full. Stores the position in z and its forces in q. */
+static real line_search(struct equilibrium *q, real left, bool prescribed)
 {
     const real push = dot_free(q, &q->f, &q->x), most = solver_largest(&q->x, q->dim, q->n);
     real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
-    for (int k = 0; k < LOOKS_MOST; k++) {
+    for (int k = 0; k < EVALUATIONS_MOST; k++) {
         forces_along(q, share);
         const real after = sqrt(dot_free(q, &q->q, &q->q)), at = dot_free(q, &q->q, &q->x);
         if (prescribed || !(push > 0) || after <= 0.5 * left) break;
         if (fabs(at) <= PUSH_LEFT * push) break;
         if (at > 0) {
-            if (high == 0 && k == LOOKS_MOST / 2) break;
+            if (high == 0 && k == EVALUATIONS_MOST / 2) break;
             low = share, at_low = at;
             share = high > 0 ? 0.5 * (low + high) : 2 * share;
         } else {
@@ -305,8 +313,8 @@ static real way_length(struct equilibrium *q, real left, bool prescribed)
     return share;
 }
 
-/* Work of all forces over the way `share` x, by Simpson's rule where forces change other than evenly [J]. Forces on the
- * way are under that part of what loads have grown by since `before`. Uses at and r. */
+/* Returns the work of all forces over the increment share x [J], by Simpson's rule if forces are not linear along
+ * it. Loads on the increment have grown in proportion since `before`. Overwrites at and r. */
 static real work_along(struct equilibrium *q, real share, real left)
 {
     real ends[2], after[2], middle[2], grown[2], sum = 0;
@@ -326,11 +334,11 @@ static real work_along(struct equilibrium *q, real share, real left)
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Moves by x, or by what of it leads to equilibrium; returns the work of all forces on the way [J]. */
+/* Moves u by the part of x that leads towards equilibrium; returns the work of all forces along it [J]. */
 static real advance(struct equilibrium *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
-    const real share = way_length(q, left, prescribed), work = work_along(q, share, left);
+    const real share = line_search(q, left, prescribed), work = work_along(q, share, left);
     if (q->laws) q->laws(q->context, true);
     combine(q, &q->u, 1, &q->z, 0, &q->z);
     combine(q, &q->f, 1, &q->q, 0, &q->q);
@@ -338,17 +346,18 @@ static real advance(struct equilibrium *q, real left, bool prescribed)
     return work;
 }
 
-/* Forces on supports, times the way that these go [J]. */
-static real dot_held(const struct equilibrium *q, const struct field *way)
+/* Returns the work of the forces on supports along the increment [J]. */
+static real dot_held(const struct equilibrium *q, const struct field *increment)
 {
     real sum[2];
-    dots(q, &q->f, way, sum);
+    dots(q, &q->f, increment, sum);
     return sum[1];
 }
 
-/* The first correction has taken the growth of loads for even along it, and all later ones, `more` = growth times their
- * way [J], for done. States between lie on a curve, the way as c s + d s^2 of the share s of the growth: loads then
- * work 1/6 of `more` beyond the mean of both ends, and nothing is lost. */
+/* The first correction took the growth of loads to be linear along it, and later corrections took it to be complete.
+ * In fact the states form a curve: with the increment c s + d s^2 for the share s of the growth, loads do 1/6 of
+ * `more` beyond the mean of both ends, and nothing is lost. more: growth of loads times the increments of later
+ * corrections [J]. */
 static void loads_bend(struct equilibrium *q, real more)
 {
     q->bent = more / 6;
@@ -360,8 +369,7 @@ static bool is_balanced(const struct equilibrium *q)
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
-/* Laws become those of where the body is, with other forces by round-off and by what is held of them. True: they stand.
- */
+/* Fixes the laws for the present state and recomputes the forces; returns true if the laws had not changed. */
 static bool laws_settle(struct equilibrium *q)
 {
     if (!q->settle || q->settle(q->context)) return true;
@@ -370,20 +378,20 @@ static bool laws_settle(struct equilibrium *q)
     return false;
 }
 
-status equilibrium_find(struct equilibrium *q, const struct field *way, bool moved)
+status equilibrium_find(struct equilibrium *q, const struct field *increment, bool moved)
 {
-    bool prescribed = moved && solver_largest(way, q->dim, q->n) > 0;
-    combine(q, &q->x, prescribed, way, 0, way);
+    bool prescribed = moved && solver_largest(increment, q->dim, q->n) > 0;
+    combine(q, &q->x, prescribed, increment, 0, increment);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
-    real supports = prescribed ? 0.5 * dot_held(q, way) : 0;
+    real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;
     forces_at(q, &q->u, &q->f);
     if (!moved) combine(q, &q->before, 1, &q->f, 0, &q->f);
     combine(q, &q->grown, 1, &q->f, -1, &q->before);
     q->bent = 0;
     if (!(q->strain_ratio > 0)) q->strain_ratio = 1 / q->length;
     const bool driven = prescribed;
-    bool settled = false; /* laws are those of u */
-    real straight = NAN;  /* of the growth of loads along the first correction */
+    bool settled = false; /* the laws are those of u */
+    real straight = NAN;  /* growth of loads times the first correction [J] */
     if (prescribed) guess_check(q);
     for (int k = 0; k < CORRECTIONS_MOST; k++) {
         equilibrium_measure(q);
@@ -393,9 +401,9 @@ status equilibrium_find(struct equilibrium *q, const struct field *way, bool mov
             if (!settled) {
                 settled = true;
                 laws_settle(q);
-                continue; /* with these laws, and the norm that loads have now */
+                continue; /* with these laws and the present norm of loads */
             }
-            if (driven) supports += 0.5 * dot_held(q, way);
+            if (driven) supports += 0.5 * dot_held(q, increment);
             if (!isnan(straight)) loads_bend(q, dot_free(q, &q->grown, &q->u) - straight);
             q->lost -= supports;
             return OK;

@@ -1,4 +1,4 @@
-/* Making, applying and freeing the multigrid preconditioner. */
+/* Set-up, application and release of the multigrid preconditioner. */
 #include "solver/multigrid.h"
 
 #include <math.h>
@@ -6,28 +6,28 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* Unknowns from which on a level is solved as a dense matrix; steps of relaxation before and after the coarser levels,
- * on the finest level, where products with its matrix take most of the time, and on coarser ones; the part of the
- * spectrum that relaxation is for. */
+/* DENSE: unknowns below which a level is solved as a dense matrix. DEGREE, DEGREE_COARSE: relaxation steps before
+ * and after the coarser levels, on the finest level, whose products take most of the time, and on others. RANGE:
+ * largest over smallest eigenvalue that relaxation damps. */
 enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define RANGE 4.0
 
 /* ---- the finest level -------------------------------------------------------------------------------------------- */
 
-/* What rounding of floats leaves of the sum of a row of a body that moves as a whole, over its diagonal. */
+/* Rounding error of matrix entries in the row sum of a body in rigid motion, over the diagonal. */
 #define ROUND_OFF 1e-6
-/* A node with less stiffness than this over the largest has none. */
+/* Stiffness of a node over the largest below which the node has none. */
 #define STIFFNESS_LEAST 1e-12
 
-/* The diagonal of row i as minus the sum of the others, to which rounding to floats has added: a body that moves as a
- * whole then has no energy, however large it is. Parts that are not rounding (supports, foundations) stay. */
+/* Replaces the diagonal of row i by minus the sum of the other entries if they differ by rounding only, so that a
+ * rigid translation has exactly no energy. Larger differences (supports, foundations) are kept in `rest`. */
 static void diagonal_exact(const struct level *l, int64_t i)
 {
     const int size = l->width * l->width;
     real sum[9] = {0}, own[9] = {0}, trace = 0;
-    l->loose[i] = 1;
+    l->unconstrained[i] = 1;
     for (int64_t q = l->first[i]; q < l->first[i + 1]; q++) {
-        if (l->held[l->column[q]] != 0) l->loose[i] = 0;
+        if (l->held[l->column[q]] != 0) l->unconstrained[i] = 0;
         for (int k = 0; k < size; k++) *(l->column[q] == i ? own + k : sum + k) += (real)l->single[q * size + k];
     }
     for (int k = 0; k < size; k += l->width + 1) trace += own[k];
@@ -36,11 +36,13 @@ static void diagonal_exact(const struct level *l, int64_t i)
         const bool rounding = fabs(rest) <= ROUND_OFF * trace;
         l->diagonal[i * size + k] = rounding ? -sum[k] : own[k];
         l->rest[i * size + k] = rounding ? 0 : (float)rest;
-        if (!rounding) l->loose[i] = 0;
+        if (!rounding) l->unconstrained[i] = 0;
     }
     l->scale[i] = trace / l->width;
 }
 
+/* Sets up the finest level from the matrix. Returns FAILED if an entry is not finite or a diagonal stiffness is
+ * negative. */
 static status finest_make(struct level *l, const struct block_matrix *a, const uint8_t *held)
 {
     const unsigned all = (1u << a->dim) - 1;
@@ -50,7 +52,7 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     l->diagonal = NEW("multigrid.diagonal", l->n * a->dim * a->dim, real);
     l->rest = NEW("multigrid.rest", l->n * a->dim * a->dim, float);
     l->scale = NEW("multigrid.scale", l->n, real);
-    l->loose = NEW("multigrid.loose", l->n, uint8_t);
+    l->unconstrained = NEW("multigrid.unconstrained", l->n, uint8_t);
     l->held = NEW("multigrid.held", l->n, uint8_t);
     array_copy(l->held, held, l->n, 1);
 #pragma omp parallel for schedule(static)
@@ -67,13 +69,13 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     return OK;
 }
 
-/* Translations, then rotations, as velocities at distance X from the middle. */
-static void finest_modes(struct level *l, real *const *place)
+/* Computes the rigid motions: translations, then rotations as velocities at the distance from the centre. */
+static void finest_modes(struct level *l, real *const *position)
 {
     const int w = l->width, m = l->modes;
     real middle[DIM_MAX] = {0};
     for (int d = 0; d < w; d++) {
-        for (int64_t i = 0; i < l->n; i++) middle[d] += place[d][i];
+        for (int64_t i = 0; i < l->n; i++) middle[d] += position[d][i];
         middle[d] /= (real)(l->n > 0 ? l->n : 1);
     }
     l->mode = NEW("multigrid.mode", l->n * w * m, real);
@@ -83,8 +85,8 @@ static void finest_modes(struct level *l, real *const *place)
         for (int d = 0; d < w; d++) mode[d * m + d] = 1;
         for (int r = 0; r < m - w; r++) {
             const int a = w == 2 ? 0 : (r + 1) % 3, b = w == 2 ? 1 : (r + 2) % 3;
-            mode[a * m + w + r] = -(place[b][i] - middle[b]);
-            mode[b * m + w + r] = place[a][i] - middle[a];
+            mode[a * m + w + r] = -(position[b][i] - middle[b]);
+            mode[b * m + w + r] = position[a][i] - middle[a];
         }
         for (int d = 0; d < w; d++)
             for (int e = 0; e < m; e++)
@@ -94,13 +96,14 @@ static void finest_modes(struct level *l, real *const *place)
 
 /* ---- all levels -------------------------------------------------------------------------------------------------- */
 
+/* Allocates the vectors of a level. */
 static void level_vectors(struct level *l)
 {
     real **vector[] = {&l->b, &l->x, &l->y, &l->d, &l->t};
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
 }
 
-/* Blocks of the diagonal and their inverses. */
+/* Extracts the diagonal blocks and inverts them. */
 static void coarse_diagonal(struct level *l)
 {
     const int size = l->width * l->width;
@@ -111,7 +114,7 @@ static void coarse_diagonal(struct level *l)
     level_invert(l);
 }
 
-/* The next level; false: nodes do not become fewer. */
+/* Builds the next level; returns false if it would not have clearly fewer nodes. */
 static bool coarsen(struct multigrid *m)
 {
     struct level *l = &m->level[m->levels - 1], *next = l + 1;
@@ -121,7 +124,7 @@ static bool coarsen(struct multigrid *m)
     level_modes(l, next);
     level_transfer(l);
     level_galerkin(l, next);
-    level_loose(l, next);
+    level_unconstrained(l, next);
     coarse_diagonal(next);
     level_vectors(next);
     level_largest(next);
@@ -129,7 +132,7 @@ static bool coarsen(struct multigrid *m)
     return true;
 }
 
-status multigrid_make(struct multigrid **out, const struct block_matrix *a, real *const *place, const uint8_t *held)
+status multigrid_make(struct multigrid **out, const struct block_matrix *a, real *const *position, const uint8_t *held)
 {
     struct multigrid *m = *out = NEW("multigrid", 1, struct multigrid);
     m->levels = 1;
@@ -139,7 +142,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
         *out = NULL;
         return made;
     }
-    finest_modes(&m->level[0], place);
+    finest_modes(&m->level[0], position);
     level_vectors(&m->level[0]);
     level_largest(&m->level[0]);
     while (m->levels < LEVELS_MOST) {
@@ -152,12 +155,13 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
     return OK;
 }
 
+/* Frees a level, but not the matrix that the finest level has by reference. */
 static void level_free(struct level *l)
 {
-    void *owned[] = {l->rest,       l->loose,    l->block,     l->diagonal,  l->inverse,    l->scale,
-                     l->held,       l->mode,     l->aggregate, l->tentative, l->down.first, l->down.column,
-                     l->down.block, l->up.first, l->up.column, l->up.block,  l->b,          l->x,
-                     l->y,          l->d,        l->t};
+    void *owned[] = {
+        l->rest,      l->unconstrained, l->block,     l->diagonal,   l->inverse,     l->scale,      l->held,
+        l->mode,      l->aggregate,     l->tentative, l->down.first, l->down.column, l->down.block, l->up.first,
+        l->up.column, l->up.block,      l->b,         l->x,          l->y,           l->d,          l->t};
     for (size_t k = 0; k < COUNT_OF(owned); k++) memory_free(owned[k]);
     if (l->single) return;
     memory_free((void *)l->first);
@@ -174,8 +178,8 @@ void multigrid_free(struct multigrid *m)
 
 /* ---- the cycle --------------------------------------------------------------------------------------------------- */
 
-/* Relaxation by the polynomial of Chebyshev that is small from largest / RANGE to largest (Saad, Iterative Methods for
- * Sparse Linear Systems, algorithm 12.1). `zero`: x is taken for 0. */
+/* Relaxes by the Chebyshev polynomial that is small from largest/RANGE to largest (Saad, Iterative Methods for
+ * Sparse Linear Systems, algorithm 12.1). zero: x is 0 on entry. */
 static void level_smooth(struct level *l, int degree, bool zero)
 {
     const real theta = 0.5 * l->largest * (1 + 1 / RANGE), delta = 0.5 * l->largest * (1 - 1 / RANGE);
@@ -189,7 +193,7 @@ static void level_smooth(struct level *l, int degree, bool zero)
     }
 }
 
-/* x of level k from its b. */
+/* Solves for x of level k with load b by a V-cycle. */
 static void cycle(struct multigrid *m, int k)
 {
     struct level *l = &m->level[k];

@@ -1,13 +1,14 @@
-/* Aggregates of nodes, by the strength of their connections, and their rigid motions. */
+/* Aggregates of nodes, from the strength of their connections, and their rigid motions. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* An entry counts as a connection if its norm is this part of the largest of its two rows, of their geometric mean. */
+/* An entry is a connection if its norm is at least this share of the geometric mean of the largest norms in its two
+ * rows. */
 #define WEAK 0.1
 
-/* Norm of entry q. */
+/* Returns the Frobenius norm of entry q. */
 static float entry_norm(const struct level *l, int64_t q)
 {
     const int size = l->width * l->width;
@@ -19,7 +20,7 @@ static float entry_norm(const struct level *l, int64_t q)
     return (float)sqrt(sum);
 }
 
-/* [first[n]] norms of the connections of free nodes; 0 for other entries. */
+/* Returns the norms of the connections of free nodes [first[n]], 0 for other entries; the caller frees them. */
 static float *strengths_make(const struct level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
@@ -38,7 +39,7 @@ static float *strengths_make(const struct level *l)
     return strength;
 }
 
-/* Takes node i and those of its neighbours that are free into a new aggregate. */
+/* Makes a new aggregate of node i and its neighbours without an aggregate. */
 static void aggregate_found(struct level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -47,7 +48,7 @@ static void aggregate_found(struct level *l, const float *strength, int64_t i)
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Has node i neighbours, all of which belong to no aggregate? */
+/* Returns true if node i has neighbours and none of them belongs to an aggregate. */
 static bool neighbours_free(const struct level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -59,7 +60,7 @@ static bool neighbours_free(const struct level *l, const float *strength, int64_
     return any;
 }
 
-/* The aggregate of the neighbours of node i to which it is most strongly connected; -1: there is none. */
+/* Returns the aggregate to whose nodes node i is most strongly connected, -1 if none. */
 static int32_t aggregate_nearest(const struct level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
@@ -101,11 +102,11 @@ void level_aggregate(struct level *l)
 
 /* ---- rigid motions ----------------------------------------------------------------------------------------------- */
 
-/* A column of which less than this is left beside the columns before it is dropped: aggregates in a line or of one
- * node have fewer motions. Round-off leaves 1e-16 of it times the size of the body over that of the aggregate. */
+/* A column is dropped if less than this share of it is left after orthogonalisation: aggregates in a line, or of one
+ * node, have fewer motions. Round-off leaves 1e-16 times the size of the body over that of the aggregate. */
 #define DROPPED 1e-9
 
-/* Product of columns a and c of the nodes `member`. */
+/* Returns the product of columns a and c over the nodes in `member`. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;
@@ -117,7 +118,7 @@ static real column_dot(const real *v, const int32_t *member, int64_t n, int w, i
     return sum;
 }
 
-/* Orthonormal columns in place of those of an aggregate (Gram-Schmidt, twice); r [m][m]: v = q r. */
+/* Makes the columns of an aggregate orthonormal in place (Gram-Schmidt, twice); r [m][m]: v = q r. */
 static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w, int m, real *r)
 {
     for (int c = 0; c < m; c++) {
@@ -143,7 +144,7 @@ static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w
     }
 }
 
-/* Members of every aggregate: member[first[a]] .. */
+/* Lists the members of every aggregate: member[first[a] .. first[a + 1] - 1]. */
 static void members_list(const struct level *l, int64_t *first, int32_t *member)
 {
     for (int64_t i = 0; i < l->n; i++)

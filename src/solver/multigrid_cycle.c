@@ -1,4 +1,4 @@
-/* Sweeps over the rows of a level: residuals, relaxation, motion to the next level and back. A row has one writer. */
+/* Loops over the rows of a level: residual, relaxation, restriction and prolongation. Every row has one writer. */
 #include "multigrid_parts.h"
 
 typedef float four __attribute__((vector_size(16)));
@@ -11,8 +11,8 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* sum -= K x of row i of the finest level, from differences of motions: a body that moves as a whole has no forces
- * however far it moves, and what `rest` has is not from bonds. */
+/* Computes sum -= K x for row i of the finest level from differences of displacements, so that a body in rigid
+ * motion has no forces, plus the part `rest` that is not from bonds. */
 static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -20,12 +20,14 @@ static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const r
     sum[0] -= force + l->rest[i] * x[i];
 }
 
+/* Returns the products of the four entries of block q with the displacement of its node relative to `own`. */
 static ALWAYS_INLINE four single_2(const struct level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(pair_load(x + (int64_t)l->column[q] * 2) - own, two);
     return four_load(l->single + q * 4) * (four){u[0], u[1], u[0], u[1]};
 }
 
+/* Computes sum -= K x as row_single_1 does, for blocks of 2 x 2. */
 static ALWAYS_INLINE void row_single_2(const struct level *l, int64_t i, const real *x, real *sum)
 {
     const int64_t end = l->first[i + 1];
@@ -41,6 +43,7 @@ static ALWAYS_INLINE void row_single_2(const struct level *l, int64_t i, const r
     }
 }
 
+/* Computes sum -= K x as row_single_1 does, for blocks of 3 x 3. */
 static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const real *x, real *sum)
 {
     const pair own = pair_load(x + i * 3);
@@ -63,7 +66,7 @@ static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const r
         for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
 }
 
-/* sum[0..w-1] -= (K x) of row i. */
+/* Computes sum[0 .. w - 1] -= K x for row i. */
 static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
@@ -83,6 +86,7 @@ static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real
     }
 }
 
+/* Computes row i of t = b - K x. */
 static ALWAYS_INLINE void row_residual(const struct level *l, int64_t i, const int w, const bool single)
 {
     real sum[WIDTH_MOST];
@@ -91,6 +95,7 @@ static ALWAYS_INLINE void row_residual(const struct level *l, int64_t i, const i
     for (int a = 0; a < w; a++) l->t[i * w + a] = sum[a];
 }
 
+/* Computes row i of level_relax. */
 static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep, real step, bool zero, const int w,
                                     const bool single)
 {
@@ -105,6 +110,7 @@ static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep,
     }
 }
 
+/* Computes row i of the load of the next level, up t. */
 static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next, int64_t i, const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};
@@ -117,6 +123,7 @@ static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next
     for (int a = 0; a < m; a++) next->b[i * m + a] = sum[a];
 }
 
+/* Adds row i of down x of the next level to x. */
 static ALWAYS_INLINE void row_prolong(struct level *l, const struct level *next, int64_t i, const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};

@@ -1,8 +1,8 @@
-/* The coarsest level: U'DU of its whole matrix, which is dense. */
+/* The coarsest level: U'DU factorisation of its dense matrix. */
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* Rows below j less their part of row j. */
+/* Subtracts row j from the rows below it, an elimination step. */
 static void dense_eliminate(real *u, int64_t n, int64_t j, real inverse)
 {
     const real *restrict pivot = u + j * n;

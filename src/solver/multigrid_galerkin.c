@@ -1,6 +1,6 @@
-/* The matrix of a coarser level: up x matrix x down, in slabs of rows so that matrix x down is never there as a whole.
- * In a slab every row of matrix x down has one writer, and then every row of the coarser matrix, which adds rows of the
- * slab in their order. */
+/* The matrix of a coarser level, up x matrix x down. It is computed in slabs of rows, so that matrix x down is never
+ * stored as a whole. In a slab each row of matrix x down has one writer, and then each row of the coarser matrix,
+ * which adds rows of the slab in ascending order. */
 #include <omp.h>
 #include <stdlib.h>
 
@@ -9,26 +9,29 @@
 
 enum { SLAB = 4096 };
 
-/* Lists of columns, one for each row, and for each thread a table of columns: -1, or where one stands in a list. */
+/* Column lists of all rows. */
 struct pattern {
     int64_t *first;
     int32_t *column;
 };
+
+/* For each thread a table [n] from a column to its position in a list, -1 if the list does not have it. */
 struct tables {
     int64_t n;
     int32_t *where;
 };
 
+/* Returns the table of the calling thread. */
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
-/* matrix x down of a slab, and the pattern of all of it. */
+/* The product matrix x down of a slab, and its pattern for all rows. */
 struct product {
     const struct level *l;
     struct level *next;
     struct tables tables;
     struct pattern product; /* of matrix x down */
-    int64_t *cursor;        /* [coarse] first entry of each row of `up` that is not added yet */
-    real *block;            /* of the slab */
+    int64_t *cursor;        /* [coarse] first entry of each row of `up` that is not yet added */
+    real *block;            /* blocks of the slab */
     int64_t first, end;     /* rows of the slab */
 };
 
@@ -40,7 +43,8 @@ static int compare_columns(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Columns of row i of the product of the pattern a x b, ascending if `list` is not NULL; returns their number. */
+/* Finds the columns of row i of the product of patterns a and b, stored in ascending order unless list is NULL;
+ * returns their number. */
 static int64_t product_row(const int64_t *a_first, const int32_t *a_column, const int64_t *b_first,
                            const int32_t *b_column, int64_t i, int32_t *where, int32_t *list)
 {
@@ -57,6 +61,7 @@ static int64_t product_row(const int64_t *a_first, const int32_t *a_column, cons
     return n;
 }
 
+/* Computes the pattern of the product of patterns a (n rows) and b. */
 static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first, const int32_t *a_column,
                          const int64_t *b_first, const int32_t *b_column, const struct tables *t)
 {
@@ -77,7 +82,7 @@ static void pattern_make(struct pattern *out, int64_t n, const int64_t *a_first,
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* out += a b for blocks [r][k] and [k][c]; r, k and c are literals. */
+/* Computes out += a b for blocks [r][k] and [k][c]; r, k and c are literals. */
 static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, const real *restrict b, const int r,
                                     const int k, const int c)
 {
@@ -94,7 +99,7 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Row i of matrix x down. */
+/* Computes row i of matrix x down. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct level *l = p->l;
@@ -116,7 +121,7 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds the rows of the slab to row `c` of the coarser matrix. */
+/* Adds the rows of the slab to row c of the coarser matrix. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
@@ -147,6 +152,7 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
+/* Computes the coarser matrix slab by slab, with the widths as literals. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;
@@ -162,7 +168,7 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Largest number of entries of a slab. */
+/* Returns the largest number of entries in a slab. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

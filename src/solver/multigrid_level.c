@@ -1,4 +1,5 @@
-/* Diagonals of a level, their inverses, and the largest eigenvalue of the scaled matrix. */
+/* Diagonal blocks of a level and their inverses, unconstrained fragments, and the largest eigenvalue of the scaled
+ * matrix. */
 #include <math.h>
 
 #include "base/eigenvalue.h"
@@ -6,8 +7,8 @@
 #include "base/team.h"
 #include "multigrid_parts.h"
 
-/* Inverse of the symmetric block a [w][w], of components that `held` does not name, by U'DU; a pivot below least x
- * scale becomes `scale`. */
+/* Inverts the symmetric block a [w][w] by U'DU. Components in `held` are left out; a pivot below least x scale is
+ * replaced by scale. */
 static void block_invert(const real *a, real *inverse, int w, unsigned held, real least, real scale)
 {
     real u[WIDTH_MOST][WIDTH_MOST], pivot[WIDTH_MOST];
@@ -47,6 +48,7 @@ void level_invert(struct level *l)
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if all components of entry q are 0. */
 static bool entry_is_zero(const struct level *l, int64_t q)
 {
     const int size = l->width * l->width;
@@ -55,7 +57,7 @@ static bool entry_is_zero(const struct level *l, int64_t q)
     return true;
 }
 
-/* Nodes of the piece of node i into list[0..n-1], marked as seen; returns n. */
+/* Lists the nodes connected to node i in list[0 .. n - 1] and marks them as seen; returns n. */
 static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -69,21 +71,21 @@ static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32
     return n;
 }
 
-void level_loose(const struct level *l, struct level *next)
+void level_unconstrained(const struct level *l, struct level *next)
 {
-    next->loose = NEW("multigrid.loose", next->n, uint8_t);
-    array_fill_bytes(next->loose, 1, next->n, 1);
+    next->unconstrained = NEW("multigrid.unconstrained", next->n, uint8_t);
+    array_fill_bytes(next->unconstrained, 1, next->n, 1);
     for (int64_t i = 0; i < l->n; i++)
-        if (l->aggregate[i] >= 0 && !l->loose[i]) next->loose[l->aggregate[i]] = 0;
+        if (l->aggregate[i] >= 0 && !l->unconstrained[i]) next->unconstrained[l->aggregate[i]] = 0;
     if (!l->single) return;
     uint8_t *seen = NEW("multigrid.pieces", next->n, uint8_t);
     int32_t *list = NEW("multigrid.pieces", next->n, int32_t);
     for (int64_t i = 0; i < next->n; i++) {
         if (seen[i]) continue;
         const int64_t n = piece_list(next, i, seen, list);
-        uint8_t loose = 1;
-        for (int64_t k = 0; k < n; k++) loose &= next->loose[list[k]];
-        for (int64_t k = 0; k < n; k++) next->loose[list[k]] = loose;
+        uint8_t unconstrained = 1;
+        for (int64_t k = 0; k < n; k++) unconstrained &= next->unconstrained[list[k]];
+        for (int64_t k = 0; k < n; k++) next->unconstrained[list[k]] = unconstrained;
     }
     memory_free(seen);
     memory_free(list);
@@ -91,12 +93,13 @@ void level_loose(const struct level *l, struct level *next)
 
 /* ---- the largest eigenvalue -------------------------------------------------------------------------------------- */
 
-/* Iterations of Lanczos: they find single stiff places, of which powers need many more, and reach some hundredths below
- * the largest eigenvalue of a lattice, where the relaxation allows for a quarter (RANGE in multigrid.c). */
+/* Lanczos iterations. They find isolated stiff nodes, for which power iterations would need many more, and
+ * underestimate the largest eigenvalue of a lattice by a few percent, for which the relaxation has a margin of a
+ * quarter (RANGE in multigrid.c). */
 enum { LANCZOS = 8 };
 #define LANCZOS_SHORT 1.05
 
-/* Sums of a b and of b c. */
+/* Three vectors: the products a b and b c are summed. */
 struct three_vectors {
     const real *a, *b, *c;
 };
@@ -110,7 +113,7 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
     }
 }
 
-/* d = D^-1 t; sum[0]: x . t; sum[1]: t . d. */
+/* Computes d = D^-1 t; sum[0] = x . t, sum[1] = t . d. */
 static void lanczos_scale(struct level *l, real *sum)
 {
     const int w = l->width;
@@ -124,7 +127,7 @@ static void lanczos_scale(struct level *l, real *sum)
     team_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
 }
 
-/* y = -(d + a x + b y) / length, swapped with x. */
+/* Computes y = -(d + a x + b y)/length and swaps x and y. */
 static void lanczos_turn(struct level *l, real a, real b, real length)
 {
 #pragma omp parallel for schedule(static)
@@ -133,13 +136,14 @@ static void lanczos_turn(struct level *l, real a, real b, real length)
     l->x = l->y, l->y = x;
 }
 
-/* Vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x is x . t of t = K x. */
+/* Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x = x . t with
+ * t = K x. */
 void level_largest(struct level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];
     int n = 0;
     for (int64_t k = 0; k < l->n * l->width; k++) {
-        const uint32_t mixed = (uint32_t)k * 2654435761u; /* Knuth's multiplicative hash, in place of random numbers */
+        const uint32_t mixed = (uint32_t)k * 2654435761u; /* Knuth's multiplicative hash instead of random numbers */
         l->t[k] = (real)((mixed ^ mixed >> 15) & 0xffff) / 65536 - 0.5;
         l->b[k] = l->x[k] = l->y[k] = 0;
     }
@@ -147,7 +151,7 @@ void level_largest(struct level *l)
     real length = sqrt(sum[1]);
     for (real along = 0; n < LANCZOS && length > 1e-6; n++) {
         lanczos_turn(l, along, n > 1 ? b[n - 2] : 0, length);
-        level_residual(l); /* t = -K x, as b is 0 */
+        level_residual(l); /* t = -K x, since b is 0 */
         lanczos_scale(l, sum);
         a[n] = along = -sum[0];
         b[n] = length = sqrt(real_max(0, sum[1] - square(a[n]) - (n > 0 ? square(b[n - 1]) : 0)));

@@ -1,10 +1,10 @@
-/* The smoothed prolongator and its transpose. */
+/* The smoothed prolongation and its transpose. */
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
 /* ---- pattern ----------------------------------------------------------------------------------------------------- */
 
-/* Puts `value` into the ascending list of *n, unless it is there. */
+/* Inserts `value` into the ascending list of *n values, unless it is in the list. */
 static void sorted_add(int32_t *list, int *n, int32_t value)
 {
     int k = *n;
@@ -14,7 +14,7 @@ static void sorted_add(int32_t *list, int *n, int32_t value)
     list[k] = value, ++*n;
 }
 
-/* Aggregates to which the neighbours of node i belong, at most as many as it has neighbours. */
+/* Lists the aggregates of the neighbours of node i; returns their number, at most that of its neighbours. */
 static int row_aggregates(const struct level *l, int64_t i, int32_t *list)
 {
     int n = 0;
@@ -24,6 +24,7 @@ static int row_aggregates(const struct level *l, int64_t i, int32_t *list)
     return n;
 }
 
+/* Computes the pattern of the prolongation. */
 static void down_pattern(struct level *l)
 {
     int32_t *list = BARE("multigrid.pattern", l->first[l->n], int32_t);
@@ -43,7 +44,7 @@ static void down_pattern(struct level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* force[k][w][m] = K of the tentative motions of the aggregate name[k], in row i. */
+/* Computes force[k][w][m] = K times the tentative motions of aggregate name[k], in row i. */
 static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const int32_t *name, int n, real *force,
                                       const int w, const int m)
 {
@@ -62,7 +63,7 @@ static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const in
     }
 }
 
-/* Row i of the prolongator: the tentative motions less a step of D^-1 K of them. */
+/* Computes row i of the prolongation: the tentative motions minus a step of D^-1 K times them. */
 static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;
@@ -81,6 +82,7 @@ static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, 
     }
 }
 
+/* Computes the transpose `up` of the prolongation p. */
 static void transfer_transpose(const struct level *l, const struct transfer *p, struct transfer *up)
 {
     const int w = l->width, m = l->modes;

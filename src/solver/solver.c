@@ -1,4 +1,4 @@
-/* Forces, tangents and residuals that the static solvers share. */
+/* Forces, tangents and residuals shared by the static solvers. */
 #include <math.h>
 
 #include "base/team.h"
@@ -21,8 +21,9 @@ real solver_largest(const struct field *v, int dim, int64_t n)
     return most;
 }
 
-/* Bond forces come from positions, whose last bit is a strain of eps |x|/dx, 1e-14 in a body of 100 spacings: at
- * strains of 3e-6 that is 1e-8 of a force. The second-order error of central differences is below 1e-10 there. */
+/* Strain of the difference of forces. Bond forces follow from positions, whose last bit is a strain of eps |x|/dx,
+ * 1e-14 in a body of 100 spacings: at a strain of 3e-6 that is 1e-8 of a force. The second-order error of central
+ * differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
 void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio)
@@ -42,13 +43,13 @@ void solver_tangent(const struct static_body *body, const struct field *in, stru
     }
 }
 
-/* What solver_force_block reads. */
+/* Forces of which solver_force_block sums squares. */
 struct constrained_forces {
     const struct particles *part;
     const uint8_t *held;
 };
 
-/* Sums of squares of forces on free components, sum[0], and on constrained ones, sum[1]. */
+/* Adds squares of forces on free components to sum[0], and of forces on constrained ones to sum[1]. */
 static void solver_force_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct constrained_forces *f = context;
@@ -65,7 +66,8 @@ void solver_norms(const struct solver *s, const struct particles *p, real *norm)
 void solver_scale(struct solver *s, real reaction, real left)
 {
     s->scale = real_max(s->applied, reaction);
-    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left); /* no load: the residual of the start */
+    /* without loads the scale is the initial residual */
+    if (s->scale <= s->noise) s->scale = s->first = real_max(s->first, left);
     const bool rests = left == 0 || (s->scale == s->first && left <= s->noise);
     s->residual = rests ? 0 : left / s->scale;
 }

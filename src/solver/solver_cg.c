@@ -1,20 +1,20 @@
-/* Conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a matrix: K of the bonds at the reference
- * positions by differences of their forces, preconditioned with Lambda. K is self-adjoint in the inner product that
- * counts a particle on a plane of symmetry by half: the other half belongs to the body beyond the plane. */
+/* Conjugate gradients for K u = b (Hestenes & Stiefel 1952), without a stored matrix: K is the stiffness of the
+ * bonds at the reference positions, by differences of forces, preconditioned with Lambda. K is self-adjoint in the
+ * inner product with weight 1/2 for particles on a plane of symmetry, whose other half belongs to the mirror image. */
 #include <math.h>
 
 #include "base/team.h"
 #include "solver_parts.h"
 
-#define CHECK_STEPS 50 /* steps between evaluations of the true residual, which gives the reactions, too */
+#define CHECK_STEPS 50 /* steps between evaluations of the true residual and of the reactions */
 
-#define STALLS_MOST 5 /* restarts that do not halve the residual: the rest is round-off */
+#define STALLS_MOST 5 /* restarts that do not halve the residual after which the rest is round-off */
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
 static bool is_constrained(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
-/* d . K d of free components. */
+/* Adds d . K d over free components. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -23,7 +23,7 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
-/* u . K u. */
+/* Adds u . K u. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -31,7 +31,7 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* r . r/Lambda and the plain r . r. */
+/* Adds r . r/Lambda to sum[0] and r . r to sum[1]. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -43,7 +43,7 @@ static void residual_block(const void *context, int64_t first, int64_t end, real
         }
 }
 
-/* Stiffness of the whole body at unit strain: sum E V [J]. */
+/* Returns the energy of the body at unit strain, sum E V [J]. */
 static real unit_energy(const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -54,7 +54,7 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* part.f = b - K u. Reactions on constrained components are measured, then removed. */
+/* Computes part.f = b - K u. Reactions on constrained components are measured, then removed. */
 static void true_residual(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -69,7 +69,7 @@ static void true_residual(struct solver *s, const struct static_body *body)
     loads_static_hold(body->loads, p);
 }
 
-/* r = part.f, and a new search direction. */
+/* Sets r = part.f and restarts the search directions. */
 static void restart(struct solver *s, const struct particles *p)
 {
     real sum[2];
@@ -82,6 +82,7 @@ static void restart(struct solver *s, const struct particles *p)
     s->rz = sum[0];
 }
 
+/* Computes initial displacement, residual and direction. */
 static void solver_cg_start(struct solver *s, const struct static_body *body)
 {
     const struct particles *p = body->part;
@@ -93,7 +94,7 @@ static void solver_cg_start(struct solver *s, const struct static_body *body)
     restart(s, p);
 }
 
-/* u += alpha d, r -= alpha K d; returns r . r. */
+/* Computes u += alpha d and r -= alpha K d; returns r . r. */
 static real solver_cg_advance(struct solver *s, real alpha)
 {
     real sum[2];
@@ -114,8 +115,8 @@ static real solver_cg_advance(struct solver *s, real alpha)
     return sum[1];
 }
 
-/* x = X + u, and the bond forces there, which energies and stresses of state-based models use. */
-static void solver_cg_place(const struct solver *s, const struct static_body *body)
+/* Sets x = X + u and computes the bond forces there, from which energies and stresses of state-based models follow. */
+static void solver_cg_displace(const struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
     for (int d = 0; d < p->dim; d++)
@@ -123,19 +124,19 @@ static void solver_cg_place(const struct solver *s, const struct static_body *bo
     solver_bond_force(body);
 }
 
-/* *done if the true residual is small enough. Where the residual of the recurrence (`by_recurrence` [N]) has drifted
- * off it by round-off, the iteration restarts; FAILED after STALLS_MOST restarts without gain. */
+/* Sets *done if the true residual is below the tolerance. If the recursive residual (by_recurrence [N]) differs from
+ * it by round-off, the iteration is restarted; returns FAILED after STALLS_MOST restarts without progress. */
 static status check(struct solver *s, const struct static_body *body, int64_t step, real by_recurrence, bool *done)
 {
     true_residual(s, body);
     *done = s->residual <= body->tolerance;
-    if (*done) solver_cg_place(s, body);
+    if (*done) solver_cg_displace(s, body);
     if (*done || s->residual * s->scale <= 2 * by_recurrence) return OK;
     s->stalls = s->residual < 0.5 * s->best ? 0 : s->stalls + 1;
     s->best = real_min(s->best, s->residual);
     restart(s, body->part);
     if (s->stalls < STALLS_MOST) return OK;
-    solver_cg_place(s, body); /* the nearest that was found, in place of the last trial motion */
+    solver_cg_displace(s, body); /* the last accepted state replaces the trial motion */
     return status_set(FAILED,
                       "conjugate gradients at step %lld: a residual of %.3g of the load stays, where %.3g is "
                       "wanted; choose a larger solver_tolerance (round-off leaves 1e-8 of compact bodies, 1e-6 of "

@@ -1,4 +1,4 @@
-/* Static solvers before their first step: constraints, preconditioner, norm of the loads; and their archive. */
+/* Set-up of static solvers: constraints, preconditioner, norm of the loads; and their archive. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@
 #include "base/team.h"
 #include "solver_parts.h"
 
-/* Largest moment of loads, relative to what they could make, that scattered particles explain. */
+/* Largest moment of loads, over the sum of |force x distance|, that irregular particles explain. */
 #define TURNING_MOST 0.05
 
 static void field_make(struct field *v, int dim, int64_t n)
@@ -22,13 +22,13 @@ static void field_free(struct field *v)
     for (int d = 0; d < DIM_MAX; d++) memory_free(v->of[d]);
 }
 
-/* What solver_scaled_stiffness works on. */
+/* Context of solver_scaled_stiffness. */
 struct scaled {
     struct solver *solver;
     const struct static_body *body;
 };
 
-/* y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; `before` and v are scratch arrays. */
+/* Computes y = Lambda^-1/2 K Lambda^-1/2 x, both [dim n]; overwrites `before` and v. */
 static void solver_scaled_stiffness(void *context, const real *x, real *y)
 {
     const struct scaled *scaled = context;
@@ -45,8 +45,8 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), of the bonds as springs; scaled up by the largest
- * eigenvalue where the model is stiffer than its springs. */
+/* Computes Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), with the bonds as springs; multiplies
+ * it by the largest eigenvalue if the model is stiffer than these springs. */
 static void make_diagonal(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -65,7 +65,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     const real stiffer = MARGIN_OF_EIGENVALUE * largest_eigenvalue(p->dim * p->n, solver_scaled_stiffness, &scaled) / 4;
     for (int64_t i = 0; i < p->n; i++) s->diagonal[i] *= real_max(1, stiffer);
     for (int d = 0; d < p->dim; d++) array_copy(p->x[d], kept.of[d], p->n, sizeof(real));
-    solver_bond_force(body); /* energies of state-based models use it */
+    solver_bond_force(body); /* energies of state-based models use the dilatation at X */
     for (int d = 0; d < p->dim; d++) {
         array_fill_bytes(p->v[d], 0, p->n, sizeof(real));
         array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
@@ -73,7 +73,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     field_free(&kept);
 }
 
-/* Weights and constraints of particles on planes of symmetry: no force takes them off the plane, and only half of each
+/* Sets weights and constraints of particles on planes of symmetry: they stay on the plane, and only half of each
  * belongs to the body. */
 static void make_weights(struct solver *s, const struct static_body *body)
 {
@@ -90,15 +90,15 @@ static void make_weights(struct solver *s, const struct static_body *body)
     }
 }
 
-/* Steps in which supports reach their place. Relaxation spreads by one spacing per step at the most: over as many steps
- * as the body has spacings, supports strain bonds about as much as the body. */
+/* Returns the number of steps in which supports move to their final positions. Relaxation spreads by at most one
+ * spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the body. */
 static int64_t supports_ramp(const struct solver *s, const struct static_body *body)
 {
     const real most = solver_largest(&s->driven, s->dim, s->n);
     return most > 0 ? 1 + (int64_t)(particles_longest(body->part) / body->spacing) : 0;
 }
 
-/* Norm of the applied forces on free components, s->applied [N]. */
+/* Computes the norm of the applied forces on free components, s->applied [N]. */
 static void make_applied(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -110,7 +110,7 @@ static void make_applied(struct solver *s, const struct static_body *body)
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
 
-/* Norm of the forces that the round-off of positions makes in a body at rest [N], with a margin of ten. */
+/* Computes the norm of the forces caused by round-off of positions in a body at rest [N], times a margin of ten. */
 static void make_noise(struct solver *s, const struct particles *p)
 {
     real sum = 0;
@@ -119,7 +119,7 @@ static void make_noise(struct solver *s, const struct particles *p)
     s->noise = 10 * sqrt(sum);
 }
 
-/* True if a support or a plane of symmetry constrains component d of any particle. */
+/* Returns true if a support or a plane of symmetry constrains component d of any particle. */
 static bool component_constrained(const struct loads *l, int d)
 {
     for (int b = 0; b < l->n; b++) {
@@ -130,7 +130,7 @@ static bool component_constrained(const struct loads *l, int d)
     return false;
 }
 
-/* REFUSED for applied forces along d that are neither balanced nor carried by supports. */
+/* Returns REFUSED for applied forces along d that are neither balanced nor carried by supports. */
 static status force_balanced(const struct loads *loads, int d)
 {
     real sum = 0, size = 0;
@@ -149,7 +149,7 @@ static status force_balanced(const struct loads *loads, int d)
                       "xyz"[d], sum);
 }
 
-/* REFUSED for loads without equilibrium. Moments are those of one plane body that no support touches. */
+/* Returns REFUSED for loads that have no equilibrium. Moments are checked for one plane body without supports. */
 static status loads_balanced(const struct static_body *body)
 {
     struct loads *l = body->loads;
@@ -221,7 +221,7 @@ static status field_archive(const struct field *v, struct archive *a, const char
 
 status solver_archive(struct solver *s, struct archive *a)
 {
-    if (!s->held) return OK; /* an explicit run */
+    if (!s->held) return OK; /* explicit runs have no solver */
     ARCHIVE_VALUE(a, "solver/residual", s->residual);
     ARCHIVE_VALUE(a, "solver/scale", s->scale);
     ARCHIVE_VALUE(a, "solver/first", s->first);

@@ -1,9 +1,10 @@
-/* The solver of a body at rest, as a part of a run. */
+/* Row of the table of parts: the static solver. */
 #include "solver/solver.h"
 #include "run/part.h"
 
 static void solver_free_all(struct run *e) { solver_free(e->solver); }
 
+/* Writes name, steps and residual of the solver of a body at rest. */
 static void put_solver(const struct run *e, struct json *j)
 {
     static const char *const name[] = {[SOLVER_RELAXATION] = "relaxation", [SOLVER_CG] = "cg"};

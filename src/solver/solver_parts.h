@@ -1,20 +1,20 @@
-/* Functions that the static solvers share. */
+/* Functions shared by the static solvers. */
 #ifndef CLEAVE_SOLVER_PARTS
 #define CLEAVE_SOLVER_PARTS
 
 #include "solver/solver.h"
 
-/* Forces of bonds at the current positions, into part.f. */
+/* Computes the bond forces at the present positions into part.f; bonds do not break. */
 void solver_bond_force(const struct static_body *body);
 
-/* out = K in: the decrease of bond forces along `in` from the reference positions, by central differences.
+/* Computes out = K in: the decrease of bond forces along `in` from the reference positions, by central differences.
  * strain_ratio: largest strain of `in` over its largest component [1/m]. */
 void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio);
 
-/* Norms of part.f on free components, sum[0], and on constrained ones, sum[1] [N]. */
+/* Computes the norms of part.f on free components, norm[0], and on constrained ones, norm[1] [N]. */
 void solver_norms(const struct solver *s, const struct particles *p, real *norm);
 
-/* Residual and scale from these norms: the residual, and the reactions. */
+/* Computes residual and scale from part.f: the residual, and the reactions. */
 void solver_measure(struct solver *s, const struct particles *p);
 
 #endif

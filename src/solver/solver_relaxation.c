@@ -1,4 +1,4 @@
-/* Adaptive dynamic relaxation (Kilic & Madenci 2010): motion in pseudo-time of unit steps, with artificial mass and
+/* Adaptive dynamic relaxation (Kilic & Madenci 2010): motion in pseudo-time with unit steps, fictitious mass and
  * damping, until the body is at rest. */
 #include <math.h>
 
@@ -15,13 +15,13 @@ static void supports_move(const struct solver *s, struct particles *p, int64_t s
             if (s->held[i] >> d & 1) p->x[d][i] += s->driven.of[d][i] / (real)s->ramp;
 }
 
-/* What damping_block reads. */
+/* Context of damping_block. */
 struct relaxing {
     const struct solver *solver;
     const struct particles *part;
 };
 
-/* u^T k u with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u and v^T v, free components. */
+/* Adds over free components: u^T k u with k_ii = -(f^n - f^{n-1})/(Lambda_ii v^{n-1/2}), u^T u, and v^T v. */
 static void damping_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct relaxing *relaxing = context;
@@ -38,16 +38,16 @@ static void damping_block(const void *context, int64_t first, int64_t end, real 
         }
 }
 
-#define DAMPING_MOST 1.9 /* 2 stops the motion */
+#define DAMPING_MOST 1.9 /* 2 would stop the motion */
 
-/* Damping coefficient c = 2 sqrt(u^T k u / u^T u), from the sums of damping_block. */
+/* Returns the damping coefficient c = 2 sqrt(u^T k u/u^T u) from the sums of damping_block. */
 static real damping(const real *sum)
 {
     const real ratio = sum[1] > 0 ? sum[0] / sum[1] : 0;
     return ratio > 0 ? real_min(2 * sqrt(ratio), DAMPING_MOST) : 0;
 }
 
-/* v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step from rest is f/(2 Lambda). */
+/* Computes v^{n+1/2} = ((2 - c) v^{n-1/2} + 2 f/Lambda)/(2 + c); the first half step from rest is f/(2 Lambda). */
 static void particles_move(struct solver *s, struct particles *p, int64_t step, real c)
 {
     const real kick = step == 0 ? 0.5 : 2 / (2 + c), keep = (2 - c) / (2 + c);
@@ -72,7 +72,7 @@ status relaxation_step(struct solver *s, const struct static_body *body, int64_t
     solver_measure(s, p);
     loads_static_hold(body->loads, p);
     team_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
-    /* small forces alone also occur in a body that swings through its equilibrium */
+    /* forces are also small when a body oscillates through its equilibrium: the speed must be small, too */
     s->farthest = real_max(s->farthest, sqrt(sum[1]));
     *done = step >= s->ramp && s->residual <= body->tolerance &&
             (s->residual == 0 || sqrt(sum[2]) <= 10 * body->tolerance * s->farthest);
