@@ -1,16 +1,15 @@
-/* Closed forms of the uniform elastic bar [left, right]: what a computed field is compared with.
- * c = sqrt(E/rho); F is the stress at the loaded end, s the distance from it; tension is positive. Strain is stress/E
- * but where the bar has yielded.
+/* Closed forms of waves in a uniform elastic bar [left, right], with which computed fields are compared.
+ * c = sqrt(E/rho) is the wave speed, F the stress at the loaded end, s the distance from that end; tension is positive.
+ * Strain is stress/E unless the bar has yielded.
  *
- *   STEP BAR      a load applied at t = 0 and held, the bar at rest before: d'Alembert's solution with all reflections
+ *   STEP BAR      a load applied at t = 0 and held, on a bar at rest: d'Alembert's solution with all reflections
  *                     sigma = F sum_n (-r)^n [H(ct - 2nL - s) + r H(ct - 2(n+1)L + s)],   r = +1 fixed, -1 free far end
- *                 each front carries v = -+ sigma/(rho c); displacements are the fronts' velocities times their age
- *   PLASTIC BAR   the same load beyond the yield stress, bilinear with tangent E_t: a precursor sigma_y at c, the rest
- *                 at sqrt(E_t/rho) (von Karman & Duwez 1950); until the precursor reaches the far end, nothing after
- *                 that
- *   PULSE         the waves that initial pulses are (region.h): at rest ahead, displaced by sqrt(pi) V r/c behind; the
- *                 ends reflect by images, a fixed one is held wherever it is
- *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
+ *                 each front carries v = -+ sigma/(rho c); displacements are the velocities of fronts times their age
+ *   PLASTIC BAR   the same load beyond the yield stress sigma_y, bilinear with tangent modulus E_t: a precursor sigma_y
+ *                 at speed c, the rest at sqrt(E_t/rho) (von Karman & Duwez 1950); valid until the precursor reaches
+ * the far end PULSE         the waves from initial pulses (region.h): at rest ahead, displaced by sqrt(pi) V r/c
+ * behind; the ends reflect by images, and a fixed end keeps its displacement MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi
+ * (x - origin)/lambda), under the body force that makes it a solution */
 #ifndef CLEAVE_EXACT
 #define CLEAVE_EXACT
 
@@ -21,37 +20,44 @@ struct exact {
     enum exact_form form;
     real left, right;                    /* ends of the bar [m] */
     real young, tangent, yield, density; /* E, E_t, sigma_y [Pa]; rho [kg/m^3] */
-    int reflection[2];                   /* of stress at the left and right end: +1 fixed, -1 free */
+    int reflection[2];                   /* factor of stress at the left and right end: +1 fixed, -1 free */
     int loaded;                          /* STEP, PLASTIC: the loaded end, -1 left, +1 right */
     real load;                           /* STEP, PLASTIC: F [Pa] */
-    const struct wave_pulse *pulse;      /* PULSE: borrowed */
+    const struct wave_pulse *pulse;      /* PULSE: [pulses] kept by reference */
     int pulses;
     real amplitude, period, wavelength, origin; /* MANUFACTURED: U [m], T [s], lambda [m], [m] */
 };
 
 struct exact_values {
-    real displacement, velocity, stress, strain;
-}; /* [m] [m/s] [Pa] [1] */
+    real displacement; /* [m] */
+    real velocity;     /* [m/s] */
+    real stress;       /* [Pa] */
+    real strain;       /* [1] */
+};
 
-/* At reference position X and time t >= 0; all NAN where the form does not hold. On a front: its value behind. */
+/* Returns the values at reference position X [m] and time t >= 0 [s], on a front the value behind it; NAN if the
+ * closed form does not apply. */
 struct exact_values exact_at(const struct exact *e, real X, real t);
 
-/* A jump of the stress that moves along the bar. */
+/* A stress jump that moves along the bar. */
 struct exact_front {
-    real place;          /* [m] */
-    int ahead;           /* side that it has not reached: -1 smaller x, +1 greater x */
-    real before, behind; /* stress on its two sides [Pa] */
+    real position;       /* position [m] */
+    int ahead;           /* direction of its motion: -1 towards smaller x, +1 towards greater x */
+    real before, behind; /* stress ahead of the front and behind it [Pa] */
 };
 enum { EXACT_FRONTS = 2 };
 
-/* STEP BAR: the front that was reflected last. PLASTIC BAR: the precursor and, if the load is beyond yield, the plastic
- * front. Returns how many there are; none for smooth forms and where the form does not hold. */
+/* Computes the fronts at time t [s]. STEP BAR: the front that was reflected last. PLASTIC BAR: the precursor and,
+ * beyond the yield stress, the plastic front. Returns their number; 0 for smooth forms and where the closed form
+ * does not apply. */
 int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
-/* Where the exact stress is even, well away from fronts and ends. PLATEAU: behind the (last) front, a tenth of the
- * bar away from it and from the ends; 0.08 of it behind a plastic front. PRECURSOR: from 0.07 of the bar behind the
- * precursor to 0.05 ahead of the plastic front. False: there is no such place. */
+/* Regions in which the exact stress is constant, at a distance from fronts and ends. PLATEAU: behind the last front,
+ * at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends. PRECURSOR: from 0.07 bar lengths
+ * behind the precursor to 0.05 ahead of the plastic front. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
+
+/* Computes the range [from, to] of a window at time t [m]; returns false if there is none. */
 bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to);
 
 #endif

@@ -1,7 +1,6 @@
-/* Room `probes`: what is measured in a run: time series, profiles, figures, the balance of energy. It reads particles,
- * bonds, loads and tips and changes none of them; output of the engine calls it.
- *
- * What a run measures besides its frames: time series, profiles, and the figures scripts rely on. */
+/* Room `probes`: quantities measured in a run besides frames: time series, profiles, figures for scripts, the
+ * balance of energy. Probes read particles, bonds, loads and tips and change none of them; the step and its reports
+ * call them. */
 #ifndef CLEAVE_PROBES
 #define CLEAVE_PROBES
 
@@ -18,100 +17,120 @@
 #include "fracture/sif.h"
 #include "fracture/tips.h"
 
-/* Figures of EXACT; all but the last three by the stress of bond flux (probes_parts.h), those with `_strain` the
- * same of E x strain against E x exact strain; strain by central differences over the neighbours in the bar:
+/* Figures of EXACT. All but the last three are computed from the stress by bond flux (probes_parts.h); figures with
+ * `_strain` compare E x strain with E x exact strain, with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
- *   plateau                 mean stress behind the last front, off fronts and ends (exact_plateau) [Pa]
+ *   plateau                 mean stress behind the last front, away from fronts and ends (exact_plateau) [Pa]
  *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
- *   end_displacement        of the outermost particle at the loaded end, half a spacing inside [m]
- *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, with velocities when they are known */
+ *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
+ *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, at the time of the velocities */
 
-/* The same run on material points alone (engine_baseline), at its end. */
+/* Final state of the run on material points alone with which PULSE probes are compared (engine_baseline). */
 struct baseline {
     real *v[DIM_MAX];   /* [n] velocities [m/s] */
-    real energy_change; /* of all energy since the start [1] */
+    real energy_change; /* relative energy change since the start [1] */
 };
 
-/* What probes may look at; borrowed, read only. */
+/* Read-only view of a run that probes measure (run_observed); all pointers are borrowed. */
 struct observed {
     const struct particles *part;
-    const struct cells *cells; /* reference search */
+    const struct cells *cells; /* search over reference positions */
     const struct bonds *bonds;
     const struct loads *loads;
     const struct grid *grid;
     const struct tips *tips;
     const struct material *material;
     const struct partial_stress *partial;
-    real spacing;                /* [m] */
-    real thickness;              /* section, thickness or 1 */
-    real strain_stress;          /* largest |component| of the initial stress [Pa], for PATCH */
-    real residual_step0;         /* largest nodal |force| of the first step (grid and PD), for PATCH [N] */
-    real t;                      /* [s] */
-    bool in_steps;               /* load steps, in which applied forces are known as reactions are */
-    int64_t load_step;           /* so many done, that at hand included; 0: the run has none */
-    real energy_change;          /* (E - E_0 - work)/E_0 at the last sample; NAN without E_0 [1] */
-    const struct growth *growth; /* cracks with prescribed or SIF-controlled growth */
+    real spacing;                /* of particles [m] */
+    real thickness;              /* section of a bar [m^2], thickness in the plane [m], 1 in space */
+    real strain_stress;          /* for PATCH: largest |component| of the initial stress [Pa] */
+    real residual_step0;         /* for PATCH: largest force on a node or peridynamic particle in the first step [N] */
+    real t;                      /* time of positions [s] */
+    bool in_steps;               /* the run makes load steps, whose applied forces are known with their reactions */
+    int64_t load_step;           /* load steps done, including the current one; 0 without load steps */
+    real energy_change;          /* (E - E_0 - work)/E_0 at the last sample; NAN if E_0 is 0 [1] */
+    const struct growth *growth; /* [growths] cracks with prescribed or SIF-controlled growth */
     int growths;
-    const struct baseline *baseline; /* NULL: none */
-    real t_velocity;                 /* when velocities are known, half a step before t [s] */
-    const struct wave_pulse *pulse;  /* initial pulses, for EXACT */
+    const struct baseline *baseline; /* for PULSE; NULL if there is none */
+    real t_velocity;                 /* time of velocities: half a step before t [s] */
+    const struct wave_pulse *pulse;  /* [pulses] for EXACT: initial pulses */
     int pulses;
-    enum space space; /* ... and what SIF needs: horizon [m], pre-cracks */
-    real horizon;
-    const struct crack *crack;
+    enum space space;          /* for SIF */
+    real horizon;              /* for SIF [m] */
+    const struct crack *crack; /* for SIF: [cracks] pre-cracks */
     int cracks;
 };
 
-struct probe; /* probes.c */
+struct probe; /* probes_parts.h */
 struct probes {
     int n;
     struct probe *probe;
-    int columns; /* of all probes together */
+    int columns; /* of all probes */
     struct column *column;
-    real *value;  /* at the last sample, by column */
-    real sampled; /* time of the last sample; NAN: none [s] */
+    real *value;  /* [columns] at the last sample */
+    real sampled; /* time of the last sample; NAN if none [s] */
 };
 
-/* Velocities at the end of a sample. */
+/* Time of the velocities at the end of a sample. */
 struct velocity_time {
-    real t;     /* that they are of [s] */
-    real scale; /* of velocities of the sample over what lies between: bulk damping [1] */
+    real t;     /* of the present velocities [s] */
+    real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
 };
 
-/* Binds requests to particles. Refuses a point outside the body, an unknown boundary name, or a bar that is not that of
- * the closed form. */
+/* Binds requests to particles of a run. Returns REFUSED for a point outside the body, an unknown boundary, or a bar
+ * that the closed form does not describe. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
+
+/* Frees probes and what they own. */
 void probes_free(struct probes *s);
-/* Fills value[], as far as positions tell. */
+
+/* Computes the values of a sample that depend on positions only, at o->t. */
 void probes_sample(struct probes *s, const struct observed *o);
-/* Velocities are known half a step before and after the time of a sample, reactions with the forces of the step.
- * `keep`, before the step: keeps positions and velocities of o->t and o->t_velocity. `sample_end`, after it: fills the
- * rest of value[] for the time kept; `now`: of present velocities. Without a `keep` before, the body is in
- * equilibrium. */
+
+/* Stores positions of o->t and velocities of o->t_velocity, before a step. */
 void probes_keep(struct probes *s, const struct observed *o);
+
+/* Completes the values of a sample after the step, at the time of probes_keep: velocities are interpolated, and
+ * reactions are those of the forces of the step. now: time of the present velocities. Without probes_keep before, the
+ * body is taken to be in equilibrium. */
 void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now);
-/* Called every step, before the flags of the step are cleared: BREAK and SPALL look where FLAG_LOST_BOND marks that
- * bonds broke, REACTION adds up its largest and rms force. */
+
+/* Updates the probes that observe every step: BREAK and SPALL search for bonds that just broke (FLAG_LOST_BOND),
+ * REACTION updates its largest and root-mean-square force. Call it before the flags of the step are cleared. */
 void probes_step(struct probes *s, const struct observed *o);
-/* The part of it that looks for broken bonds. */
+
+/* Updates BREAK and SPALL probes only, in load steps. */
 void probes_breaks(struct probes *s, const struct observed *o);
-/* Calls `emit` for every figure of every probe: probe name, quantity, value (SI). Figures a run does not have
- * (NAN) are left out. */
+
+/* Calls emit for every figure of every probe that is not NAN; value is in SI units, context is passed on. */
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
-/* The profiles of LINE and EXACT probes as csv, each handed to `put` as the file <name>_<frame>.csv; and how many
- * they are. */
+
+/* Writes a file `name` with a text of `length` bytes; context: as handed to probes_profiles. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
+
+/* Prints the profile of every LINE and EXACT probe as CSV, and hands each to put as the file `<probe>_<frame>.csv`.
+ * Returns FAILED if put does. */
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
+
+/* Returns the number of profiles of a frame. */
 int64_t probes_profiled(const struct probes *s);
-/* Name of the file of a frame of the k-th of them, into `name` [PROFILE_NAME]; false: there is none. */
+
+/* Longest name of a profile, with its terminator. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
+
+/* Writes the file name of profile k of a frame to name [PROFILE_NAME]; returns false if there is no profile k. */
 bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
-/* Factors of the named SIF probe at the last sample, and the direction of its tip then; false: none yet. */
+
+/* Finds the stress-intensity factors of the named SIF probe at the last sample, and the direction of its tip.
+ * Returns false if there is none yet. */
 bool probes_sif_control(const struct probes *s, const char *name, struct control *found);
-/* Tip, as tips and growths are now, and radius [m] of the k-th probe, if it is a SIF probe; else false. */
-bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real place[2], real *radius);
+
+/* Finds the present tip [m] and the outer radius [m] of probe k. Returns false if it is no SIF probe. */
+bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real position[2], real *radius);
+
+/* Saves or restores the state of probes; FAILED if a restored state does not fit the probes. */
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

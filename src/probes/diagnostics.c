@@ -1,4 +1,4 @@
-/* Balance of energy and momentum, the first break, and the stability check. */
+/* Balances of energy and momentum, the first break, and the check for diverged particles. */
 #include "probes/diagnostics.h"
 
 #include <math.h>
@@ -13,12 +13,12 @@
 void diagnostics_make(struct diagnostics *w)
 {
     *w = (struct diagnostics){
-        .break_time = NAN, .break_place = {NAN, NAN, NAN}, .driven_time = NAN, .now.spin_error = NAN};
+        .break_time = NAN, .break_position = {NAN, NAN, NAN}, .driven_time = NAN, .now.spin_error = NAN};
 }
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* The error is the momentum, of particles and nodes, that was neither present at the start nor supplied since. */
+/* The error is the momentum of particles and nodes that was neither present at the start nor supplied since. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
@@ -39,7 +39,7 @@ real diagnostics_energy_change(const struct diagnostics *w)
     return (energy_sum(&w->now.energy) - w->now.energy.damped - w->now.external_work) / w->energy_start - 1;
 }
 
-/* Error of the energy balance, relative to the largest energy or work so far. */
+/* Computes the error of the energy balance, relative to the largest energy or work so far. */
 static void balance_of(struct diagnostics *w)
 {
     struct energy_balance *l = &w->now;
@@ -61,7 +61,7 @@ void diagnostics_balance(struct diagnostics *w, real t, const struct energy *ene
 
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
-int64_t diagnostics_break_place(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
+int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
 {
     const real along[DIM_MAX] = {0};
     int64_t cut = 0;
@@ -78,6 +78,7 @@ int64_t diagnostics_break_place(const struct particles *p, const int32_t *list, 
     return ends;
 }
 
+/* Returns true if a driven particle has just lost a bond. */
 static bool driven_breaks(const struct particles *p)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
@@ -91,7 +92,7 @@ bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real h
     w->bonds_broken += broken;
     if (broken == 0) return false;
     if (isnan(w->break_time)) {
-        w->break_ends = diagnostics_break_place(p, NULL, p->n, horizon, w->break_place);
+        w->break_ends = diagnostics_first_break(p, NULL, p->n, horizon, w->break_position);
         if (w->break_ends > 0) w->break_time = t;
     }
     const bool tears = isnan(w->driven_time) && driven_breaks(p);
@@ -101,22 +102,22 @@ bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real h
 
 /* ---- stability check --------------------------------------------------------------------------------------------- */
 
-/* Has particle i diverged? */
+/* Returns true if particle i has diverged. */
 static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, real limit)
 {
     const int32_t alone[1] = {(int32_t)i};
     return particles_diverged(p, alone, 1, limit);
 }
 
-/* FAILED, with the place of particle i, the step and the cause. */
+/* Returns FAILED, with the position of particle i, the step and the cause. */
 static status divergence_report(const struct particles *p, int64_t i, real limit, int64_t step, real t)
 {
-    char place[128];
+    char position[128];
     real speed2 = 0;
     int used = 0;
     for (int d = 0; d < p->dim; d++) {
         speed2 += square(p->v[d][i]);
-        used += snprintf(place + used, sizeof place - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
+        used += snprintf(position + used, sizeof position - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     }
     char what[128];
     if (isfinite(speed2) && speed2 > limit * limit)
@@ -124,7 +125,7 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
     else
         snprintf(what, sizeof what, "has a position or velocity that is no finite number");
     return status_set(FAILED, "unstable at step %lld, t = %.3g s: particle %d at (%s) m %s", (long long)step, t,
-                      (int)p->id[i], place, what);
+                      (int)p->id[i], position, what);
 }
 
 real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n)
@@ -139,7 +140,7 @@ real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t
     return sqrt(most);
 }
 
-/* First of the listed particles that has diverged, n_all if none has. */
+/* Returns the first of the listed particles that has diverged, n_all if none has. */
 static int64_t first_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit)
 {
     if (!particles_diverged(p, list, n, limit)) return p->n_all;
@@ -171,7 +172,7 @@ status diagnostics_archive(struct diagnostics *w, struct archive *a)
     ARCHIVE_VALUE(a, "diagnostics/turns", w->turns);
     ARCHIVE_VALUE(a, "diagnostics/started", w->started);
     ARCHIVE_VALUE(a, "diagnostics/break_time", w->break_time);
-    ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_place);
+    ARCHIVE_VALUE(a, "diagnostics/break_place", w->break_position);
     ARCHIVE_VALUE(a, "diagnostics/break_ends", w->break_ends);
     ARCHIVE_VALUE(a, "diagnostics/driven_time", w->driven_time);
     ARCHIVE_VALUE(a, "diagnostics/bonds_broken", w->bonds_broken);

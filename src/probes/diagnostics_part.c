@@ -1,4 +1,4 @@
-/* The balance of energy and momentum, and the cracks, in the summary and in checkpoints. */
+/* The balance of energy and momentum and the figures of cracks, in the summary and in checkpoints. */
 #include <math.h>
 #include <stdio.h>
 
@@ -6,6 +6,7 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
+/* Writes the energies, the work and the errors of the balances. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -17,7 +18,7 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_real(j, "angular_momentum_error", l->spin_error);
 }
 
-/* When something was: the time, in load steps their number. */
+/* Writes the time t of an event [s], or its number in load steps, as `what`_time or `what`_step. */
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
@@ -29,6 +30,7 @@ static void put_when(struct json *j, const struct scene *scene, const struct run
         json_count(j, key, (int64_t)floor(t / clock->dt + 0.5));
 }
 
+/* Writes position, growth, times and speeds of a crack tip. */
 static void put_tip(struct json *j, const struct scene *s, const struct run_clock *clock, const struct tip *tip)
 {
     const int dim = s->dim;
@@ -45,7 +47,7 @@ static void put_tip(struct json *j, const struct scene *s, const struct run_cloc
     json_close(j, '}');
 }
 
-/* Bonds of driven particles that loads have broken; of one between two of them both count. */
+/* Returns the number of directed bonds of driven particles that loads have broken. */
 static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
 {
     int64_t broken = 0;
@@ -54,6 +56,7 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
+/* Writes the first breaks, the longest crack and all crack tips. */
 static void put_crack(struct json *j, const struct run *e)
 {
     const struct tip *longest = tips_longest(&e->fracture->tips);

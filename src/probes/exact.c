@@ -1,4 +1,4 @@
-/* Closed forms of waves in a uniform bar. */
+/* Closed forms of waves in a uniform bar (exact.h). */
 #include "probes/exact.h"
 
 #include <math.h>
@@ -10,18 +10,22 @@ static real wave_speed(const struct exact *e) { return sqrt(e->young / e->densit
 static real plastic_speed(const struct exact *e) { return sqrt(e->tangent / e->density); }
 static real length(const struct exact *e) { return e->right - e->left; }
 
-/* Distance of X from the loaded end, and the position at distance s from it [m]. */
+/* Returns the distance of position X from the loaded end [m]. */
 static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->right - X : X - e->left; }
-static real exact_place(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
+
+/* Returns the position at distance s from the loaded end [m]. */
+static real exact_position(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
+
+/* Returns the reflection factor of the end that is not loaded. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds a stress jump [Pa] that travels in direction `way` of x with `speed` [m/s] and passed the position `age` ago
- * [s]. Balance of momentum across it: rho speed v = -way sigma. */
-static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int way,
+/* Adds a stress jump [Pa] that travels with `speed` [m/s] towards greater x (sign 1) or smaller x (sign -1) and
+ * passed the position `age` seconds before. Balance of momentum across it: rho speed v = -sign sigma. */
+static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int sign,
                       real age)
 {
     if (age < 0) return;
-    real velocity = -way * jump / (e->density * speed);
+    real velocity = -sign * jump / (e->density * speed);
     v->stress += jump;
     v->strain += jump / modulus;
     v->velocity += velocity;
@@ -30,7 +34,7 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
 
 /* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
-/* Step bar at distance s from the loaded end, by all fronts that have passed (exact.h). */
+/* Returns the values in a step bar at distance s from the loaded end, as the sum of all fronts that have passed. */
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -42,9 +46,10 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
     return v;
 }
 
+/* Returns the stress of the elastic precursor [Pa]: the load, limited by the yield stress. */
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
-/* Plastic bar at distance s from the loaded end: precursor and plastic front (exact.h). */
+/* Returns the values in a plastic bar at distance s from the loaded end: precursor and plastic front. */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -58,9 +63,9 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a pulse in an infinite bar, `eta` [m] ahead of its centre; `factor` is the direction of its displacement times
- * the signs of its reflections at the ends. */
-static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int way,
+/* Adds a pulse in an infinite bar, `eta` [m] ahead of its centre. sign: direction of travel; factor: direction of
+ * its displacement times the signs of its reflections at the ends [1]. */
+static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)
 {
     struct wave_pulse centred = *p;
@@ -68,24 +73,25 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     struct wave_state wave = wave_pulse_at(&centred, &eta, wave_speed(e), 1);
     v->displacement += factor * wave.displacement;
     v->velocity += factor * wave.velocity;
-    v->strain += factor * way * wave.strain;
+    v->strain += factor * sign * wave.strain;
 }
 
-/* Adds a pulse and its images in the ends of the bar. On the unfolded path of the pulse, images follow one another at
- * the length of the bar; the displacement changes sign at a fixed end. */
+/* Adds a pulse and its images in the ends of the bar. On the unfolded path of the pulse, images follow one another
+ * at distances of the bar's length; the displacement changes sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
-    int way = p->direction[0] < 0 ? -1 : 1;
-    real factor = way, start = way > 0 ? p->at[0] - e->left : e->right - p->at[0]; /* from the end behind it */
+    int sign = p->direction[0] < 0 ? -1 : 1;
+    real factor = sign, start = sign > 0 ? p->at[0] - e->left : e->right - p->at[0]; /* from the end behind the pulse */
     for (int n = 0; n * L <= start + gone + 2 * p->width; n++) {
-        real here = way > 0 ? X - e->left : e->right - X; /* from the end behind this image */
-        add_pulse(v, e, p, here + n * L - start - gone, way, factor);
-        factor *= -e->reflection[way > 0 ? 1 : 0];
-        way = -way;
+        real here = sign > 0 ? X - e->left : e->right - X; /* from the end behind this image */
+        add_pulse(v, e, p, here + n * L - start - gone, sign, factor);
+        factor *= -e->reflection[sign > 0 ? 1 : 0];
+        sign = -sign;
     }
 }
 
+/* Returns the sum of all initial pulses and their images. */
 static struct exact_values pulses(const struct exact *e, real X, real t)
 {
     struct exact_values v = {0};
@@ -94,6 +100,7 @@ static struct exact_values pulses(const struct exact *e, real X, real t)
     return v;
 }
 
+/* Returns the values of the manufactured solution. */
 static struct exact_values manufactured(const struct exact *e, real X, real t)
 {
     real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
@@ -122,14 +129,15 @@ struct exact_values exact_at(const struct exact *e, real X, real t)
 
 /* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
-/* Front m has crossed the bar m times; the stress behind it is the sum of all jumps up to its own. */
+/* Returns the last front: front m has crossed the bar m times, and the stress behind it is the sum of all jumps up
+ * to its own. */
 static struct exact_front step_front(const struct exact *e, real t)
 {
     real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);
     bool outward = fmod(m, 2) == 0;
     real r = far_reflection(e), before = 0, jump = e->load;
     for (int k = 0; k < (int)m; k++) before += jump, jump *= k % 2 == 0 ? r : -1;
-    return (struct exact_front){.place = exact_place(e, outward ? gone - m * L : (m + 1) * L - gone),
+    return (struct exact_front){.position = exact_position(e, outward ? gone - m * L : (m + 1) * L - gone),
                                 .ahead = outward ? -e->loaded : e->loaded,
                                 .before = before,
                                 .behind = before + jump};
@@ -143,9 +151,9 @@ int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_F
     }
     if (e->form != EXACT_PLASTIC_BAR || wave_speed(e) * t > length(e) * (1 + 1e-9)) return 0;
     real first = precursor(e);
-    front[0] = (struct exact_front){exact_place(e, wave_speed(e) * t), -e->loaded, 0, first};
+    front[0] = (struct exact_front){exact_position(e, wave_speed(e) * t), -e->loaded, 0, first};
     if (e->load == first) return 1;
-    front[1] = (struct exact_front){exact_place(e, plastic_speed(e) * t), -e->loaded, first, e->load};
+    front[1] = (struct exact_front){exact_position(e, plastic_speed(e) * t), -e->loaded, first, e->load};
     return 2;
 }
 
@@ -157,14 +165,14 @@ bool exact_plateau(const struct exact *e, real t, enum exact_window which, real 
     if (fronts == 0 || (which == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;
     if (which == EXACT_PRECURSOR)
-        near = depth(e, front[1].place) + 0.05 * L, far = depth(e, front[0].place) - 0.07 * L;
+        near = depth(e, front[1].position) + 0.05 * L, far = depth(e, front[0].position) - 0.07 * L;
     else if (fronts == 2)
-        near = 0.1 * L, far = depth(e, front[1].place) - 0.08 * L;
+        near = 0.1 * L, far = depth(e, front[1].position) - 0.08 * L;
     else if (outward)
-        near = 0.1 * L, far = depth(e, front[0].place) - 0.1 * L;
+        near = 0.1 * L, far = depth(e, front[0].position) - 0.1 * L;
     else
-        near = depth(e, front[0].place) + 0.1 * L, far = 0.9 * L;
-    *from = real_min(exact_place(e, near), exact_place(e, far));
-    *to = real_max(exact_place(e, near), exact_place(e, far));
+        near = depth(e, front[0].position) + 0.1 * L, far = 0.9 * L;
+    *from = real_min(exact_position(e, near), exact_position(e, far));
+    *to = real_max(exact_position(e, near), exact_position(e, far));
     return near < far;
 }

@@ -1,4 +1,4 @@
-/* Probes bound to particles, followed step by step, and their columns of the history. */
+/* Probes: their particles, their updates in every step, and their columns of the history. */
 #include "probes/probes.h"
 
 #include <math.h>
@@ -13,6 +13,7 @@ const char *const axis_name[DIM_MAX] = {"x", "y", "z"};
 
 /* ---- columns ----------------------------------------------------------------------------------------------------- */
 
+/* Adds a column `<probe>.<quantity>` to the history. */
 static void column_add(struct probes *s, struct probe *q, const char *quantity, const char *unit)
 {
     GROW("probes.column", s->column, s->columns + 1);
@@ -22,6 +23,7 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
+/* Adds a column for each component of a vector. */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -31,6 +33,7 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
+/* Adds the columns of a probe, by its kind. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -80,8 +83,8 @@ static void columns_add(struct probes *s, struct probe *q, const struct particle
 
 /* ---- binding to particles ---------------------------------------------------------------------------------------- */
 
-/* Largest distance of a position in the body from the nearest particle [m]: half the diagonal of a lattice cell, and
- * half as much again for irregular particles. */
+/* Returns the largest distance of a position in the body from the nearest particle [m]: half the diagonal of a
+ * lattice cell, times 1.5 for irregular particles. */
 static real nearest_reach(const struct observed *o) { return 0.75 * sqrt(o->part->dim) * o->spacing; }
 
 int32_t particle_nearest(const struct observed *o, const real *X)
@@ -108,6 +111,7 @@ void station_position(const struct probe *q, int dim, int k, real *X)
     for (int d = 0; d < dim; d++) X[d] = r->from[d] + s * (r->to[d] - r->from[d]);
 }
 
+/* Prints a position X [dim, m] to text [size], for messages. */
 static void position_text(const real *X, int dim, char *text, size_t size)
 {
     size_t used = 0;
@@ -116,6 +120,7 @@ static void position_text(const real *X, int dim, char *text, size_t size)
         used += (size_t)snprintf(text + used, size - used, "%s%.6g", d > 0 ? ", " : "", X[d]);
 }
 
+/* Finds the particle nearest to the point of a POINT probe. Returns REFUSED if the point is outside the body. */
 static status bind_point(struct probe *q, const struct observed *o)
 {
     q->list = NEW("probes.list", 1, int32_t);
@@ -126,6 +131,7 @@ static status bind_point(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": the point (%s) m lies outside the bodies", q->request.name, text);
 }
 
+/* Finds the particles nearest to the stations of a LINE probe. Returns REFUSED if all stations are outside the body. */
 static status bind_line(struct probe *q, const struct observed *o)
 {
     int dim = o->part->dim, inside = 0;
@@ -142,7 +148,7 @@ static status bind_line(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": the whole line lies outside the bodies", q->request.name);
 }
 
-/* Lists the particles of the region; those on its boundary belong to it, within round-off. */
+/* Lists the particles of the region, including those on its surface within round-off. */
 static status bind_region(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -156,7 +162,8 @@ static status bind_region(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": its region holds no particle", q->request.name);
 }
 
-/* REFUSED unless the named boundary prescribes a motion or, in load steps, a force; the refusal lists those that do. */
+/* Returns REFUSED unless the named boundary prescribes a motion or, in load steps, a force; the message lists those
+ * that do. */
 static status bind_support(const struct probe *q, const struct observed *o)
 {
     char known[512] = "";
@@ -178,13 +185,15 @@ static status bind_support(const struct probe *q, const struct observed *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
+/* Finds the growing crack of a GROWTH probe. */
 static status bind_growth(struct probe *q, const struct observed *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
         if (!q->request.of[0] || strcmp(o->growth[k].rule->name, q->request.of) == 0) q->growth = k;
-    return OK; /* the scene reader has checked that it exists */
+    return OK; /* the scene reader has checked that the boundary exists */
 }
 
+/* Binds a probe to its particles, by its kind. */
 static status probe_bind(struct probe *q, const struct observed *o)
 {
     switch (q->request.kind) {
@@ -222,7 +231,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
         struct probe *q = &s->probe[k];
         q->request = request[k];
         q->memory = (struct probe_memory){
-            .first_time = NAN, .place = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
+            .first_time = NAN, .position = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
         status fault = status_at(q->request.place, probe_bind(q, o));
         if (fault != OK) {
             probes_free(s);
@@ -251,14 +260,16 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
+/* Stores time and position of the first cut in the region of a BREAK probe. */
 static void step_break(struct probe *q, const struct observed *o)
 {
-    q->memory.ends = diagnostics_break_place(o->part, q->list, q->n, o->horizon, q->memory.place);
+    q->memory.ends = diagnostics_first_break(o->part, q->list, q->n, o->horizon, q->memory.position);
     if (q->memory.ends == 0) return; /* bonds of driven particles do not count */
     q->memory.first_time = o->t;
     q->memory.first_step = o->load_step;
 }
 
+/* Updates the largest reaction and the sum of squared reactions of a REACTION probe. */
 static void step_reaction(struct probe *q, const struct observed *o)
 {
     const int dim = o->part->dim;
@@ -272,6 +283,7 @@ static void step_reaction(struct probe *q, const struct observed *o)
     q->memory.steps++;
 }
 
+/* Returns true if a particle has just lost a bond. */
 static bool any_cut(const struct particles *p)
 {
     uint8_t any = 0;
@@ -305,6 +317,7 @@ void probes_step(struct probes *s, const struct observed *o)
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
 
+/* Stores position and growth of the tip; NAN and 0 without a tip. */
 static void sample_tip(const struct probe *q, const struct observed *o, real *value)
 {
     const struct tip *tip = probe_tip(q, o->tips);
@@ -313,6 +326,7 @@ static void sample_tip(const struct probe *q, const struct observed *o, real *va
     value[dim] = tip ? tip->growth : 0;
 }
 
+/* Stores kinetic, strain and fracture energy of the region. */
 static void probes_sample_energy(const struct probe *q, const struct observed *o, real *value)
 {
     struct energies e = probe_energies(q, o);
@@ -357,6 +371,7 @@ void probes_sample(struct probes *s, const struct observed *o)
     }
 }
 
+/* Returns true for kinds of probes that measure velocities at the time of a sample. */
 static bool has_motion(const struct probe *q)
 {
     const enum probe_kind kind = q->request.kind;
@@ -371,19 +386,21 @@ void probes_keep(struct probes *s, const struct observed *o)
     }
 }
 
+/* Computes and stores the stress-intensity factors of a SIF probe. */
 static void sample_sif(struct probe *q, const struct observed *o, real t_velocity, real *value)
 {
     sif_sample(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
-/* Reaction of the step that has been made, in which forces were those of the sample's time. */
+/* Stores the reaction in the step just made, whose forces are those at the time of the sample. */
 static void sample_force(const struct probe *q, const struct observed *o, real *value)
 {
     real displacement[DIM_MAX];
     probe_reaction(q, o->loads, o->part->dim, value, displacement);
 }
 
+/* Stores the velocity of the particle of a POINT probe. */
 static void sample_velocity(const struct probe *q, const struct particles *p, real *value)
 {
     for (int d = 0; d < p->dim; d++) value[p->dim + d] = probe_velocity(q, p, d, 0);

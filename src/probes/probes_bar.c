@@ -1,8 +1,8 @@
 /* A computed bar compared with a closed form (exact.h).
  *
- * There are two stresses, which differ where a peridynamic bar is not calibrated: the bond flux, which balances
- * momentum, and E x strain. Figures without a suffix use the flux; those with `_strain` compare E x strain with E x the
- * exact strain. */
+ * There are two stresses, which differ in a peridynamic bar that is not calibrated: the bond flux, which balances
+ * momentum, and E x strain. Figures without a suffix use the flux; those with `_strain` compare E x strain with E x
+ * the exact strain. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,16 +13,16 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Rank of particle i along the bar; an image lies beyond an end, at rank -1 or n. */
-static int64_t probes_bar_place_of(const struct bar *b, const struct particles *p, int32_t i)
+/* Returns the rank of particle i along the bar; -1 or n for an image beyond an end. */
+static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the force of each bond where it begins and ends, for prefix sums over `between`; `end` holds half the force of
- * the bonds that end at a particle. One pass over the bonds, each of them once, from the end with the smaller index;
- * images have no rows and the greatest indices. */
+/* Adds the force of each bond at the ranks where it begins and ends: prefix sums over `between` give the force of
+ * bonds across a particle, and `end` has half the force of bonds that end at a particle [n + 1, N]. Each bond is
+ * added once, from its end with the smaller index; images have no rows and the largest indices. */
 static void add_bonds(const struct bar *b, const struct observed *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -32,8 +32,8 @@ static void add_bonds(const struct bar *b, const struct observed *o, real *betwe
             const int32_t j = it.bond.nbr;
             if (it.bond.w == 0 || j < i) continue;
             real force = bond_force_of(bonds, o->part, &it.bond, i);
-            int64_t from = b->rank[i], to = probes_bar_place_of(b, o->part, j);
-            if (to < from) to = b->rank[i], from = probes_bar_place_of(b, o->part, j);
+            int64_t from = b->rank[i], to = probes_bar_rank(b, o->part, j);
+            if (to < from) to = b->rank[i], from = probes_bar_rank(b, o->part, j);
             between[from + 1] += force;
             if (to <= b->n) between[to] -= force;
             if (from >= 0) end[from] += 0.5 * force;
@@ -55,7 +55,7 @@ void bar_flux(const struct bar *b, const struct observed *o, real *flux)
     memory_free(end);
 }
 
-/* Central difference over the neighbours, one-sided at the ends. */
+/* Computes the strain by central differences over the neighbours, one-sided at the ends. */
 static void measure_strain(struct bar *b, const struct particles *p)
 {
     for (int64_t k = 0; k < b->n; k++) {
@@ -136,19 +136,19 @@ enum figure {
 #define PLASTIC (1 << EXACT_PLASTIC_BAR)
 #define EVERY ((1 << EXACT_FORMS) - 1)
 
-/* Name, unit, and the forms that have it. */
+/* Figures with name, unit, and the forms that have them. */
 static const struct {
     const char *name, *unit;
     int forms;
 } figures[FIGURES] = {
-    [L1] = {"L1", "Pa", EVERY},                    /* mean |sigma - exact| over the particles                        */
-    [L2] = {"L2", "Pa", EVERY},                    /* root of the mean square                                        */
-    [FRONT] = {"front", "m", STEP | PLASTIC},      /* where sigma passes the middle of the (first) front's jump */
-    [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC}, /* mean sigma behind the (last) front             */
+    [L1] = {"L1", "Pa", EVERY},                    /* mean |sigma - exact| over the particles */
+    [L2] = {"L2", "Pa", EVERY},                    /* root mean square of sigma - exact */
+    [FRONT] = {"front", "m", STEP | PLASTIC},      /* where sigma passes the middle of the first front's jump */
+    [PLATEAU] = {"plateau", "Pa", STEP | PLASTIC}, /* mean sigma behind the last front */
     [END_DISPLACEMENT] = {"end_displacement", "m", STEP | PLASTIC}, /* of the outermost particle at the loaded end */
     [FRONT_PLASTIC] = {"front_plastic", "m", PLASTIC},
     [STRAIN_ELASTIC] = {"strain_elastic", "1", PLASTIC}, /* mean strain between precursor and plastic front */
-    [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC}, /* mean strain behind the plastic front           */
+    [STRAIN_PLASTIC] = {"strain_plastic", "1", PLASTIC}, /* mean strain behind the plastic front */
     [L1_STRAIN] = {"L1_strain", "Pa", EVERY},
     [L2_STRAIN] = {"L2_strain", "Pa", EVERY},
     [FRONT_STRAIN] = {"front_strain", "m", STEP | PLASTIC},
@@ -177,7 +177,7 @@ struct column bar_figure(enum exact_form form, int k)
     return c;
 }
 
-/* L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement. */
+/* Computes the L1 and L2 errors of stress, E x strain and velocity, and the L2 error of displacement. */
 static void errors(const struct bar *b, const struct observed *o, real *value)
 {
     real sum[7] = {0};
@@ -198,10 +198,10 @@ static void errors(const struct bar *b, const struct observed *o, real *value)
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Position at which a field times `factor` passes the middle of a front's jump, in the sense of the jump, linear
- * between particles [m]; NAN: nowhere. Ringing and the soft ends of loaded bars may cause other passages: the one
- * nearest to the exact front counts. The outermost particles are left out: the load acts on them, and their own bonds
- * carry half of it. */
+/* Returns the position at which a field times `factor` passes the middle of a front's jump, in the direction of the
+ * jump, interpolated linearly between particles [m]; NAN if there is none. Oscillations and the soft ends of loaded
+ * bars can cause other passages: the one nearest to the exact front is taken. The outermost particles are left out,
+ * since the load acts on them and their bonds carry half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {
@@ -210,12 +210,12 @@ static real front_of(const struct bar *b, const struct particles *p, const struc
         real low = sign * (factor * field[k - 1] - half), high = sign * (factor * field[k] - half);
         if (!(low < 0 && high >= 0)) continue;
         real X = p->X[0][b->order[k - 1]], step = p->X[0][b->order[k]] - X, passage = X + step * low / (low - high);
-        if (!(fabs(found - f->place) <= fabs(passage - f->place))) found = passage;
+        if (!(fabs(found - f->position) <= fabs(passage - f->position))) found = passage;
     }
     return found;
 }
 
-/* Mean of a field over the particles between two positions; NAN if there are none. */
+/* Returns the mean of a field over the particles between two positions [m]; NAN if there are none. */
 static real mean_between(const struct bar *b, const struct particles *p, const real *field, real from, real to)
 {
     real sum = 0, tolerance = 1e-9 * (b->exact.right - b->exact.left);
@@ -227,7 +227,7 @@ static real mean_between(const struct bar *b, const struct particles *p, const r
     return n > 0 ? sum / (real)n : NAN;
 }
 
-/* Figures at fronts and plateaus; those that the closed form does not have at this time stay NAN. */
+/* Computes figures at fronts and plateaus; those that do not exist at this time stay NAN. */
 static void fronts(const struct bar *b, const struct observed *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];

@@ -1,4 +1,4 @@
-/* The bar of an EXACT probe: its particles in order, its ends, and its loads. */
+/* Set-up of the bar of an EXACT probe: its particles in order, its ends, and its loads. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +9,7 @@
 
 static const char *const form_names[EXACT_FORMS] = {"step bar", "plastic bar", "pulse", "manufactured"};
 
+/* Returns REFUSED with the name of the probe and the reason `what`. */
 static status refuse(const struct probe *q, const char *what)
 {
     return status_set(REFUSED, "probe \"%s\": %s: %s", q->request.name, form_names[q->request.form], what);
@@ -16,28 +17,31 @@ static status refuse(const struct probe *q, const char *what)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
-struct place {
+struct located {
     real X;
     int32_t i;
 };
 
-static int probes_bar_make_by_place(const void *a, const void *b)
+/* Compares two particles by their position, for sorting. */
+static int probes_bar_make_by_position(const void *a, const void *b)
 {
-    const struct place *p = a, *q = b;
+    const struct located *p = a, *q = b;
     if (p->X != q->X) return p->X < q->X ? -1 : 1;
     return p->i < q->i ? -1 : 1;
 }
 
+/* Sorts the particles from left to right. */
 static void find_order(struct bar *b, const struct particles *p)
 {
-    struct place *place = NEW("probes.place", p->n, struct place);
-    for (int64_t i = 0; i < p->n; i++) place[i] = (struct place){p->X[0][i], (int32_t)i};
-    array_sort(place, p->n, sizeof *place, probes_bar_make_by_place);
-    for (int64_t k = 0; k < p->n; k++) b->order[k] = place[k].i, b->rank[place[k].i] = (int32_t)k;
-    memory_free(place);
+    struct located *sorted = NEW("probes.place", p->n, struct located);
+    for (int64_t i = 0; i < p->n; i++) sorted[i] = (struct located){p->X[0][i], (int32_t)i};
+    array_sort(sorted, p->n, sizeof *sorted, probes_bar_make_by_position);
+    for (int64_t k = 0; k < p->n; k++) b->order[k] = sorted[k].i, b->rank[sorted[k].i] = (int32_t)k;
+    memory_free(sorted);
 }
 
-/* Finds the bar: REFUSED unless it has one material and is one row of particles without a gap. */
+/* Finds the particles of the bar. Returns REFUSED unless it has one material and is one row of particles without a
+ * gap. */
 static status find_bar(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -68,6 +72,7 @@ static status find_bar(struct probe *q, const struct observed *o)
 
 /* ---- ends and loads ---------------------------------------------------------------------------------------------- */
 
+/* Returns true if a load acts on a particle. */
 static bool acts_on(const struct load *l, int32_t particle)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -75,18 +80,18 @@ static bool acts_on(const struct load *l, int32_t particle)
     return false;
 }
 
-/* Finds the kind of the ends: fixed where a mirror stands or the outermost particle is constrained, else free. */
+/* Finds the kind of each end: fixed at a mirror or where the outermost particle is constrained, else free. */
 static status find_ends(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;
-    const real place[2] = {b->exact.left, b->exact.right};
+    const real position[2] = {b->exact.left, b->exact.right};
     for (int end = 0; end < 2; end++) {
         int32_t outermost = b->order[end == 0 ? 0 : b->n - 1];
         b->exact.reflection[end] = -1;
         for (int k = 0; o->loads && k < o->loads->n; k++) {
             const struct load *l = &o->loads->load[k];
             const struct boundary *c = l->boundary;
-            bool mirror = c->kind == BOUNDARY_MIRROR && fabs(c->at - place[end]) < o->spacing;
+            bool mirror = c->kind == BOUNDARY_MIRROR && fabs(c->at - position[end]) < o->spacing;
             bool held = c->kind == BOUNDARY_VELOCITY && acts_on(l, outermost);
             if (c->kind == BOUNDARY_VELOCITY && c->value[0] != 0)
                 return refuse(q, "a boundary drives the bar with a velocity; fixed, mirror or nothing is expected");
@@ -96,6 +101,7 @@ static status find_ends(struct probe *q, const struct observed *o)
     return OK;
 }
 
+/* Returns true if no particle moves at the start. */
 static bool probes_bar_make_at_rest(const struct particles *p)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -103,8 +109,8 @@ static bool probes_bar_make_at_rest(const struct particles *p)
     return true;
 }
 
-/* Are the initial velocities those of the pulses, to a millionth? They are not where a pulse is cut by its region or by
- * an end, or is added to other motion. */
+/* Returns true if the initial velocities are those of the pulses, to a relative 1e-6. They differ if a pulse is cut
+ * by its region or by an end, or is added to other motion. */
 static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 {
     real scale = 0;
@@ -114,6 +120,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
+/* Returns the number of boundaries of a kind; *found is the last of them. */
 static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
@@ -122,7 +129,7 @@ static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind
     return n;
 }
 
-/* Finds the one traction, which is a stress at an end: its value along x times the side of the face's normal. */
+/* Finds the one traction, whose stress at its end is its value along x times the sign of the face's normal. */
 static status find_traction(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;
@@ -142,7 +149,7 @@ static status find_traction(struct probe *q, const struct observed *o)
     return OK;
 }
 
-/* Checks and stores what loads the bar; REFUSED where the closed form does not describe it. */
+/* Checks and stores the loads of the bar. Returns REFUSED for loads that the closed form does not describe. */
 static status find_load(struct probe *q, const struct observed *o)
 {
     const struct load *other = NULL;

@@ -1,4 +1,4 @@
-/* Quantities that probes measure, and the figures of summary.json that follow from them. */
+/* Quantities that probes measure, and their figures in summary.json. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
     [3] = {"xx", "yy", "zz", "xy", "yz", "zx"},
 };
 
-/* Number of stress readings; in plane strain zz comes last. */
+/* Returns the number of stress readings; in plane strain zz is last. */
 static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
 
 int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1; }
@@ -97,12 +97,14 @@ struct region_sum {
     int component;
 };
 
+/* Returns a component of the momentum of the k-th particle of the region. */
 static real momentum_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
     return s->o->part->mass[s->q->list[k]] * probe_velocity(s->q, s->o->part, s->component, k);
 }
 
+/* Returns the kinetic energy of the k-th particle of the region [J]. */
 static real kinetic_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -112,14 +114,14 @@ static real kinetic_term(const void *context, int64_t k)
     return 0.5 * p->mass[s->q->list[k]] * speed2;
 }
 
-/* Row of bonds of the k-th particle of the region, -1: it has none. */
+/* Returns the row of bonds of the k-th particle of the region, -1 if it has none. */
 static int64_t row_at(const struct region_sum *s, int64_t k)
 {
     const struct bonds *b = s->o->bonds;
     return b && b->rows > 0 ? b->row_of[s->q->list[k]] : -1;
 }
 
-/* Half the energy of every intact bond of a particle. */
+/* Returns half the energy of all intact bonds of the k-th particle [J]. */
 static real bond_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -133,6 +135,7 @@ static real bond_term(const void *context, int64_t k)
     return 0.5 * sum;
 }
 
+/* Returns the fracture energy of the bonds of the k-th particle [J]. */
 static real fracture_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -140,7 +143,7 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
 }
 
-/* Bonds broken by load; entries in rows of driven particles do not count. */
+/* Returns the number of directed bonds of the k-th particle broken by load; rows of driven particles do not count. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -179,15 +182,17 @@ struct emitter {
     void *context;
     const struct probe *q;
     const struct observed *o;
-    const real *sampled; /* its columns of a sample of this time; NULL: there is none */
+    const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
+/* Reports a figure of the probe. */
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);
 }
 
-static void put_place(const struct emitter *e, const real *X)
+/* Reports the components of a position or vector as figures x, y, z. */
+static void put_position(const struct emitter *e, const real *X)
 {
     for (int d = 0; d < e->o->part->dim; d++) probes_figures_put(e, axis_name[d], X[d]);
 }
@@ -203,11 +208,11 @@ static void figures_tip(const struct emitter *e)
     probes_figures_put(e, "angle_deg", tip_angle(tip, e->o->part->dim));
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
-    put_place(e, tip->place);
+    put_position(e, tip->place);
     probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_tied(e->o->tips)));
 }
 
-/* A directed bond is one of the two entries of a bond. */
+/* Reports time and position of the first break and broken bonds; each bond is counted once, not by its two entries. */
 static void figures_break(const struct emitter *e)
 {
     if (isnan(e->q->memory.first_time)) return;
@@ -215,7 +220,7 @@ static void figures_break(const struct emitter *e)
         probes_figures_put(e, "first_step", (real)e->q->memory.first_step);
     else
         probes_figures_put(e, "first_time", e->q->memory.first_time);
-    put_place(e, e->q->memory.place);
+    put_position(e, e->q->memory.position);
     probes_figures_put(e, "tied", (real)e->q->memory.ends);
     probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
@@ -235,7 +240,7 @@ static void figures_reaction(const struct emitter *e)
     probes_figures_put(e, "displacement", sqrt(dot(displacement, displacement, dim)));
 }
 
-/* Residual nodal force over the force of the stress on the face of one grid cell. */
+/* Reports the residual nodal force over the force of the stress on the face of a grid cell. */
 static void figures_patch(const struct emitter *e)
 {
     const struct observed *o = e->o;
@@ -249,7 +254,7 @@ static void figures_spall(const struct emitter *e)
     real speed, rest;
     if (isnan(e->q->memory.first_time)) return;
     spall_speeds(e->q, e->o->part, &speed, &rest);
-    probes_figures_put(e, "position", e->q->memory.place[0]);
+    probes_figures_put(e, "position", e->q->memory.position[0]);
     probes_figures_put(e, "time", e->q->memory.first_time);
     probes_figures_put(e, "speed", speed);
     probes_figures_put(e, "speed_rest", rest);
@@ -264,7 +269,7 @@ static void figures_point(const struct emitter *e)
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
 
-/* Least and largest value of each reading over the stations inside the bodies. */
+/* Reports the least and largest value of each reading over the stations inside the bodies. */
 static void figures_line(const struct emitter *e)
 {
     const struct particles *p = e->o->part;
@@ -298,7 +303,7 @@ static void figures_momentum(const struct emitter *e)
 {
     real momentum[DIM_MAX];
     probe_momentum(e->q, e->o->part, momentum);
-    put_place(e, e->sampled ? e->sampled : momentum);
+    put_position(e, e->sampled ? e->sampled : momentum);
 }
 
 static void figures_pulse(const struct emitter *e)
@@ -331,7 +336,7 @@ static void figures_growth(const struct emitter *e)
     probes_figures_put(e, "direction_deg",
                        atan2(g->rule->direction[1], g->rule->direction[0]) * 180 / 3.14159265358979323846);
     probes_figures_put(e, "experiment_deg", e->q->request.experiment);
-    put_place(e, g->place);
+    put_position(e, g->place);
 }
 
 static void figures_rigid(const struct emitter *e)

@@ -1,7 +1,9 @@
-/* Motion of a probe's particles at the time of a sample: leap-frog knows velocities half a step before and after it. */
+/* Motion of the particles of a probe at the time of a sample. Leap-frog has velocities half a step before and after
+ * that time. */
 #include "base/memory.h"
 #include "probes_parts.h"
 
+/* Copies a vector field of the probe's particles, allocating the arrays on the first call. */
 static void copy_listed(const struct probe *q, real *const *from, real **to, int dim)
 {
     for (int d = 0; d < dim; d++) {
@@ -28,7 +30,7 @@ void motion_complete(struct probe *q, const struct observed *o, const struct vel
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < q->n; k++)
             m->v[d][k] = now->scale * ((1 - share) * m->v[d][k] + share * p->v[d][q->list[k]]);
-    m->t_velocity = o->t; /* no step follows the last sample: its motion goes on from that of the one before */
+    m->t_velocity = o->t; /* no step follows the last sample: extrapolate from the previous motion */
     m->complete = true;
 }
 

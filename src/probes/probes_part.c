@@ -1,4 +1,4 @@
-/* Probes and the balance of energy, as parts of a run. */
+/* Rows of the table of parts: probes; growing cracks and reference values. */
 #include "probes/probes_part.h"
 #include "base/memory.h"
 #include "fracture/fracture_part.h"

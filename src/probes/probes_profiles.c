@@ -1,4 +1,4 @@
-/* Profiles of LINE and EXACT probes as csv files. */
+/* Profiles of LINE and EXACT probes as CSV files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,6 +6,7 @@
 #include "base/memory_stream.h"
 #include "probes_parts.h"
 
+/* Writes the header of a LINE profile. */
 static void profile_header(FILE *file, const struct particles *p)
 {
     fprintf(file, "s [m]");
@@ -17,7 +18,7 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes the readings of all stations; stations outside the bodies have none and are left out. */
+/* Writes the readings of all stations inside the bodies. */
 static void profile_rows(FILE *file, const struct probe *q, const struct particles *p)
 {
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
@@ -35,6 +36,7 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
     }
 }
 
+/* Writes the rows of the profile of an EXACT probe. */
 static void bar_rows(FILE *file, const struct probe *q, const struct observed *o)
 {
     real value[BAR_READINGS];
@@ -49,6 +51,7 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed *o
     }
 }
 
+/* Writes the profile of a probe. */
 static void profile_text(FILE *file, const struct probe *q, const struct observed *o)
 {
     if (q->request.kind == PROBE_EXACT) {
@@ -59,7 +62,8 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o->part);
 }
 
-/* File name `<probe>_NNNNNN.csv`; the slash in the name of a list entry, such as a growth, becomes an underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of a frame. A slash in the name of a list entry, such as a growth,
+ * becomes an underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
@@ -67,6 +71,7 @@ static void profile_name(char *name, const struct probe *q, int frame)
         if (*c == '/') *c = '_';
 }
 
+/* Returns true for kinds of probes that have profiles. */
 static bool has_profile(const struct probe *q)
 {
     return q->request.kind == PROBE_LINE || q->request.kind == PROBE_EXACT;
@@ -82,6 +87,7 @@ bool probes_profile_name(const struct probes *s, int which, int frame, char *nam
     return false;
 }
 
+/* Prints the profile of a probe and hands it to put. Returns FAILED if memory is exhausted or put fails. */
 static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
     char name[PROFILE_NAME], *text = NULL;

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* Distance of particle i beyond the interface, along the direction of the packet [m]. */
+/* Returns the distance of particle i beyond the interface, along the direction of the packet [m]. */
 static real ahead(const struct probe *q, const struct particles *p, int64_t i)
 {
     real distance = 0;
@@ -12,7 +12,7 @@ static real ahead(const struct probe *q, const struct particles *p, int64_t i)
     return distance;
 }
 
-/* Speed of particle i, or of its difference from the run without interface. */
+/* Returns the speed of particle i, or of its difference from the baseline if that is not NULL [m/s]. */
 static real speed(const struct particles *p, const struct baseline *baseline, int64_t i)
 {
     real speed2 = 0;
@@ -20,7 +20,7 @@ static real speed(const struct particles *p, const struct baseline *baseline, in
     return sqrt(speed2);
 }
 
-/* Largest speed on one side of the interface: behind it (-1), beyond it (+1), both (0). */
+/* Returns the largest speed on one side of the interface [m/s]: before it (side -1), beyond it (+1), or on both (0). */
 static real probes_pulse_fastest(const struct probe *q, const struct particles *p, const struct baseline *baseline,
                                  int side)
 {

@@ -19,7 +19,7 @@ struct rigid_sum {
     real centre[2], centre_reference[2];
 };
 
-/* Sums of mass, and of mass times current and reference position. */
+/* Adds mass, and mass times current and reference position, of particles first .. end - 1 to sum. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -34,8 +34,8 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Sums about the centre: m X . x and m X x x (for the rotation of best fit), angular momentum, |m r x v|, kinetic
- * energy. */
+/* Adds the sums about the centre to sum: m X . x and m X x x (for the best-fit rotation), angular momentum, |m r x
+ * v|, kinetic energy. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -53,8 +53,8 @@ static void turn_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-/* Angle of best fit: its rotation makes sum m |x - R X|^2 least (Kabsch 1976, in the plane) [rad]. Also the angular
- * momentum, its scale sum |m r x v| [kg m^2/s] and the kinetic energy [J]. */
+/* Returns the angle of the best-fit rotation R, which minimises sum m |x - R X|^2 (Kabsch 1976, in the plane) [rad].
+ * Computes angular momentum and its scale sum |m r x v| [kg m^2/s] and the kinetic energy [J], too. */
 static real probes_rigid_turn(const struct probe *q, const struct particles *p, real *spin, real *spin_scale,
                               real *kinetic)
 {
@@ -76,7 +76,7 @@ status rigid_bind(struct probe *q, const struct observed *o)
     return OK;
 }
 
-/* Largest |principal stress| and largest shear stress in the plane of any particle. */
+/* Computes the largest |principal stress| and the largest in-plane shear stress of the particles [Pa]. */
 static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -89,15 +89,15 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
     }
 }
 
-enum { RIGID_PLACES = 3 }; /* figures that positions tell */
+enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Keeps the largest of figures first .. end - 1. */
+/* Updates the largest |value| of figures first .. end - 1. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Angles are followed beyond half a turn, samples being less than that apart. */
+/* Accumulates the angle beyond half a turn; samples must be less than half a turn apart. */
 void rigid_sample(struct probe *q, const struct observed *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

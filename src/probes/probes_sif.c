@@ -1,17 +1,17 @@
-/* SIF probe: a crack tip, fixed or followed, and the contours around it. */
+/* SIF probe: a crack tip, fixed or moving, and the integration contours around it. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "probes_parts.h"
 
-#define OUTER 20.0               /* default radius                                         [spacings] */
-#define CORE 1.5                 /* default, left out of the inertial sum (sif.h)         [horizons] */
-#define NARROWEST 3.0            /* ring                                                   [spacings] */
-#define STEP_BACK 8.0            /* a moving tip has the direction of its last 8 to 16 [spacings] */
-#define SAME_PLACE 1.0           /* distance within which two tips are one             [spacings] */
-#define FASTEST 0.95             /* of the Rayleigh speed                                             */
-#define OPEN_ANGLE (170.0 / 180) /* share of the ring that is tested: the faces of a crack may be open */
+#define OUTER 20.0               /* default outer radius of a contour [spacings] */
+#define CORE 1.5                 /* default radius left out of the inertial integral (sif.h) [horizons] */
+#define NARROWEST 3.0            /* least width of the ring of a contour [spacings] */
+#define STEP_BACK 8.0            /* the direction of a moving tip is that of its last 8 to 16 spacings */
+#define SAME_TIP 1.0             /* distance within which two tips are the same [spacings] */
+#define FASTEST 0.95             /* largest speed of a tip [Rayleigh speeds] */
+#define OPEN_ANGLE (170.0 / 180) /* share of the ring that must be in the body: crack faces may be open */
 
 static const real pi = 3.14159265358979323846;
 
@@ -21,25 +21,28 @@ const struct column sif_figure[SIF_FIGURES] = {
 struct sif_tracked {
     struct sif_tip tip;
     struct gradient_rule rule;
-    int follows; /* tip of the run, -1: none                                  */
-    int growth;  /* crack with prescribed or SIF-controlled growth, -1: none  */
-    real reach;  /* of the largest contour                              [m]   */
+    int follows; /* index of the tip in the run; -1 if none */
+    int growth;  /* index of the crack with prescribed or SIF-controlled growth; -1 if none */
+    real reach;  /* outer radius of the largest contour [m] */
     int contours;
-    struct contour contour[SIF_CONTOURS_MAX + 1]; /* [0]: the contour of the figures               */
-    struct crack *crack;                          /* pre-cracks of the scene, and one behind a tip without crack */
+    /* [0] is the contour of the figures, the others are compared with it */
+    struct contour contour[SIF_CONTOURS_MAX + 1];
+    struct crack *crack; /* pre-cracks of the scene, and a straight crack behind a tip without one */
     real behind[2][DIM_MAX];
-    bool kept;                       /* displacement and velocity are those of t and t_velocity   */
-    real t, t_velocity;              /* [s]                                                       */
-    real *u[2], *v[2], *stress[3];   /* [n_all]                                                   */
-    real *mean[2], *acceleration[2]; /* [n_all] velocity at a sample's time [m/s], [m/s^2]        */
-    real *body[2];                   /* [n_all] forces of loads over masses                 [m/s^2] */
+    bool kept;                       /* displacement and velocity are those of t and t_velocity */
+    real t, t_velocity;              /* of displacement, of velocity [s] */
+    real *u[2], *v[2], *stress[3];   /* [n_all] displacement [m], velocity [m/s], stress [Pa] */
+    real *mean[2], *acceleration[2]; /* [n_all] at the time of a sample [m/s], [m/s^2] */
+    real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
 };
 
-static bool given(real value) { return value > 0; } /* neither NAN nor 0 */
+/* Returns true for a value that the scene gives, which is neither NAN nor 0. */
+static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* The contour of the figures, then those to compare: the requested ones, or 0.6, 0.8 and 1 times `outer`. */
+/* Sets the contour of the figures, then those to compare: the requested ones, or 0.6, 0.8 and 1 times the outer
+ * radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -52,11 +55,11 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* Index of the tip of the run that a request refers to; -1: none. */
+/* Returns the index of the tip of the run that a request refers to, -1 if none. */
 static int tip_meant(const struct probe_request *r, const struct observed *o)
 {
     int nearest = -1;
-    real least = SAME_PLACE * o->spacing;
+    real least = SAME_TIP * o->spacing;
     const int tips = o->tips ? o->tips->n : 0;
     if (!r->has_at) return tips > 0 ? 0 : -1;
     for (int k = 0; k < tips; k++) {
@@ -66,17 +69,18 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
     return nearest;
 }
 
-/* Index of the growth that starts at the tip; -1: none. */
+/* Returns the index of the growth that starts at the tip, -1 if none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
         const real *at = o->growth[k].rule->at;
-        if (hypot(at[0] - w->tip.place[0], at[1] - w->tip.place[1]) <= SAME_PLACE * o->spacing) return k;
+        if (hypot(at[0] - w->tip.place[0], at[1] - w->tip.place[1]) <= SAME_TIP * o->spacing) return k;
     }
     return -1;
 }
 
-/* REFUSED where the probe controls a crack other than that of its tip: without `at` every probe takes the first tip. */
+/* Returns REFUSED if the probe controls a crack other than that of its tip: without `at`, all probes take the first
+ * tip. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -91,7 +95,7 @@ static status own_growth(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds place and direction of the tip, and the growth that starts there. */
+/* Finds position and direction of the tip, and the growth that starts there. */
 static status find_tip(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     w->follows = tip_meant(r, o);
@@ -104,15 +108,15 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
                           "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; direction has to say where ahead "
                           "is",
                           r->name, r->at[0], r->at[1]);
-    const real *place = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
+    const real *position = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
-    for (int d = 0; d < 2; d++) w->tip.place[d] = place[d], w->tip.along[d] = along[d] / length;
+    for (int d = 0; d < 2; d++) w->tip.place[d] = position[d], w->tip.along[d] = along[d] / length;
     w->growth = growth_meant(w, o);
     return own_growth(w, r, o);
 }
 
-/* Makes the list of cracks that hide particles from each other: the pre-cracks, and a straight crack behind a tip that
- * is not the end of one. Particles on a crack are on the side of its normal (crack_cuts). */
+/* Lists the cracks that separate particles: the pre-cracks, and a straight crack behind a tip that is not the end of
+ * one. Particles on a crack are on the side of its normal (crack_cuts). */
 static void make_cracks(struct sif_tracked *w, const struct observed *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -123,7 +127,7 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
         w->crack[k] = o->crack[k];
         for (int e = 0; e < 2; e++) {
             const real *here = o->crack[k].corner[e], *there = o->crack[k].corner[1 - e];
-            if (hypot(here[0] - t->place[0], here[1] - t->place[1]) > SAME_PLACE * o->spacing) continue;
+            if (hypot(here[0] - t->place[0], here[1] - t->place[1]) > SAME_TIP * o->spacing) continue;
             const real onward = (here[0] - there[0]) * t->along[0] + (here[1] - there[1]) * t->along[1];
             w->tip.face = (onward > 0) == (e == 1) ? 1 : -1;
             ends = true;
@@ -137,23 +141,23 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Does a ring leave the body? Then `place` is a position on it without a particle. */
-static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real place[2])
+/* Returns true if a ring leaves the body; position is then a point of the ring without a particle. */
+static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
     for (int k = 0; k <= stations; k++) {
         const real angle = OPEN_ANGLE * pi * (2.0 * k / stations - 1), c = radius * cos(angle), s = radius * sin(angle);
-        place[0] = t->place[0] + c * t->along[0] - s * t->along[1];
-        place[1] = t->place[1] + c * t->along[1] + s * t->along[0];
-        if (particle_nearest(o, (real[DIM_MAX]){place[0], place[1]}) < 0) return true;
+        position[0] = t->place[0] + c * t->along[0] - s * t->along[1];
+        position[1] = t->place[1] + c * t->along[1] + s * t->along[0];
+        if (particle_nearest(o, (real[DIM_MAX]){position[0], position[1]}) < 0) return true;
     }
     return false;
 }
 
-/* REFUSED for contours that are too narrow, leave the body, or reach another tip. */
+/* Returns REFUSED for contours that are too narrow, leave the body, or contain another tip. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
-    real place[2];
+    real position[2];
     for (int k = 0; k < w->contours; k++) {
         const struct contour *c = &w->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
@@ -162,11 +166,11 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
                               "choose a larger outer radius",
                               r->name, c->inner, c->outer, NARROWEST);
     }
-    if (ring_leaves(&w->tip, w->reach, o, place))
+    if (ring_leaves(&w->tip, w->reach, o, position))
         return status_set(REFUSED,
                           "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
                           "at (%.6g, %.6g) m; choose a smaller outer radius",
-                          r->name, w->reach, w->tip.place[0], w->tip.place[1], place[0], place[1]);
+                          r->name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1]);
     for (int k = 0; o->tips && k < o->tips->n; k++) {
         const real *other = o->tips->tip[k].origin;
         if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < w->reach)
@@ -178,7 +182,7 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
     return OK;
 }
 
-/* Finds the material around the tip; REFUSED where another material or body lies within the contours. */
+/* Finds the material around the tip. Returns REFUSED if another material or body is within the contours. */
 static status find_medium(struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -235,14 +239,14 @@ void sif_free(struct sif_tracked *w)
 
 /* ---- present tip ------------------------------------------------------------------------------------------------- */
 
-/* Updates place, speed and direction of the tip; has it grown? */
+/* Updates position, speed and direction of the tip; returns true if it has moved. */
 static bool probes_sif_follow(struct probe *q, const struct observed *o)
 {
     struct sif_tracked *w = q->sif;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     real(*trail)[2] = q->memory.trail;
     w->tip.speed = 0;
-    if (w->growth >= 0) { /* the tip is known exactly */
+    if (w->growth >= 0) { /* the tip of a growth is known exactly */
         const struct growth *g = &o->growth[w->growth];
         for (int d = 0; d < 2; d++) w->tip.place[d] = g->place[d], w->tip.along[d] = g->along[d];
         w->tip.speed = real_min(g->speed, FASTEST * w->tip.medium.rayleigh);
@@ -255,18 +259,21 @@ static bool probes_sif_follow(struct probe *q, const struct observed *o)
     if (hypot(w->tip.place[0] - trail[1][0], w->tip.place[1] - trail[1][1]) >= STEP_BACK * o->spacing)
         for (int d = 0; d < 2; d++) trail[0][d] = trail[1][d], trail[1][d] = w->tip.place[d];
     if (q->request.has_direction) return true;
-    const real way[2] = {w->tip.place[0] - trail[0][0], w->tip.place[1] - trail[0][1]}, length = hypot(way[0], way[1]);
-    for (int d = 0; d < 2; d++) w->tip.along[d] = way[d] / length;
+    const real path[2] = {w->tip.place[0] - trail[0][0], w->tip.place[1] - trail[0][1]},
+               length = hypot(path[0], path[1]);
+    for (int d = 0; d < 2; d++) w->tip.along[d] = path[d] / length;
     return true;
 }
 
 /* ---- samples ----------------------------------------------------------------------------------------------------- */
 
+/* Allocates an array of n entries, once. */
 static void room(real **array, int64_t n)
 {
     if (!*array) *array = NEW("sif.motion", n, real);
 }
 
+/* Stores the displacement of all particles in the plane. */
 static void keep_displacement(struct sif_tracked *w, const struct particles *p)
 {
     for (int d = 0; d < 2; d++) {
@@ -291,10 +298,9 @@ void sif_keep(struct probe *q, const struct observed *o)
     }
 }
 
-/* Acceleration from the velocities before and after the sample, of peridynamic particles and material points alike: in
- * the leap-frog scheme it is the force at the time of the sample over the mass. The velocity is interpolated linearly
- * to that time. No step follows the last sample: its inertia is that of one step earlier, as forces of its own are not
- * computed. */
+/* Computes velocity and acceleration at the time of the sample from the velocities before and after it; the latter
+ * is the force over the mass in leap-frog. The velocity is interpolated linearly. No step follows the last sample:
+ * its inertia is that of one step earlier. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
@@ -304,7 +310,7 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Finds what loads put on particles at time t; do they load any within the contours? */
+/* Computes the forces of loads per mass at o->t; returns true if a load acts within the contours. */
 static bool find_body_force(struct sif_tracked *w, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -314,7 +320,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed *o)
     if (!l) return false;
     for (int d = 0; d < 2; d++) {
         room(&w->body[d], p->n_all);
-        for (int64_t i = 0; i < p->n; i++) /* inertia relief of a static body */
+        for (int64_t i = 0; i < p->n; i++) /* inertia relief of a static body: the mean acceleration is subtracted */
             w->body[d][i] = l->turn * (d == 0 ? p->X[1][i] - l->centre[1] : l->centre[0] - p->X[0][i]);
     }
     for (int b = 0; b < l->n; b++)
@@ -337,14 +343,14 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     const struct particles *p = o->part;
     const bool moves = w->kept && t_velocity > w->t_velocity;
     struct sif found[SIF_CONTOURS_MAX + 1];
-    real place[2];
+    real position[2];
     const bool grew = probes_sif_follow(q, o);
     const bool loaded = find_body_force(w, o);
     if (!moves) keep_displacement(w, p), w->tip.speed = 0;
     if (moves) find_inertia(w, p, t_velocity);
     w->kept = false;
     for (int k = 0; k < SIF_FIGURES; k++) q->memory.factors[k] = NAN;
-    if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, place)) return;
+    if ((w->tip.speed > 0 || (grew && !moves)) && ring_leaves(&w->tip, w->reach, o, position)) return;
     for (int d = 0; d < 2; d++) w->rule.tip[d] = w->tip.place[d];
     struct sif_motion m = {.displacement = {w->u[0], w->u[1]}, .stress = {w->stress[0], w->stress[1], w->stress[2]}};
     for (int d = 0; d < 2 && loaded; d++) m.body[d] = w->body[d];
@@ -357,13 +363,13 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     q->memory.time = o->t;
 }
 
-bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real place[2], real *radius)
+bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real position[2], real *radius)
 {
     const struct sif_tracked *w = s->probe[k].sif;
     if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
     const struct tip *tip = w->follows >= 0 && w->follows < o->tips->n ? &o->tips->tip[w->follows] : NULL;
     const real *at = w->growth >= 0 ? o->growth[w->growth].place : tip && tip->growth > 0 ? tip->place : w->tip.place;
-    for (int d = 0; d < 2; d++) place[d] = at[d];
+    for (int d = 0; d < 2; d++) position[d] = at[d];
     *radius = w->reach;
     return true;
 }

@@ -1,25 +1,26 @@
-/* SPALL probe: the first plane across a bar that neither bonds nor material points connect any more. */
+/* SPALL probe: the first plane across a bar that neither bonds nor material points connect. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "probes_parts.h"
 
-/* A body cut into columns, one spacing wide along x; plane k lies between columns k and k + 1. */
+/* A body cut into columns of particles, one spacing wide along x; plane k is between columns k and k + 1. */
 struct columns {
     int64_t n;
-    real low, spacing;     /* centre of column 0 [m]; [m]                               */
-    int32_t *intact, *cut; /* [n] bonds across plane k                                  */
-    real *last, *next;     /* [n] farthest x of material points left, nearest right of plane k [m] */
-    real longest;          /* longest bond [m]                                          */
+    real low, spacing;     /* centre of column 0, width of a column [m] */
+    int32_t *intact, *cut; /* [n] numbers of bonds across plane k */
+    real *last, *next;     /* [n] largest x of material points left of plane k, smallest x right of it [m] */
+    real longest;          /* length of the longest bond [m] */
 };
 
+/* Returns the column that contains reference position X [m]. */
 static int64_t probes_spall_column_of(const struct columns *c, real X)
 {
     int64_t k = (int64_t)floor((X - c->low) / c->spacing + 0.5);
     return k < 0 ? 0 : k >= c->n ? c->n - 1 : k;
 }
 
-/* False if the body has fewer than two columns. */
+/* Allocates the columns of a body; returns false if there are fewer than two. */
 static bool probes_spall_columns_make(struct columns *c, const struct observed *o, int body)
 {
     const struct particles *p = o->part;
@@ -46,7 +47,7 @@ static void probes_spall_columns_free(struct columns *c)
     memory_free(c->next);
 }
 
-/* Counts the ends of a bond; sums over the columns turn these counts into bonds across planes. */
+/* Counts a bond at its ends; prefix sums over the columns give the numbers of bonds across planes. */
 static void count_across(int32_t *count, int64_t a, int64_t b)
 {
     count[a < b ? a : b]++;
@@ -74,8 +75,8 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
     for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];
 }
 
-/* Finds the material points nearest to each plane: the grid connects them. Points that have just lost a bond are left
- * out, since they convert next. */
+/* Finds the material points nearest to each plane, since the grid connects them. Points that just lost a bond are
+ * left out, since they convert next. */
 static void columns_points(struct columns *c, const struct particles *p, int body)
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
@@ -89,14 +90,14 @@ static void columns_points(struct columns *c, const struct particles *p, int bod
     for (int64_t k = c->n - 2; k >= 0; k--) c->next[k] = real_min(c->next[k], c->next[k + 1]);
 }
 
-/* No bond across the plane is intact, at least one is broken, and material points on its sides are not within a bond
- * length. */
+/* Returns true if no bond across the plane is intact, at least one is broken, and the material points on its two
+ * sides are more than a bond length apart. */
 static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
 {
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
 }
 
-/* Finds the first fracture: neighbouring planes that separate together are one fracture, at their middle. */
+/* Finds the first fracture. Neighbouring planes that separate together are one fracture, at their middle [m]. */
 static bool columns_apart(const struct columns *c, real *position)
 {
     for (int64_t k = 0; k < c->n - 1; k++) {
@@ -123,7 +124,7 @@ void spall_sample(struct probe *q, const struct observed *o)
             real position;
             if (columns_apart(&c, &position)) {
                 q->memory.first_time = o->t;
-                q->memory.place[0] = position;
+                q->memory.position[0] = position;
                 q->memory.body = body;
             }
         }
@@ -136,7 +137,7 @@ void spall_speeds(const struct probe *q, const struct particles *p, real *speed,
     real mass[2] = {0}, momentum[2] = {0};
     for (int64_t i = 0; i < p->n; i++) {
         if (p->body[i] != q->memory.body) continue;
-        int side = p->X[0][i] > q->memory.place[0];
+        int side = p->X[0][i] > q->memory.position[0];
         mass[side] += p->mass[i];
         momentum[side] += p->mass[i] * p->v[0][i];
     }

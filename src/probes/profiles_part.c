@@ -1,4 +1,4 @@
-/* The csv files of line and exact probes: written with every frame, checked on a restart, removed before a new run. */
+/* CSV files of LINE and EXACT probes: written with every frame, checked on a restart, removed before a new run. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -6,9 +6,10 @@
 #include "output/output_files.h"
 #include "probes/probes_part.h"
 
-/* What profiles of lines and of bars begin with (probes_profiles.c). */
+/* First columns of the header of such a file (probes_profiles.c). */
 static const char *const profile_begin[] = {"s [m],", "x [m],"};
 
+/* Writes a profile into a folder, but does not overwrite a file that is no profile. */
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
@@ -40,7 +41,7 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     warnings_say(to, text);
 }
 
-/* Removes a profile, and leaves a file of others. False: there is none. */
+/* Removes a profile but keeps a file that is none; returns false if there is no file. */
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;

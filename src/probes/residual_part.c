@@ -1,10 +1,11 @@
-/* Largest nodal force of the first step, for patch probes. */
+/* Largest nodal force of the first step, for PATCH probes. */
 #include <math.h>
 
 #include "probes/probes_part.h"
 #include "mesh/mesh_part.h"
 #include "grid/grid_part.h"
 
+/* Returns true if position x is in the region of a PATCH probe. */
 static bool in_patch(const struct scene *s, const real *x)
 {
     for (int k = 0; k < s->probes; k++)
@@ -12,8 +13,8 @@ static bool in_patch(const struct scene *s, const real *x)
     return false;
 }
 
-/* Raises *most to the largest component of the force on a node, if the node is in a patch [N]. at: its number on the
- * lattice of nodes. */
+/* Raises *most to the largest force component on node I [N], if the node is in a patch. at: number of the node on
+ * the lattice of the grid. */
 static void node_keep(const struct scene *s, const struct grid *g, int64_t I, int64_t at, real *most)
 {
     real x[DIM_MAX];

@@ -1,42 +1,45 @@
-/* Angular momentum of all bodies about their common centre of mass, which no force between them changes. */
+/* Angular momentum of all bodies about their common centre of mass, which is conserved if no outside force acts. */
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "probes/diagnostics.h"
 
-/* Mass [kg], first moments of mass [kg m], momentum [kg m/s], angular momentum about the origin [kg m^2/s], sums of
- * m x^2 [kg m^2] and m v^2 [J]. */
+/* Moments of a body: mass [kg], first moments of mass [kg m], momentum [kg m/s], angular momentum about the origin
+ * [kg m^2/s], sums of m x^2 [kg m^2] and m v^2 [J]. */
 struct turning {
-    real mass, place[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic;
+    real mass, moment[DIM_MAX], momentum[DIM_MAX], spin[DIM_MAX], inertia, twice_kinetic;
 };
 
-#define LEAST_TURN 0.01 /* least size of angular momentum: as a share of the most that motion of this energy has */
+/* least scale of angular momentum, over the most that motion of this kinetic energy and inertia can have */
+#define LEAST_TURN 0.01
 
+/* Adds a particle to the moments of its body. */
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
     to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
     for (int d = 0; d < DIM_MAX; d++) {
         const int a = (d + 1) % 3, b = (d + 2) % 3;
-        to->place[d] += mass * x[d], to->momentum[d] += mass * v[d];
+        to->moment[d] += mass * x[d], to->momentum[d] += mass * v[d];
         to->spin[d] += mass * (x[a] * v[b] - x[b] * v[a]);
     }
 }
 
-/* About a place that moves with `velocity`: spin - place x momentum - moment x velocity + mass place x velocity. */
-static void turning_about(const struct turning *t, const real *place, const real *velocity, real *spin)
+/* Computes the angular momentum about a position that moves with `velocity`: spin - position x momentum - moment x
+ * velocity + mass position x velocity. */
+static void turning_about(const struct turning *t, const real *position, const real *velocity, real *spin)
 {
     for (int d = 0; d < DIM_MAX; d++) {
         const int a = (d + 1) % 3, b = (d + 2) % 3;
-        spin[d] = t->spin[d] - (place[a] * t->momentum[b] - place[b] * t->momentum[a]) -
-                  (t->place[a] * velocity[b] - t->place[b] * velocity[a]) +
-                  t->mass * (place[a] * velocity[b] - place[b] * velocity[a]);
+        spin[d] = t->spin[d] - (position[a] * t->momentum[b] - position[b] * t->momentum[a]) -
+                  (t->moment[a] * velocity[b] - t->moment[b] * velocity[a]) +
+                  t->mass * (position[a] * velocity[b] - position[b] * velocity[a]);
     }
 }
 
-/* Angular momentum of all bodies, [DIM_MAX], about their centre of mass: of particles and of the nodes of a mesh for
- * its points (NULL: none); returns the sum of the sizes of that of each, no less than 1 % of what their motion has if
- * all of it turns them [kg m^2/s]. With APIC what gradients of points hold is left out. */
+/* Computes the angular momentum of all bodies about their common centre of mass [DIM_MAX, kg m^2/s], of particles
+ * and of mesh nodes (mesh is NULL if there are none). Returns its scale: the sum of |L| of each body, at least
+ * LEAST_TURN of the most that its motion can have. Velocity gradients of APIC are left out. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};
@@ -59,19 +62,19 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
     for (int b = 0; b <= bodies; b++) {
         all.mass += body[b].mass, all.inertia += body[b].inertia, all.twice_kinetic += body[b].twice_kinetic;
         for (int d = 0; d < DIM_MAX; d++) {
-            all.place[d] += body[b].place[d], all.momentum[d] += body[b].momentum[d];
+            all.moment[d] += body[b].moment[d], all.momentum[d] += body[b].momentum[d];
             all.spin[d] += body[b].spin[d];
         }
     }
-    real place[DIM_MAX], velocity[DIM_MAX], size = 0, own[DIM_MAX];
-    for (int d = 0; d < DIM_MAX; d++) place[d] = all.place[d] / all.mass, velocity[d] = all.momentum[d] / all.mass;
-    turning_about(&all, place, velocity, spin);
+    real position[DIM_MAX], velocity[DIM_MAX], size = 0, own[DIM_MAX];
+    for (int d = 0; d < DIM_MAX; d++) position[d] = all.moment[d] / all.mass, velocity[d] = all.momentum[d] / all.mass;
+    turning_about(&all, position, velocity, spin);
     for (int b = 0; b <= bodies; b++) {
-        turning_about(&body[b], place, velocity, own);
+        turning_about(&body[b], position, velocity, own);
         size += sqrt(dot(own, own, DIM_MAX));
     }
     memory_free(body);
-    const real inertia = all.inertia - all.mass * dot(place, place, DIM_MAX),
+    const real inertia = all.inertia - all.mass * dot(position, position, DIM_MAX),
                kinetic = all.twice_kinetic - all.mass * dot(velocity, velocity, DIM_MAX);
     return real_max(size, LEAST_TURN * sqrt(real_max(0, inertia) * real_max(0, kinetic)));
 }

@@ -157,12 +157,12 @@ static void first_break_is_booked_once(void **state)
     b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
     diagnostics_breaks(&w, &b.p, 3.015, 4, 3);
     assert_near(w.break_time, 3, 0);
-    assert_near(w.break_place[0], 3.5, ROUND_OFF);
-    assert_near(w.break_place[1], 4, ROUND_OFF);
+    assert_near(w.break_position[0], 3.5, ROUND_OFF);
+    assert_near(w.break_position[1], 4, ROUND_OFF);
     b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
     diagnostics_breaks(&w, &b.p, 3.015, 2, 4);
     assert_near(w.break_time, 3, 0);
-    assert_near(w.break_place[0], 3.5, ROUND_OFF);
+    assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_int_equal(w.bonds_broken, 8);
 
     assert_int_equal(w.break_ends, 1);
@@ -176,7 +176,7 @@ static void first_break_is_booked_once(void **state)
     diagnostics_make(&other);
     assert_false(diagnostics_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
     assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
-    assert_near(other.break_place[0], 8.5, ROUND_OFF);
+    assert_near(other.break_position[0], 8.5, ROUND_OFF);
 
     struct diagnostics again;
     struct store s = {0};

@@ -92,12 +92,12 @@ static void step_bar_fronts_and_plateaus(void **state)
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         real from, to;
         assert_int_equal(exact_fronts(&e, want[k].t, f), 1);
-        assert_near(f[0].place, want[k].place, 1e-12);
+        assert_near(f[0].position, want[k].place, 1e-12);
         assert_int_equal(f[0].ahead, want[k].ahead);
         assert_near(f[0].before, want[k].before, 1e-12);
         assert_near(f[0].behind, want[k].behind, 1e-12);
-        assert_near(exact_at(&e, f[0].place + 1e-6 * f[0].ahead, want[k].t).stress, f[0].before, 1e-12);
-        assert_near(exact_at(&e, f[0].place - 1e-6 * f[0].ahead, want[k].t).stress, f[0].behind, 1e-12);
+        assert_near(exact_at(&e, f[0].position + 1e-6 * f[0].ahead, want[k].t).stress, f[0].before, 1e-12);
+        assert_near(exact_at(&e, f[0].position - 1e-6 * f[0].ahead, want[k].t).stress, f[0].behind, 1e-12);
         assert_int_equal(exact_plateau(&e, want[k].t, EXACT_PLATEAU, &from, &to), want[k].plateau);
         assert_false(exact_plateau(&e, want[k].t, EXACT_PRECURSOR, &(real){0}, &(real){0}));
         if (!want[k].plateau) continue;
@@ -119,11 +119,11 @@ static void plastic_bar_jumps(void **state)
         e.loaded = side, e.load = -1, e.reflection[0] = -side, e.reflection[1] = side;
         assert_int_equal(exact_fronts(&e, t, f), 2);
         for (int k = 0; k < 2; k++) {
-            struct exact_values a = exact_at(&e, f[k].place + 1e-9 * f[k].ahead, t);
-            struct exact_values b = exact_at(&e, f[k].place - 1e-9 * f[k].ahead, t);
+            struct exact_values a = exact_at(&e, f[k].position + 1e-9 * f[k].ahead, t);
+            struct exact_values b = exact_at(&e, f[k].position - 1e-9 * f[k].ahead, t);
             real along = f[k].ahead * speed[k]; /* velocity of the front */
             assert_int_equal(f[k].ahead, -side);
-            assert_near(f[k].place, side > 0 ? place[k] : 1 - place[k], 1e-12);
+            assert_near(f[k].position, side > 0 ? place[k] : 1 - place[k], 1e-12);
             assert_near(b.stress - a.stress, -1 * along * (b.velocity - a.velocity), 1e-12); /* momentum */
             assert_near(b.velocity - a.velocity, -along * (b.strain - a.strain), 1e-13);     /* continuity */
             assert_near(b.displacement, a.displacement, 1e-10);
