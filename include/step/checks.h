@@ -9,7 +9,7 @@
 void stability_make(struct stability *s, const struct particles *p);
 
 /* Checks a run after every step. FAILED, with position, step, cause and remedy, if a particle is faster than the
- * fastest wave, a cell of a mesh is inverted, contact lets bodies overlap, or a formula of a load has no finite
+ * fastest wave, a cell of a mesh is inverted, bodies in contact overlap, or a formula of a load has no finite
  * value. */
 status stability_check(struct run *e);
 
@@ -18,8 +18,8 @@ status stability_check(struct run *e);
  * move them report divergence in every step. */
 status divergence_check(const struct run *e, bool peridynamic, bool meshed);
 
-/* Checks the energies of the last sample, if one was due in this step. FAILED if the body gained energy that nothing
- * supplied, or an energy is not finite. */
+/* Checks the energies of the last sample, if one was due in this step. Returns FAILED if the body gained energy that
+ * nothing supplied, or an energy is not finite. */
 status energy_check(struct run *e);
 
 /* Returns the energy that bonds released when they broke beyond what they had stored [J]. */

@@ -72,16 +72,16 @@ unsigned report_frames_due(const struct output *out, const struct scene *s, cons
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports before the first step of this process: opens history.csv and writes frame 0 and the first
- * checkpoint, unless the run is resumed. FAILED if a file cannot be written. */
+ * checkpoint, unless the run is resumed. Returns FAILED if a file cannot be written. */
 status report_start(struct run *e);
 
 /* Completes a step: writes the frames, the checkpoint and the progress line that are due, and the last sample after
- * the last step. FAILED if a file cannot be written or the energies are wrong (energy_check); INTERRUPTED, after a
- * checkpoint, if a signal or time.wall stops the run. */
+ * the last step. Returns FAILED if a file cannot be written or the energies are wrong (energy_check); INTERRUPTED,
+ * after a checkpoint, if a signal or time.wall stops the run. */
 status report_step(struct run *e);
 
-/* Ends the reports after the last step: waits for the frames and writes the last checkpoint. FAILED if a file cannot
- * be written. */
+/* Ends the reports after the last step: waits for the frames and writes the last checkpoint. Returns FAILED if a file
+ * cannot be written. */
 status report_end(struct run *e);
 
 /* Returns the share of all particles that are at rest, so that steps skip them (data/active_set.h) [1]. */

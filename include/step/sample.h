@@ -6,7 +6,7 @@
 #include "run/run.h"
 
 /* Opens history.csv and writes its header: columns of all runs, of probes and of the parts of the run. resume:
- * append to the file of an interrupted run. FAILED if the file cannot be written. */
+ * append to the file of an interrupted run. Returns FAILED if the file cannot be written. */
 status sample_start(struct run *e, bool resume);
 
 /* Begins a sample, if one is due, before the step moves anything: positions, damage, tips and probes of t_n;

@@ -6,7 +6,7 @@
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* Makes one time step. FAILED if material points have left the background grid and diverged. */
+/* Makes one time step. Returns FAILED if material points have left the background grid and diverged. */
 status step(struct run *e);
 
 /* Converts material points to peridynamic particles between load steps, without motion. broken: directed bonds
@@ -21,8 +21,8 @@ void run_forces(struct run *e);
 /* Synchronises positions, velocities and stresses of all particles, as frames need them. */
 void run_sync(struct run *e);
 
-/* Chooses the time step and the number of steps. REFUSED if time.step is too long for coarse cells, or the run would
- * have more than 1e12 steps. */
+/* Chooses the time step and the number of steps. Returns REFUSED if time.step is too long for coarse cells, or the run
+ * would have more than 1e12 steps. */
 status time_step_make(struct run *e);
 
 /* Returns the read-only view of a run that probes measure; all pointers borrow from the run. */

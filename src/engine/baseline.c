@@ -1,5 +1,5 @@
-/* Reference run of pulse probes: the same scene on material points alone, which separates the effect of the interface
- * from that of the discretisation. */
+/* Reference run of PULSE probes: the same scene on material points alone, which separates the effect of the
+ * interface from that of the discretisation. */
 #include <string.h>
 
 #include "engine/engine.h"
@@ -8,7 +8,7 @@
 #include "step/report.h"
 #include "step/step.h"
 
-/* True if the scene has a pulse probe and is not itself on material points alone. */
+/* Returns true if the scene has a PULSE probe and is not itself on material points alone. */
 static bool wanted(const struct scene *s)
 {
     for (int k = 0; k < s->probes; k++)
@@ -16,8 +16,8 @@ static bool wanted(const struct scene *s)
     return false;
 }
 
-/* Copies velocities of the particles p, and the energy change [1], of the finished reference run. Both runs number
- * their particles alike, since these are made and sorted before any becomes peridynamic. */
+/* Stores velocities and energy change [1] of the completed reference run. Its particles p have the same order as
+ * those of the run, which are made and sorted before any becomes peridynamic. */
 static void baseline_keep(struct probing *probing, const struct particles *p, real energy_change)
 {
     for (int d = 0; d < p->dim; d++) {

@@ -1,4 +1,4 @@
-/* Writes summary.json: the figures of a run, for scripts. Physical figures come first and do not depend on the number
+/* Writes summary.json, the figures of a run for scripts. Physical figures come first and do not depend on the number
  * of threads; figures that depend on the machine follow. */
 #include <math.h>
 #include <stdlib.h>
@@ -17,6 +17,7 @@
 
 /* ---- physical figures -------------------------------------------------------------------------------------------- */
 
+/* Writes method, status, steps, times and numbers of particles. */
 static void put_run(struct json *j, const struct run *e, status s, const char *message)
 {
     static const char *const method[] = {[METHOD_PD] = "pd", [METHOD_MPM] = "mpm", [METHOD_ADAPTIVE] = "adaptive"};
@@ -45,12 +46,13 @@ static void put_warnings(struct json *j, const struct warnings *w)
 
 /* ---- fragments --------------------------------------------------------------------------------------------------- */
 
-/* Bodies of bonds that have lost some. */
+/* Returns true for a peridynamic body that has lost bonds, whose fragments are reported. */
 static bool has_fragments(const struct scene *scene, const struct diagnostics *diagnostics)
 {
     return scene->method == METHOD_PD && !scene_at_rest(scene) && (diagnostics->bonds_broken > 0 || scene->cracks > 0);
 }
 
+/* Writes number and masses of the fragments; particles without any bond are counted apart. */
 static void put_fragments(struct json *j, const struct fragments *f)
 {
     json_open(j, "fragments", '{');
@@ -61,7 +63,7 @@ static void put_fragments(struct json *j, const struct fragments *f)
     json_close(j, '}');
 }
 
-/* fragments.csv: a line each, the heaviest first. */
+/* Prints fragments.csv, a line for each fragment, the heaviest first. */
 static void fragments_print(FILE *file, const struct particles *part, const struct fragments *f)
 {
     static const char axis[] = "xyz";
@@ -79,6 +81,7 @@ static void fragments_print(FILE *file, const struct particles *part, const stru
     }
 }
 
+/* Writes fragments.csv into the folder of the run. Returns FAILED if it cannot be written. */
 static status fragments_write(const struct particles *part, const struct run_report *report, const struct fragments *f)
 {
     char *text = NULL;
@@ -95,7 +98,7 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Figures that depend on the machine: threads, kernels, times, memory. steps: of the run. */
+/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run. */
 static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads, double wall_seconds)
 {
     real updates = 0, ns = 1e9 * r->loop_seconds;
@@ -110,7 +113,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_number(j, "rest_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
-/* Times of the parts of the loop in this process [s]. */
+/* Writes the times of the sections of the loop in this process [s]. */
 static void put_timers(struct json *j, const struct timers *timers)
 {
     json_open(j, "laps", '{');
@@ -118,6 +121,7 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
+/* Prints summary.json. s, message: result of the run; threads, wall_seconds: for the figures of the machine. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
                           const char *message, int threads, double wall_seconds)
 {
@@ -152,7 +156,7 @@ status summary_write(const struct run *e, status s, int threads, double wall_sec
     status written = whole ? output_text(e->report->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
-    /* The cause of a failed run has precedence over a fault of writing its summary. */
+    /* the cause of a failed run has precedence over a failure to write its summary */
     if (written != OK && s != OK) return status_set(s, "%s", message);
     return written;
 }

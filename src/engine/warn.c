@@ -1,4 +1,4 @@
-/* Warnings before a run, with the numbers they rest on. */
+/* Warnings before a run, with the measurements behind them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-/* True if pre-cracks have cut a bond. */
+/* Returns true if pre-cracks have cut a bond. */
 static bool bonds_are_cut(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++)
@@ -22,7 +22,7 @@ static bool bonds_are_cut(const struct bonds *b)
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
-/* Does a scene set a body turning? */
+/* Returns true if a boundary or an initial state rotates a body. */
 static bool spins(const struct scene *s)
 {
     bool any = false;
@@ -36,7 +36,8 @@ static bool spins(const struct scene *s)
     return any;
 }
 
-/* Measured with a plate that turns freely, edges at 30 m/s, cells of two spacings. */
+/* Warns of FLIP in rotating bodies on the grid, which does not conserve their angular momentum. Measured with a
+ * plate that rotates freely, with edges at 30 m/s and cells of two spacings. */
 static void warn_of_spin(const struct scene *s, const struct grid_method *grid, struct warnings *to)
 {
     if (scene_moves(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
@@ -46,7 +47,7 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
                      "times too large; apic loses 2e-5");
 }
 
-/* Warns of pre-cracks without bonds, and of couplings beside their definition. */
+/* Warns of pre-cracks without bonds, and of couplings that differ from their definition or have no energy. */
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
@@ -79,7 +80,7 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
             s->cell);
 }
 
-/* Keys of coarse cells and slits where there are none. */
+/* Warns of keys of coarse cells and slits that have no effect. */
 static void warn_of_idle_keys(const struct scene *s, const struct reference_frame *frame, struct warnings *to)
 {
     const char *why = s->method == METHOD_PD    ? "method pd has no cells"
@@ -100,6 +101,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                      s->method == METHOD_PD ? ", whose pre-cracks are cut bonds" : "");
 }
 
+/* Warns of materials that convert at a stress above the one at which bonds break. */
 static void warn_of_materials(const struct scene *s, const struct material_tables *tables, struct warnings *to)
 {
     for (int m = 0; m < s->materials; m++) {
@@ -112,7 +114,7 @@ static void warn_of_materials(const struct scene *s, const struct material_table
     }
 }
 
-/* Does a region hold a particle? Where some are not made it may hold points of coarse cells alone: true. */
+/* Returns true if a region contains a particle, or if the run has hollow cells, whose points may be in the region. */
 static bool region_is_met(const struct reference_frame *frame, const struct particles *part,
                           const struct region *region)
 {
@@ -125,7 +127,7 @@ static bool region_is_met(const struct reference_frame *frame, const struct part
     return any;
 }
 
-/* Probes that assume what the scene does not keep to. */
+/* Warns of SIF probes in materials that yield, for which their factors have no meaning. */
 static void warn_of_probes(const struct scene *s, struct warnings *to)
 {
     bool yields = false;
@@ -138,14 +140,15 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
                          s->probe[k].name);
 }
 
-/* Columns of particle lists that are not read, or that have a default. */
+/* Warns of columns of particle lists that are not read, or that take a default. */
 static void warn_of_lists(const struct scene *s, struct warnings *to)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].list.note[0]) warnings_add(to, "%.200s: %s", s->body[b].file, s->body[b].list.note);
 }
 
-/* A field that is asked for by name, and that no frame will have. */
+/* Warns that plastic strain is requested for frames although no material yields. asked: fields of frames (bits
+ * ASK_...). */
 static void warn_of_fields(unsigned asked, const struct particles *p, const struct bonds *b, struct warnings *to)
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };

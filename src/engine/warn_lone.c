@@ -1,31 +1,31 @@
-/* Warnings of particles that nothing joins to others: they feel no force and fly away, or leave an equilibrium
- * without a solution. */
+/* Warnings of particles without neighbours: they have no internal force, and a static solver finds no equilibrium. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "engine/engine.h"
 
-enum { MASS_POINTS = 7 }; /* bodies of so few particles are mass points that were placed one by one */
+enum { MASS_POINTS = 7 }; /* bodies of at most so many particles are mass points, placed one by one */
 
-/* Particles of a body without a neighbour. */
+/* Numbers of particles of a body. */
 struct lone {
-    int64_t all, n, first; /* of the body; without neighbour; the first of these */
+    int64_t all, n, first; /* all; without neighbour; index of the first without neighbour */
 };
 
+/* Counts particle i as one without neighbours. */
 static void lone_add(struct lone *l, int64_t i)
 {
     if (l->n++ == 0) l->first = i;
 }
 
-/* Does a row of bonds hold none? */
+/* Returns true if a row of bonds is empty. */
 static bool row_empty(const struct bonds *b, int64_t row)
 {
     struct bond_iterator it = bonds_of_row(b, row);
     return !bond_next(&it);
 }
 
-/* Is a body filled from a list or a file, so that places of its lattice need no neighbours? */
+/* Returns true if a body is made from a list or file, so that its particles may be isolated. */
 static bool from_file(const struct scene *s, int body)
 {
     bool any = s->body[body].file != NULL;
@@ -60,28 +60,30 @@ static void lone_points_count(const struct scene *s, const struct cells *cells, 
 
 /* ---- lists without volumes --------------------------------------------------------------------------------------- */
 
-enum { SAMPLED = 128 };  /* particles of a list that are looked at */
-#define APART_MOST 1.25  /* [spacings] median distance of nearest neighbours; close packings have 1.12 */
-#define CROWDED_MOST 1.6 /* times the particles that a lattice has within NEAR */
-#define NEAR 2.5         /* [spacings] */
-#define ALIKE 0.01       /* share by which distances of nearest neighbours of a lattice differ: digits of lists */
-#define LATTICE_OFF 0.02 /* share by which the distance of a lattice may be off the spacing */
+enum { SAMPLED = 128 };  /* number of particles of a list that are tested */
+#define APART_MOST 1.25  /* largest median distance of nearest neighbours [spacings]; close packings have 1.12 */
+#define CROWDED_MOST 1.6 /* largest number of particles within NEAR, over that of a lattice */
+#define NEAR 2.5         /* radius in which neighbours are counted [spacings] */
+/* relative difference of the distances of nearest neighbours in a lattice, from the digits of lists */
+#define ALIKE 0.01
+#define LATTICE_OFF 0.02 /* relative difference of the distance of a lattice from the spacing */
 
+/* Compares two numbers, for sorting in ascending order. */
 static int apart_order(const void *a, const void *b)
 {
     const real x = *(const real *)a, y = *(const real *)b;
     return (x > y) - (x < y);
 }
 
-/* Median of n numbers, which are sorted. */
+/* Sorts n numbers and returns their median. */
 static real median_sorted(real *a, int n)
 {
     array_sort(a, n, sizeof *a, apart_order);
     return a[n / 2];
 }
 
-/* Sets the distance of the nearest neighbour of a particle [m], INFINITY if there is none within NEAR, and the number
- * of neighbours at that distance. */
+/* Computes the distance of the nearest neighbour of particle i [m], INFINITY if near is empty, and the number of
+ * neighbours at that distance. */
 static void surroundings(const struct particles *p, const struct near *near, int64_t i, real *apart, real *beside)
 {
     real least2 = INFINITY;
@@ -96,7 +98,8 @@ static void surroundings(const struct particles *p, const struct near *near, int
     *apart = sqrt(least2);
 }
 
-/* Warns of a list without volumes, which have that of the spacing, whose particles are farther apart or denser. */
+/* Warns of a list without volumes if its particles are farther apart or closer than the spacing, from which their
+ * volumes are taken. */
 static void warn_of_list_spacing(const struct scene_body *b, real spacing, const struct cells *cells,
                                  const struct particles *p, struct warnings *to)
 {
@@ -114,7 +117,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     memory_free(near.at);
     if (own <= MASS_POINTS) return;
     const real distance = median_sorted(apart, n), share = median_sorted(count, n) / ball[p->dim];
-    /* a square or cubic lattice: all as far apart, 2 neighbours an axis inside */
+    /* a square or cubic lattice has equal distances, and 2 nearest neighbours an axis inside */
     const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_sorted(beside, n) <= 2 * p->dim;
     if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))

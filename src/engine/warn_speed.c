@@ -1,17 +1,18 @@
-/* Warnings of velocities and displacements so fast that bonds beside what is driven break. */
+/* Warnings of velocities and displacements that break bonds beside driven particles. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "engine/engine.h"
 
-/* Marks the bodies, those joined counted as one, of which a load has particles. body: [bodies], by lowest number. */
+/* Marks the bodies that contain particles of a load. body [bodies]: joined bodies are marked at the lowest of their
+ * numbers. */
 static void bodies_mark(const struct scene *scene, const struct particles *part, const struct load *l, bool *body)
 {
     for (int b = 0; b < scene->bodies; b++) body[b] = false;
     for (int64_t k = 0; k < l->n; k++) body[scene->body[part->body[l->particle[k]]].joined] = true;
 }
 
-/* Has a load particles in marked bodies? */
+/* Returns true if a load has particles in marked bodies. */
 static bool load_meets(const struct scene *scene, const struct particles *part, const struct load *l, const bool *body)
 {
     bool any = false;
@@ -19,16 +20,17 @@ static bool load_meets(const struct scene *scene, const struct particles *part, 
     return any;
 }
 
-/* A load that drives particles: the bodies of these [bodies], and the speed at which bonds beside them break [m/s]. */
+/* A load that drives particles, the bodies that contain them [bodies], and the speed at which bonds beside them
+ * break [m/s]. */
 struct driver {
     const struct load *load;
     bool *body;
-    real bears;
+    real limit;
 };
 
-/* Returns true if nothing keeps the bodies of a driving load from moving with it: no mirror across its components, no
- * absorbing face, damping or other body, no load that drives the same components otherwise by more than the speed at
- * which bonds break. */
+/* Returns true if nothing prevents the bodies of a driving load from moving with it: no mirror across its
+ * components, no absorbing face, damping or other body, and no load that drives the same components with a velocity
+ * that differs by more than the speed at which bonds break. */
 static bool moves_freely(const struct driver *d, const struct scene *s, const struct loads *all,
                          const struct particles *p)
 {
@@ -46,7 +48,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
             break;
         case BOUNDARY_VELOCITY:
             freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
-                     loads_velocity_apart(own, l, p, s->duration) <= d->bears;
+                     loads_velocity_apart(own, l, p, s->duration) <= d->limit;
             break;
         default:
             break;
@@ -55,7 +57,8 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
     return freely;
 }
 
-/* Time that a wave takes across marked bodies, by the diagonal of the box around each and the slowest material [s]. */
+/* Returns the time in which a wave crosses the marked bodies [s], from the diagonals of their bounding boxes and the
+ * slowest material. */
 static real body_crossing_time(const struct particles *p, const struct scene *s, const bool *body)
 {
     real slowest = INFINITY, most = 0;
@@ -75,49 +78,49 @@ static real body_crossing_time(const struct particles *p, const struct scene *s,
     return most / slowest;
 }
 
-/* Warns of a load on bodies that move freely, if its velocity changes faster than a wave crosses the bodies: only that
- * strains them. */
+/* Warns of a load on bodies that move freely if its velocity changes too much within the time in which a wave
+ * crosses the bodies; slower changes hardly strain them. */
 static void warn_of_change(const struct driver *d, const struct scene *s, const struct particles *p,
                            struct warnings *to)
 {
     const real within = body_crossing_time(p, s, d->body);
     const real change = load_velocity_change(d->load, p, s->duration, within);
-    if (change > d->bears)
+    if (change > d->limit)
         warnings_add(to,
                      "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
                      "what it drives; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: a "
                      "slower change is expected, if it is no blow",
-                     d->load->boundary->name, change, within, d->bears);
+                     d->load->boundary->name, change, within, d->limit);
 }
 
-/* A face that is moved at v strains what is behind it by v/c at once. */
+/* A face that is moved at speed v strains the material behind it by v/c at once. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
                           struct warnings *to)
 {
-    real bears = INFINITY;
+    real limit = INFINITY;
     bool *body = NEW("warn.bodies", s->bodies, bool);
     for (int m = 0; m < s->materials; m++)
-        bears = real_min(bears, s->material[m].critical_stretch * s->material[m].wave_speed);
+        limit = real_min(limit, s->material[m].critical_stretch * s->material[m].wave_speed);
     for (int b = 0; b < loads->n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
         const struct load *l = &loads->load[b];
-        const struct driver driver = {l, body, bears};
+        const struct driver driver = {l, body, limit};
         const real speed = load_displacing_speed(l, p, s->duration);
         const real jump = load_velocity_jump(l, p, s->duration);
-        if (!(speed > bears || jump > bears)) continue;
+        if (!(speed > limit || jump > limit)) continue;
         bodies_mark(s, p, l, body);
         if (isfinite(speed) && moves_freely(&driver, s, loads, p))
             warn_of_change(&driver, s, p, to);
-        else if (speed > bears)
+        else if (speed > limit)
             warnings_add(to,
                          "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
                          "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
-                         s->boundary[b].name, speed, bears);
+                         s->boundary[b].name, speed, limit);
         else
             warnings_add(to,
                          "boundary %s: its velocity is up to %.3g m/s beside that of what it drives at t = 0; bonds "
                          "beside it break at %.3g m/s, the critical stretch times the wave speed: a lower velocity is "
                          "expected, if it is no blow",
-                         s->boundary[b].name, jump, bears);
+                         s->boundary[b].name, jump, limit);
     }
     memory_free(body);
 }

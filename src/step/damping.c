@@ -30,6 +30,7 @@ struct damped {
     const uint8_t *flag;
 };
 
+/* Returns true unless entry i is a point of the mesh, whose mass moves with the nodes. */
 static bool moves_itself(const struct damped *a, int64_t i) { return !(a->flag && a->flag[i] & FLAG_MESHED); }
 
 /* Adds the energy that entries first .. end - 1 have lost since the previous step to sum[0] [J]. */

@@ -21,6 +21,7 @@ struct gradient_sum {
     real K[3][3], M[3][3];
 };
 
+/* Adds neighbour j of particle i to the sums. */
 static void gradient_add(struct gradient_sum *s, const struct particles *p, int64_t i, int64_t j)
 {
     real xi[DIM_MAX], u[DIM_MAX];
@@ -85,6 +86,7 @@ static bool in_mesh(const struct reference_frame *frame, int64_t i)
     return frame->mesh.points > 0 && frame->mesh.place[i] >= 0;
 }
 
+/* Computes the displacement gradients of all particles into H [dim dim][n], which it allocates. */
 static void gradients_make(const struct run *e, real **H)
 {
     const struct particles *p = &e->part;
@@ -142,6 +144,7 @@ static real *plastic_strain_make(const struct particles *p, const struct bonds *
     return strain;
 }
 
+/* Returns the level of the cell of every particle [n]; 0 outside meshes. The caller frees it. */
 static uint8_t *cell_levels_make(const struct reference_frame *frame, const struct particles *part)
 {
     const struct mesh *mesh = &frame->mesh;

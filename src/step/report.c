@@ -150,6 +150,7 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
+/* Writes a checkpoint and stores the time that it took. */
 static status write_checkpoint(struct run *e)
 {
     frame_sync(e->frame, &e->part, &e->loads);
@@ -196,6 +197,7 @@ status report_start(struct run *e)
 
 /* ---- progress ---------------------------------------------------------------------------------------------------- */
 
+/* Prints a duration [s] to text in s, min or h. */
 static void duration_text(char *text, size_t size, double seconds)
 {
     if (seconds < 100)

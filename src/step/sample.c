@@ -173,6 +173,7 @@ static bool wants_motion(const struct scene *s)
     return motion;
 }
 
+/* Returns the kinetic energy of particles and of nodes of meshes [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
     return diagnostics_kinetic(p) + frame_kinetic(reference);

@@ -161,6 +161,7 @@ static int say_step(const struct scene *s, const struct run_clock *clock, char *
                     clock->dt_critical);
 }
 
+/* Returns true if a mirror holds tangential motion. */
 static bool holds_images(const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -318,6 +319,7 @@ status stability_check(struct run *e)
 
 /* ---- energy ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the index of the fastest particle. */
 static int64_t fastest_particle(const struct particles *p)
 {
     int64_t fastest = 0;

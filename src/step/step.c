@@ -26,6 +26,7 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
+/* Sets the quantities of a step. */
 static struct step step_begin(struct run *e)
 {
     const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_share(decay);
@@ -101,6 +102,7 @@ static void push_bonds(struct run *e, struct step *now)
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }
 
+/* Computes the contact forces; records them if a frame follows the step. */
 static void push_contact(struct run *e)
 {
     e->contact->recorded =

@@ -75,6 +75,7 @@ static const real moved_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 1.5}, {1, 1.4, 1.4,
  * does not resolve. Measured where few particles share a node, the worst case. */
 static const real met_by_grid[2][DIM_MAX + 1] = {{1, 1, 1, 0.62}, {1, 0.86, 0.81, 1}};
 
+/* Returns the factor of the critical step of bonds for a coupling. */
 static real share_of_coupling(const struct scene *s, enum coupling coupling)
 {
     const bool two = s->cell >= 2;
@@ -137,6 +138,8 @@ static real critical_of_bonds(struct run *e)
 
 #define STEPS_MOST 1e12 /* limit of scene_check.c */
 
+/* Sets the number of steps and dt, at most `dt` [s], so that steps fill the duration. Returns REFUSED for more than
+ * STEPS_MOST steps. */
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))

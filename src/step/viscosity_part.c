@@ -65,6 +65,8 @@ static void bond_push(const struct material *material, const struct particles *p
     for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * span[d] / length;
 }
 
+/* Adds the viscous forces of bonds to particles, and the energy that they dissipated since the previous step. half:
+ * half_step [s]. */
 static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
 {
 #pragma omp parallel for schedule(static)
@@ -84,6 +86,7 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
+/* Computes q of points on the grid, and the energy dissipated in the growth of their volumes over dt. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
 {
