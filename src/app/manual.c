@@ -66,6 +66,7 @@ static const struct entry options[] = {
     {"--quick", "smaller cases.", NULL},
     {"--readme", "writes what is printed and tables to bench/results/ of the source tree.", NULL},
     {"--help", "after any command: what it takes.", NULL},
+    {"--version", "in place of a command: prints the version, and the commit where the source tree was in git.", NULL},
 };
 static const struct entry exit_status[] = {
     {"0", "done", NULL},
