@@ -7,7 +7,8 @@
 # A row: figure, value, tolerance, when, command, source, document, place. No field holds a comma.
 #   when     quick: measured by test_claims.sh; long: by long_claims.sh; kept: compared with the kept results alone
 #   source   of `cleave run`: a path in summary.json, and a formula that follows it after a blank; of `cleave bench`: a regular expression
-#            for one line of what the bench prints, with single blanks; `-`: not compared
+#            for one line of what the bench prints, with single blanks; `FILE.txt: ` before it names another of the kept results; `-`: not
+#            compared
 #   place    a regular expression for the text of the document, its lines joined by blanks; `SECTION > ` before it looks below one heading
 # In both expressions # stands for the number and @ for any number.
 BEGIN { FS = ","; number = "[-+]?[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?" }
@@ -65,7 +66,7 @@ function half_digit(value,    digits, exponent)
     return 0.501 * 10 ^ (exponent - (match(digits, /[.]/) ? length(digits) - RSTART : 0))
 }
 
-function apart(a, b) { return a > b ? a - b : b - a }
+function apart(a, b) { return a - b > 0 ? a - b : b - a }
 
 # The line of a bench's printed results that `source` matches; benches with = in their name have files with _.
 function printed(command, source,    name, words, line, found, value)
@@ -74,6 +75,10 @@ function printed(command, source,    name, words, line, found, value)
     name = words[3]
     sub(/=/, "_", name)
     name = name ~ /^accuracy_/ ? results "/../accuracy/cost_accuracy.csv" : results "/" name ".txt"
+    if (match(source, /^[a-z_]+[.]txt: /)) {
+        name = results "/" substr(source, 1, RLENGTH - 2)
+        source = substr(source, RLENGTH + 1)
+    }
     found = ""
     while ((getline line <name) > 0) {
         if (line ~ /^#/) continue
