@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-static int32_t leader_of(int32_t *leader, int32_t i)
+static int32_t fragment_leader(int32_t *leader, int32_t i)
 {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
@@ -18,7 +18,7 @@ static void join_ends(int32_t *leader, const struct bonds *b, const struct parti
         const int32_t i = p->list[KIND_PD][k];
         for (struct bond_iterator it = bonds_of_row(b, b->row_of[i]); bond_next(&it);) {
             if (it.bond.w == 0 || it.bond.nbr >= p->n) continue; /* images belong to other particles */
-            const int32_t one = leader_of(leader, i), other = leader_of(leader, it.bond.nbr);
+            const int32_t one = fragment_leader(leader, i), other = fragment_leader(leader, it.bond.nbr);
             if (one < other)
                 leader[other] = one;
             else
@@ -63,7 +63,7 @@ static void number_particles(struct fragments *f, int32_t *leader, int64_t n)
     f->of = BARE("fragments.of", n, int32_t);
     for (int64_t i = 0; i < n; i++) number[i] = -1;
     for (int64_t k = 0; k < f->n; k++) number[f->fragment[k].first] = (int32_t)k;
-    for (int64_t i = 0; i < n; i++) f->of[i] = number[leader_of(leader, (int32_t)i)];
+    for (int64_t i = 0; i < n; i++) f->of[i] = number[fragment_leader(leader, (int32_t)i)];
     memory_free(number);
 }
 
@@ -76,11 +76,11 @@ void fragments_find(struct fragments *f, const struct bonds *b, const struct par
     join_ends(leader, b, p);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
-        if (leader_of(leader, i) == i) slot[i] = (int32_t)f->n++;
+        if (fragment_leader(leader, i) == i) slot[i] = (int32_t)f->n++;
     }
     f->fragment = NEW("fragments", f->n, struct fragment);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
-        const int32_t i = p->list[KIND_PD][k], first = leader_of(leader, i);
+        const int32_t i = p->list[KIND_PD][k], first = fragment_leader(leader, i);
         struct fragment *g = &f->fragment[slot[first]];
         g->first = first, g->body = p->body[i];
         add_particle(g, p, i);
