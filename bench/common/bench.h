@@ -41,7 +41,9 @@ void bench_table_free(struct bench_table *t);
 
 /* Creates the folder results/bench. */
 status bench_folder_make(void);
-/* REFUSED if results/bench has a file NAME.json, or without it a table or picture of this name, that no bench wrote. */
+
+/* Checks that a bench may write its files. REFUSED if results/bench has a file NAME.json, or without it a table or
+ * picture of this name, that no bench wrote. */
 status bench_guard(const char *name);
 
 /* Creates results/bench and, unless it exists, a NAME.json without rows, by which later files of the bench are
@@ -125,7 +127,7 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
 /* Returns true if the scene file exists; else prints a line about it. */
 bool bench_scene_exists(const char *path);
 
-/* REFUSED unless all scene files path[n] of a bench exist. */
+/* Checks that all scene files path[n] of a bench exist. REFUSED if one is missing. */
 status bench_scenes_needed(const char *bench, const char *const *path, size_t n);
 
 /* Removes a folder with its contents. */

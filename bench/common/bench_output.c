@@ -105,7 +105,8 @@ static void put_json(FILE *to, const char *name, const struct bench_table *table
     fputs("\n}\n", to);
 }
 
-/* REFUSED if the folder results/bench or results is a link, through which files would be written elsewhere. */
+/* Checks that neither results nor results/bench is a link, through which files would be written elsewhere. REFUSED if
+ * one is. */
 static status bench_folder_guard(void)
 {
     static const char *const folder[] = {"results", BENCH_FOLDER};
