@@ -56,11 +56,11 @@ status file_guard(const char *path);
  * one of them to its end. OK if there is no such file; REFUSED otherwise. */
 status file_begin_guard(const char *path, const char *const *begin, size_t n);
 
+/* Action on one file. */
+typedef status each_file(const char *path);
+
 /* Calls `each` for the files in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops at the
  * first fault and returns it. */
-
-/* Action on one file; returns a status. */
-typedef status each_file(const char *path);
 status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
                   each_file *each);
 

@@ -1,4 +1,4 @@
-/* The HDF5 operations that the program needs, on one file at a time. Faults are kept in the struct: after the first
+/* The HDF5 operations that the program needs, on one file at a time. Faults are stored in the struct: after the first
  * failed call all further calls on the file do nothing, because HDF5 1.10 crashes if it is used after a failed write.
  * Included only by files that read or write HDF5. */
 #ifndef CLEAVE_OUTPUT_HDF5
@@ -23,10 +23,10 @@ struct hdf {
 };
 
 /* Creates the file PATH and replaces an existing one. No time stamps are stored: equal content gives equal bytes. A
- * fault is kept in f. */
+ * fault is stored in f. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
-/* Opens the file PATH for reading. A fault is kept in f. */
+/* Opens the file PATH for reading. A fault is stored in f. */
 void hdf_open(struct hdf *f, const char *path);
 
 /* Closes the file and all its objects. */

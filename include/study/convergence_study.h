@@ -82,8 +82,8 @@ void convergence_study_free(struct convergence_study *s);
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures);
 
-/* REFUSED if the folder is that of a study, and the table or a picture to be written there exists and Cleave did not
- * write it. Other folders are checked by study_take. */
+/* Checks that the table and the pictures may be written to the folder. REFUSED if the folder is that of a study, and
+ * one of these files exists and Cleave did not write it. Other folders are checked by study_take. */
 status figures_guard(const char *folder);
 
 /* Writes the table FOLDER/converge.csv. */

@@ -70,7 +70,7 @@ status study_make_of(struct study *s, const char *scene, const char *folder, con
 /* Writes the default folder of a study of a scene, results/NAME_KIND. to: capacity `room` [byte]. */
 void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind);
 
-/* REFUSED if the folder holds a study of another scene. text: text of the scene. */
+/* Checks that the folder holds no study of another scene. REFUSED if it does. text: text of the scene. */
 status study_folder_fits(const char *folder, const char *text);
 
 /* Marks the folder as that of a study: writes STUDY_SCENE without a scene unless the file exists. REFUSED if the folder
@@ -159,7 +159,8 @@ void study_table_free(struct study_table *t);
 /* Returns the index of a figure in the table, or -1. */
 int study_figure(const struct study_table *t, const char *name);
 
-/* REFUSED, with the most similar name, if no run of the scene can have a figure of this name (figure_names.c). */
+/* Checks that runs of the scene can have a figure of this name (figure_names.c). REFUSED, with the most similar name,
+ * if not. */
 status figure_name_check(const struct scene *s, const char *name);
 
 /* Returns true if a figure describes the computation or the discretisation instead of the body. */
@@ -179,8 +180,8 @@ void study_print_warnings(const struct study *s, FILE *out);
 /* Writes FOLDER/sweep.csv with a line for each run: name, state, values of the varied keys, figures. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
-/* REFUSED if the folder is that of a study, and the table or a picture to be written there exists and Cleave did not
- * write it. Other folders are checked by study_take. */
+/* Checks that the table and the pictures of the study may be written. REFUSED if the folder is that of a study, and one
+ * of these files exists and Cleave did not write it. Other folders are checked by study_take. */
 status study_output_guard(const struct study *s, const struct varied_key *key, int keys);
 
 /* Draws FOLDER/pictures/KEY.png for each varied key, and map.png for two. */

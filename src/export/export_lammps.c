@@ -193,8 +193,8 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     return is;
 }
 
-/* REFUSED if the folder holds other files, or an older export that must not be replaced, or if the export would
- * overwrite a file that it reads. */
+/* Checks where the export would write. REFUSED if the folder holds other files, or an older export that must not be
+ * replaced, or if the export would overwrite a file that it reads. */
 static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};

@@ -26,8 +26,8 @@ struct lammps_settings {
     struct lammps_setting of[SETTINGS_MOST];
 };
 
-/* Lists the keys of the scene to be changed for LAMMPS. bond_style: as in struct export_request. REFUSED if LAMMPS
- * lacks a feature of the scene. */
+/* Lists the keys that must be changed for LAMMPS to run the scene. bond_style: as in struct export_request. REFUSED if
+ * LAMMPS lacks a feature of the scene. */
 status lammps_carries(struct lammps_settings *to, const struct scene *s, bool bond_style);
 
 /* Returns true if bonds break in the scene and LAMMPS would keep the weights of intact families, which no key
@@ -115,7 +115,7 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 /* Writes the names of the columns for `fix property/atom`. */
 void lammps_columns_name(FILE *to, const struct exported *x);
 
-/* Writes the commands by which variables read the columns. */
+/* Writes one `compute property/atom` command for each column, through which variables of LAMMPS read it. */
 void lammps_columns_compute(FILE *to, const struct exported *x);
 
 /* Returns the value of a column for particle i. */

@@ -14,8 +14,8 @@ bool entry_is_ignored(const char *name)
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
 }
 
-/* REFUSED, with its name, if the folder holds an entry that is neither hidden nor temporary nor an early entry of this
- * kind. */
+/* Checks that all entries of the folder are hidden, temporary or early entries of this kind. REFUSED, with the name of
+ * the first other entry, if not. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

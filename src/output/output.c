@@ -150,7 +150,7 @@ static bool is_frames_folder(const char *folder, const char *name)
 static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
-/* REFUSED if the folder holds anything but a run of this scene. */
+/* Checks that the folder holds at most a run of this scene. REFUSED if not. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     char difference[500], *text = NULL;
@@ -191,8 +191,8 @@ static bool has_advanced(const char *folder)
     return lines > 1;
 }
 
-/* REFUSED if the folder holds an older run of the scene and `mode` is OUTPUT_FIRST, or if `mode` is OUTPUT_RESUME and
- * the older run has no checkpoints. */
+/* Checks that `mode` suits an older run of the scene in the folder. REFUSED if there is one and `mode` is OUTPUT_FIRST,
+ * or if `mode` is OUTPUT_RESUME and the older run has no checkpoints. */
 static status mode_check(const char *folder, enum output_mode mode)
 {
     char ended[NAME_MAX_LENGTH] = "interrupted";
@@ -287,7 +287,7 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* REFUSED if a table that a run writes is an existing file that Cleave did not write. */
+/* Checks the tables that a run will write. REFUSED if one of them is an existing file that Cleave did not write. */
 static status tables_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)

@@ -29,8 +29,8 @@ static bool has_other_names(int fd)
     return fstat(fd, &own) == 0 && own.st_nlink > 1;
 }
 
-/* REFUSED for an open file that is neither empty nor begins with the text that sign() writes; FAILED if the file cannot
- * be read. */
+/* Checks that an open file is empty or begins with the text that sign() writes. REFUSED if not; FAILED if the file
+ * cannot be read. */
 static status lock_file_check(int fd, const char *path)
 {
     char begin[sizeof lock_begin - 1];

@@ -143,7 +143,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     return s;
 }
 
-/* REFUSED if the request asks for a slice or an outside view of a plane run. */
+/* Checks that the projection suits the space of the run. REFUSED if the request asks for a slice or an outside view of
+ * a plane run. */
 static status projection_check(const struct plot_request *r, int dim)
 {
     if (dim == 3 || (!r->projection.placed && r->projection.normal < 0 && !r->projection.outside)) return OK;

@@ -80,7 +80,8 @@ static void nearest_frames(struct run_frames *r, const double *time, int times)
     }
 }
 
-/* REFUSED if a time is farther from the nearest frame than the frames are from each other. */
+/* Checks that the requested times lie near frames. REFUSED if a time is farther from the nearest frame than the frames
+ * are from each other. */
 static status times_within(const struct run_frames *f, const double *time, int times)
 {
     if (f->listed == 0) return OK;

@@ -22,7 +22,8 @@ void mark_begin(struct marks *m);
 /* Adds a line with the projected position X [m] and a projected vector [m]; vector: NULL for none. */
 void mark_place(struct marks *m, const real *X, const double *vector);
 
-/* Ends the data block. how: rest of its element of the plot command; text: its line of the key, "" for none. */
+/* Ends the data block and adds its element to the plot command. how: the style in that element; text: the line of the
+ * key, "" for none. */
 void mark_end(struct marks *m, const char *how, const char *text);
 
 /* Draws loads, supports, mirrors and absorbing faces. */

@@ -17,7 +17,7 @@ void study_names_grow(struct study *s);
  * [CASE_NAME_ROOM]. */
 void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
 
-/* Enters the name of run `number` into the hash table. */
+/* Adds the name of run `number` to the hash table. */
 void study_name_book(struct study *s, int number);
 
 /* Selects the keys with several values, in the order in which they appear in names. order: [keys]. Returns their

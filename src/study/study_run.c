@@ -128,8 +128,9 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of a log. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* REFUSED if the folder of the run would leave the study's folder, or if its log is a file that Cleave did not write.
- * Logs of an earlier format have no such first line and begin with a warning. */
+/* Checks where a run of the study would write. REFUSED if the folder of the run is outside the folder of the study, or
+ * if its log is a file that Cleave did not write. Logs of an earlier format have no such first line and begin with a
+ * warning. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
