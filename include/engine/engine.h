@@ -37,7 +37,8 @@ status engine_archive(void *run, struct archive *a);
  * run. */
 status engine_restore(void *run, struct archive *a);
 
-/* After the run: repeats the scene with material points only, if a pulse probe compares with such a run. */
+/* Repeats the scene on material points alone if it has a PULSE probe, which compares the two runs. Call after the run.
+ */
 status engine_baseline(struct run *e);
 
 /* Checks the scene for what is allowed but probably unintended, and adds warnings to e->warnings. Call once, before the

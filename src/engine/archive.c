@@ -12,10 +12,10 @@
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-#define FAR_AWAY 1e7 /* [spacings], as too_far in fill.c */
+#define FAR_AWAY 1e7 /* largest coordinate of a particle [spacings]; as too_far in fill.c */
 
-/* FAILED for a state that no run can have: a checkpoint with intact bytes may still hold one. Indices into arrays and
- * positions are checked before use. */
+/* Checks restored particles before their indices are used in arrays: a checkpoint with a correct checksum may still
+ * hold a state that no run produces. FAILED for such a state. */
 static status particles_check(const struct scene *s, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n_all; i++) {
@@ -35,7 +35,7 @@ static status particles_check(const struct scene *s, const struct particles *p)
     return OK;
 }
 
-/* Warns if a checkpoint was written with another set of kernels: sets agree to round-off only. */
+/* Warns if a checkpoint was written with another set of kernels, whose results differ by round-off. */
 static status kernels_archive(struct warnings *to, struct archive *a)
 {
     char text[256];
@@ -53,7 +53,7 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     return OK;
 }
 
-/* Saves which cells are hollow; restore.c reads them before all else. */
+/* Saves the hollow cells. restore.c reads them before the rest of the checkpoint. */
 static status hollow_save(const struct hollow *h, struct archive *a)
 {
     int64_t n = h->absent ? h->box.n : 0;
@@ -61,7 +61,7 @@ static status hollow_save(const struct hollow *h, struct archive *a)
     return n > 0 ? a->exchange(a, "hollow/absent", h->absent, (size_t)n) : OK;
 }
 
-/* Saves or restores where the run is in time. */
+/* Saves or restores time, number of steps and time step. */
 static status clock_archive(struct run_clock *c, struct archive *a)
 {
     ARCHIVE_VALUE(a, "engine/t", c->t);
@@ -79,7 +79,7 @@ static status body_save(struct run *e, struct archive *a)
     return bonds_archive(&e->bonds, &e->part, a);
 }
 
-/* Restores particles and bonds, and rebuilds what follows from them: lists, coupling, mesh and coarse cells. */
+/* Restores particles and bonds, and rebuilds lists, coupling, mesh and coarse cells from them. */
 static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_archive(&e->part, e->optional, a));

@@ -1,4 +1,4 @@
-/* The engine before its first step: scene -> particles -> loads -> bonds -> grid -> time step. */
+/* Set-up of a run from its scene: particles, loads, bonds, grid and time step. */
 #include <math.h>
 #include <string.h>
 
@@ -24,10 +24,12 @@ static bool has_peridynamics(const struct scene *s) { return s->method != METHOD
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
+/* Sets the critical stretch for each pair of materials: that of the weaker material, or that of an interface between
+ * two bodies. */
 static void make_limits(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->pair_stretch = NEW("engine.pair_stretch", s->materials * s->materials, real);
-    for (int a = 0; a < s->materials; a++) /* a bond between two materials has the strength of the weaker one */
+    for (int a = 0; a < s->materials; a++) /* weaker material of each pair */
         for (int b = 0; b < s->materials; b++)
             tables->pair_stretch[a * s->materials + b] =
                 real_min(s->material[a].critical_stretch, s->material[b].critical_stretch);
@@ -42,7 +44,8 @@ static void make_limits(const struct scene *s, struct material_tables *tables, s
     if (scene_at_rest(s)) source->limit = bond_limit_never; /* no bond breaks in a static solution */
 }
 
-/* Yield of bonds by the material that yields first: s_y = sigma_y/E and H_b/k_e = H/E, its own curve in a bar. */
+/* Sets yield stretch s_y = sigma_y/E and hardening H_b/k_e = H/E for each pair of materials, from the material that
+ * yields first. A bar of one material then has its uniaxial stress-strain curve. */
 static void make_yields(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     bool any = false;
@@ -63,7 +66,7 @@ static void make_yields(const struct scene *s, struct material_tables *tables, s
     source->yield = (struct bond_yield){tables->pair_yield, tables->pair_hardening, s->materials};
 }
 
-/* Moduli of state-based models: A and B of kernels/pd/state_laws.h. */
+/* Computes the moduli of state-based models, A and B of kernels/pd/state_laws.h. */
 static void make_states(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     if (s->model == MODEL_BOND) return;
@@ -74,9 +77,9 @@ static void make_states(const struct scene *s, struct material_tables *tables, s
     source->local = !s->bulk, source->rotates = s->model == MODEL_MOSPD;
 }
 
-/* Principal stress at which material points convert [Pa]: alpha times conversion.stress, by default the stress at s_c
- * (E s_c where nothing yields). With a larger stress points may pass the strain at which bonds break. INFINITY: no
- * conversion; only adaptive runs convert. */
+/* Returns the principal stress at which material points convert [Pa]: alpha times conversion.stress, by default times
+ * the stress at s_c (E s_c where nothing yields). With a larger stress points may exceed the strain at which bonds
+ * break. INFINITY for no conversion; only adaptive runs convert. */
 static real conversion_trigger(const struct scene *s, const struct material *m)
 {
     if (s->method != METHOD_ADAPTIVE || !(s->conversion.criteria & CONVERT_ON_STRESS)) return INFINITY;
@@ -84,7 +87,7 @@ static real conversion_trigger(const struct scene *s, const struct material *m)
     return s->conversion.alpha * most;
 }
 
-/* Constants of the materials for the kernels, and limits of their bonds. */
+/* Creates the constants of the materials for the kernels, and the limits of their bonds. */
 static void make_materials(const struct scene *s, struct material_tables *tables, struct bond_source *source)
 {
     tables->elastic = NEW("engine.elastic", s->materials, struct elastic);
@@ -109,6 +112,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
+/* Sets the options of families, and computes their constants from horizon and spacing. */
 static void make_family(const struct scene *s, struct bond_source *source)
 {
     struct family *f = &source->family;
@@ -118,7 +122,7 @@ static void make_family(const struct scene *s, struct bond_source *source)
     source->material = s->material, source->materials = s->materials;
 }
 
-/* Planes of symmetry, and the pre-cracks that bonds know. */
+/* Creates the planes of symmetry, and the pre-cracks that cut bonds with their mirror images. */
 static void make_mirrors(const struct scene *s, const struct loads *loads, struct material_tables *tables,
                          struct bond_source *source)
 {
@@ -140,7 +144,7 @@ static void make_mirrors(const struct scene *s, const struct loads *loads, struc
     source->crack = tables->cracks.crack, source->cracks = tables->cracks.n, source->crack_of = tables->cracks.of;
 }
 
-/* Converts the initial peridynamic particles and makes the bonds. */
+/* Converts the initial peridynamic particles and creates the bonds. before: run that is continued, or NULL. */
 static status make_bonds(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
@@ -159,7 +163,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
         TRY(run_surface_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
     if (s->method == METHOD_ADAPTIVE) TRY(notch_convert(e));
-    if (before) engine_take_particles(e, before); /* slits are those of the start, whatever has converted since */
+    if (before) engine_take_particles(e, before); /* after notch_convert, which makes slits from initial particles */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     if (before) engine_take_bonds(e, before);
     e->coupling->conversion.first_time = NAN;
@@ -168,9 +172,10 @@ static status make_bonds(struct run *e, struct predecessor *before)
     return OK;
 }
 
-#define DAMPING_SHARE_MOST (1.0 / 16) /* interface_zone.h */
+#define DAMPING_SHARE_MOST (1.0 / 16) /* largest share that is stable, see interface_zone.h */
 
-/* Share of the velocity across the interface that a step damps [1]. c: wave speed [m/s], dt [s], h: of the grid [m]. */
+/* Returns the share of the relative velocity across the interface that is damped in a step [1]. c: wave speed [m/s];
+ * dt: time step [s]; h: spacing of the grid [m]. */
 static real interface_damping_share(const struct scene *s, real c, real dt, real h)
 {
     return real_min(s->interface_damping * c * dt / h, DAMPING_SHARE_MOST);
@@ -178,13 +183,13 @@ static real interface_damping_share(const struct scene *s, real c, real dt, real
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* As measured on blocks of 10^6 particles: */
-#define BYTES_PER_PARTICLE 320.0 /* fields, cells, lists, its part of the grid, a frame being written */
-/* implicit bonds: stencils at surfaces; bonds at cracks and at ends of lines are stored */
+/* Memory as measured on blocks of 10^6 particles: */
+#define BYTES_PER_PARTICLE 320.0 /* [byte] fields, cells, lists, share of the grid, copy for the writer of frames */
+/* [byte] implicit bonds: stencils at surfaces, and the stored bonds at cracks and ends of lines */
 #define BYTES_PER_BOND_LATTICE 3.0
-#define EXACT_MOST 6000.0 /* [spacings] places of longer bodies may be rounded (fill.c): bonds are stored */
+#define EXACT_MOST 6000.0 /* [spacings] in longer bodies positions may be rounded (fill.c), and bonds are stored */
 
-/* Share of its box from..to [m] that a shape fills, by evenly spaced places. */
+/* Returns the share of a box from..to [m] inside a shape, from evenly spaced sample points. */
 static real share_filled(const struct region *shape, const real *from, const real *to, int dim)
 {
     enum { ACROSS = 24 };
@@ -199,7 +204,8 @@ static real share_filled(const struct region *shape, const real *from, const rea
     return real_max(inside, 1) / all;
 }
 
-/* Expected number of lattice particles. *longest: the longest edge of the boxes of all bodies [spacings]. */
+/* Estimates the number of particles on lattices. *longest: receives the longest edge of the boxes around bodies
+ * [spacings]. */
 static real particles_expected(const struct scene *s, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
@@ -222,7 +228,8 @@ static real particles_now(const struct scene *s, const struct particles *p, real
     return p->n > 0 ? (real)p->n : expected;
 }
 
-/* Of n particles with whole families or without; longest: edge of their box [spacings]. */
+/* Estimates the memory of n particles [byte]. families: all of them have bonds, else about one bond each; longest:
+ * longest edge of a box around a body [spacings]. */
 static real memory_of(const struct scene *s, const struct bond_source *source, real n, real longest, bool families)
 {
     const real bonds = families ? source->family.full / source->family.cell_volume : 1;
@@ -245,7 +252,7 @@ real run_memory_peridynamic(const struct scene *s, const struct particles *p, co
     return memory_of(s, source, (real)p->n_body, longest, true);
 }
 
-/* REFUSED if a run needs more memory than is available. */
+/* Checks that the memory of a run is available. REFUSED, with the estimate, if not. */
 static status make_affordable(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     const real memory = (real)team_memory(), bytes = run_memory(s, p, source);
@@ -268,7 +275,7 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Puts the scene file in front of a refusal that has no place in it. */
+/* Adds the path of the scene file to a message that names no place in it. */
 static status named(const struct scene *s, status made)
 {
     char place[PLACE_LENGTH];
@@ -276,7 +283,7 @@ static status named(const struct scene *s, status made)
     return status_at(place, made);
 }
 
-/* Optional arrays of the particles that the scene calls for. */
+/* Returns the optional arrays of particles that the scene needs (bits WITH_...). */
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
@@ -298,7 +305,8 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
     return source->yield.stretch ? PD_BOND_PLASTIC : PD_BOND;
 }
 
-/* Critical step and time step, or those of the run that goes on. */
+/* Computes the critical time step and the time step; takes both from the run that is continued, if `before` is
+ * given. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
     if (!before) return named(e->scene, time_step_make(e));
@@ -318,7 +326,7 @@ static void make_contact(struct contact *c, const struct scene *s, const struct 
                  s->contact_stiffness, source, rigid->shape, rigid->body, s->rigids);
 }
 
-/* Materials, kernels, and the particles that are made. */
+/* Creates materials, kernels and particles. REFUSED if their memory is not available. */
 static status make_particles(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -333,7 +341,7 @@ static status make_particles(struct run *e)
     return named(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
-/* What looks at the run: tips, growing cracks, probes. */
+/* Creates crack tips, crack growth, static solver, diagnostics and probes. */
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -351,7 +359,8 @@ static status make_probes(struct run *e)
     return named(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
-/* Loads, bonds, mesh: from the particles to the time step. */
+/* Creates loads, bonds, rigid bodies, contact, coupling and mesh, and computes the time step. before: run that is
+ * continued, or NULL. */
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
@@ -434,7 +443,7 @@ void engine_free(struct run *e)
 {
     memory_reuse(false);
     if (e->report && e->report->out)
-        (void)output_wait(e->report->out); /* a frame being written still reads the particles */
+        (void)output_wait(e->report->out); /* the writer of frames still reads the particles */
     run_parts_free(e);
     bonds_free(&e->bonds);
     cells_free(&e->cells);

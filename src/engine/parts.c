@@ -1,4 +1,4 @@
-/* The parts of a run. The order of the rows is that of columns in history.csv and of the state in checkpoints. */
+/* Table of the parts of a run. Its order is that of the columns in history.csv and of the state in checkpoints. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -12,7 +12,7 @@ static const struct part *const parts[] = {&part_grid,        &part_frame,    &p
                                            &part_diagnostics, &part_probing,  &part_damping, &part_viscosity,
                                            &part_stability,   &part_report,   NULL};
 
-/* The pointer of a part in a run. */
+/* Returns the address of the pointer to a part in a run. */
 static void **part_place(struct run *e, const struct part *p) { return (void **)((char *)e + p->at); }
 
 void run_parts_make(struct run *e)

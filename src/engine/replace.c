@@ -1,5 +1,5 @@
-/* A run is made again in its middle with other particles of the same body (hollow_part.c), and takes over all that
- * its steps have changed. */
+/* Replaces a run, between two steps, by one with additional particles of the same bodies (hollow_part.c), which
+ * continues with its state. */
 #include <string.h>
 
 #include "base/memory.h"
@@ -10,8 +10,8 @@
 #include "step/report.h"
 #include "engine_internal.h"
 
-/* Frees what is made anew from particles and scene: large bodies have no room for two of it. Of the mesh the motion of
- * its nodes is left. */
+/* Frees what the new run computes from particles and scene, since large bodies have no memory for both. The motion of
+ * the nodes stays. */
 static void leave_derived(struct run *e)
 {
     struct mesh *mesh = &e->frame->mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};
@@ -34,7 +34,7 @@ static void swap_arrays(real **a, real **b, int dim)
     }
 }
 
-/* The motion of all nodes, and the coarse cells. */
+/* Moves displacements and velocities of all nodes, and the coarse cells, from `old` to e. */
 static void nodes_take(struct run *e, struct run *old)
 {
     struct reference_frame *r = e->frame, *was = old->frame;
@@ -52,7 +52,8 @@ static void nodes_take(struct run *e, struct run *old)
     bonded_points_update(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
-/* Moves what is not described by the functions of state: the motion of nodes, files, timers and warnings. */
+/* Moves what the functions of state in struct part do not describe: motion of nodes, output files, timers and
+ * warnings. */
 static void rest_take(struct run *e, struct run *old)
 {
     nodes_take(e, old);
@@ -63,8 +64,7 @@ static void rest_take(struct run *e, struct run *old)
     *old->report = (struct run_report){.out = NULL};
 }
 
-/* Sets the run up again with the hollow cells of its frame. The parts pass on what its steps have changed as
- * checkpoints do. */
+/* Creates the run again with the hollow cells of its frame. The parts pass on their state as in checkpoints. */
 static status run_replace(struct run *e)
 {
     struct run *old = NEW("replace.old", 1, struct run);

@@ -1,10 +1,10 @@
-/* A run goes on from a checkpoint. */
+/* Restores a run from a checkpoint. */
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Sets the run up again with the hollow cells of a checkpoint. absent: taken over. */
+/* Creates the run again with the hollow cells of a checkpoint. absent: becomes the run's. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;
@@ -23,7 +23,8 @@ static status remake(struct run *e, uint8_t *absent)
     return made;
 }
 
-/* Reads which cells are hollow in a checkpoint, and sets the run up again where they are others. */
+/* Reads the hollow cells of a checkpoint, and creates the run again with them if there are any. FAILED if they do not
+ * fit the bodies. */
 static status hollow_restore(struct run *e, struct archive *a)
 {
     struct hollow *h = &e->frame->hollow;

@@ -1,4 +1,4 @@
-/* A run: coarse cells follow cracks before a step, then the step, its checks, its reports. */
+/* Runs a scene: before each step coarse cells follow cracks, after it come checks and reports. */
 #include "base/memory.h"
 #include "engine_internal.h"
 #include "mesh/mesh_part.h"
@@ -8,7 +8,7 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Finds the rings of sif probes, from which coarse cells keep away. */
+/* Finds the rings of SIF probes, in which cells are not coarsened. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
@@ -17,7 +17,8 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
         f->rings += probes_sif_ring(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
-/* Levels of cells follow cracks and stress; where finer cells lack particles, the run is made again with them. */
+/* Adapts the levels of cells to cracks and stress. If refined cells lack particles, the run is first replaced by one
+ * that has these. */
 static status refine(struct run *e)
 {
     if (!frame_levels_due(&e->frame->levels, e->clock.step)) return OK;

@@ -1,9 +1,9 @@
-/* Particles and bonds that a run takes over from its predecessor while it is set up. */
+/* Transfer of particles and bonds from a run to the one that replaces it. */
 #include "base/memory.h"
 #include "engine_internal.h"
 
-/* Returns the indices in the new run (p, loads) of the particles q and images of its predecessor, -1 where they are
- * absent. [q->n_all], freed by the caller. Particles are in the order of their ids in both. */
+/* Returns the indices in the new run (p, loads) of particles q and images of its predecessor, -1 where they are absent:
+ * an allocated array [q->n_all], released by the caller. In both runs particles are in ascending order of id. */
 static int32_t *numbers_now(const struct particles *p, const struct loads *loads, const struct particles *q,
                             const struct loads *images)
 {
