@@ -39,8 +39,10 @@ status parts_archive(struct run *e, struct archive *a);
 void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
                          const struct particles *p, struct warnings *to);
 
-/* Warns about figures that look like mistakes of units. */
-void engine_warn_of_units(const struct run *e, struct warnings *to);
+/* Warns about figures that look like mistakes of units (`accept` of the scene excepted). clock: time step and number of
+ * steps; wave_speed: fastest of the materials [m/s]. */
+void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
+                          const struct run_clock *clock, real wave_speed, struct warnings *to);
 
 /* Warns about loads whose speed breaks the bonds next to the particles that they drive. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *l, const struct particles *p, struct warnings *to);

@@ -188,7 +188,7 @@ void engine_warn(struct run *e)
     warn_of_materials(s, &e->tables, to);
     warn_of_lists(s, to);
     warn_of_probes(s, to);
-    engine_warn_of_units(e, to);
+    engine_warn_of_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
     engine_warn_of_lone(s, &e->cells, &e->bonds, &e->part, to);
     engine_warn_of_speed(s, &e->loads, &e->part, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);

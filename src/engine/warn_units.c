@@ -271,11 +271,12 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
-void engine_warn_of_units(const struct run *e, struct warnings *to)
+void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
+                          const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
-    units_of_time(e->scene, &e->clock, e->tables.wave_speed, to);
-    units_of_materials(e->scene, to);
-    units_of_tractions(e->scene, to);
-    units_of_loads(e->scene, &e->part, &e->loads, to);
-    units_of_particles(e->scene, &e->part, to);
+    units_of_time(s, clock, wave_speed, to);
+    units_of_materials(s, to);
+    units_of_tractions(s, to);
+    units_of_loads(s, p, l, to);
+    units_of_particles(s, p, to);
 }
