@@ -43,6 +43,9 @@ void core_shares_free(struct core_shares *s);
 /* Returns the wall clock [s]. */
 double team_clock(void);
 
+/* Returns the processor time of the calling thread [s]; time taken by other programs does not count. */
+double team_thread_clock(void);
+
 /* Terms per block of a sum, and largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 

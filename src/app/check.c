@@ -30,10 +30,10 @@ static void say_frames(const struct run *e)
 {
     for (int b = 0; b < e->scene->bodies; b++)
         if (e->frame->choice[b].reason)
-            printf("frame          body %s: %s, as %s\n", e->scene->body[b].name,
+            printf("frame          body %s: %s frame (%s)\n", e->scene->body[b].name,
                    e->frame->choice[b].reference ? "reference" : "current", e->frame->choice[b].reason);
     if (e->frame->mesh.points > 0)
-        printf("mesh           %lld points in cells of two spacings: linear cells, state on the nodes\n",
+        printf("mesh           %lld material points in linear cells of two spacings\n",
                (long long)e->frame->mesh.points);
 }
 
@@ -65,12 +65,12 @@ static void say_contact_of_bonds(const struct scene *s)
     if (s->rigids > 0) {
         printf("%s with rigid ", s->contact_between == CONTACT_NONE ? "" : ", and");
         say_names(s, s->bodies, s->bodies + s->rigids);
-        if (s->rigids > 1) printf(" (rigid bodies do not meet each other)");
+        if (s->rigids > 1) printf(" (there is no contact between rigid bodies)");
     }
     printf("; %s",
-           s->contact_form == CONTACT_PAIR ? "pairs of particles: faces that slide mesh like gears" : "smooth faces");
+           s->contact_form == CONTACT_PAIR ? "pairs of particles (faces that slide interlock)" : "smooth faces");
     if (s->contact_friction > 0)
-        printf(", friction %.3g (a flat face along the lattice has 0.007 of its own)", s->contact_friction);
+        printf(", friction %.3g (faces along the lattice have 0.007 without it)", s->contact_friction);
     putchar('\n');
 }
 
@@ -80,9 +80,10 @@ static void say_contact_cost(const struct run *e, const struct cost *c)
     const struct run_clock *clock = &e->clock;
     const double shorter = clock->dt / (e->scene->safety * clock->dt_critical);
     if (scene_in_steps(e->scene) || !(c->contact > 0) || e->contact->rows == 0) return;
-    printf("contact        looks at %lld of %lld particles, those near a face: %.1f %% of a step at first",
+    printf("contact        %lld of %lld particles are near a face; about %.1f %% of the time of the first steps",
            (long long)e->contact->rows, (long long)e->part.n, 1e2 * c->contact);
-    if (e->scene->time_step == 0 && shorter < 0.999) printf("; steps are %.2f times as long as without", shorter);
+    if (e->scene->time_step == 0 && shorter < 0.999)
+        printf("; the time step is %.2f times that without contact", shorter);
     putchar('\n');
 }
 
@@ -94,8 +95,8 @@ static void say_contact(const struct run *e)
         on_grid += e->scene->method != METHOD_PD && !e->frame->choice[b].reference;
     if (on_grid < 2) return;
     if (e->grid->fields < 2)
-        printf("contact        bodies that meet through the grid share its velocity: they stick until a gap of two "
-               "cells opens\n");
+        printf("contact        bodies that meet on the grid share its velocity: they stick together until a gap of "
+               "two cells opens\n");
     else {
         printf("contact        of the material points of ");
         say_names(e->scene, 0, e->scene->bodies);
@@ -123,11 +124,11 @@ static void say_time_step(const struct run *e)
     if (scene_in_steps(e->scene))
         say_load_steps(e);
     else if (scene_at_rest(e->scene))
-        printf("solver         static equilibrium to a residual of %.3g of the load, in %lld steps at the most\n",
+        printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld steps\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
     else
         printf("time step      %.4g s%s, %.2f of the critical %.4g s; %lld steps to %.4g s\n", e->clock.dt,
-               e->scene->time_step > 0 ? " by time.step, whatever time.safety is" : "",
+               e->scene->time_step > 0 ? " (time.step, regardless of time.safety)" : "",
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
@@ -135,10 +136,11 @@ static void say_time_step(const struct run *e)
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
-        printf("; steps take %.2g times the first ones, as where the spacing is %.3g times as large", c->growth,
+        printf("; all steps take %.2g times the first ones, as measured with %.3g times the spacing", c->growth,
                c->coarser);
     if (c->basis == COST_FIRST)
-        printf("; steps like the first ones%s", scene->method == METHOD_ADAPTIVE ? ", more as particles convert" : "");
+        printf("; all steps are taken to be like the first ones%s",
+               scene->method == METHOD_ADAPTIVE ? ", and more as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
@@ -150,9 +152,14 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     else if (scene_at_rest(e->scene))
         printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
-        printf("run time       %s %.2g s on %d thread%s, %.1g s of it to write: %.3g ns a particle and step at first",
-               c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about", c->run, threads,
-               many, c->output, 1e9 * c->step / (double)e->part.n);
+        const bool grows = c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE;
+        printf("run time       %s %.2g s (%.2g to ", grows ? "at least" : "about", c->run, c->least);
+        if (isfinite(c->most))
+            printf("%.2g s)", c->most);
+        else
+            printf("any time)");
+        printf(" on %d idle core%s, %.1g s of it to write: %.3g ns per particle and step at first", threads, many,
+               c->output, 1e9 * c->step / (double)e->part.n);
         say_basis(e->scene, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
@@ -190,11 +197,11 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* Estimates run time and memory by trial steps and prints both. start: time on team_clock when the reading of the scene
- * began [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
-static status check_cost(struct run *e, const struct run_arguments *a, int threads, double start)
+/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up
+ * [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
+static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made)
 {
-    struct cost cost = {.make = team_clock() - start};
+    struct cost cost = {.make = made};
     const status result = cost_measure(&cost, e, a);
     warnings_print(&cost.found, 0, stdout);
     warnings_free(&cost.found);
@@ -205,13 +212,14 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Sets up the scene, prints what it resolves and needs, and its cost unless `trial` is false. threads, start: of
- * check_cost. REFUSED or FAILED if the set-up or a trial step is. */
+/* Sets up the scene, prints what it resolves and needs, and its cost unless `trial` is false. start: of the reading of
+ * the scene, on team_thread_clock [s]. REFUSED or FAILED if the set-up or a trial step is. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
     s->active_set = false; /* cost with the whole body active */
     status result = engine_make(&e, s, NULL);
+    const double made = team_thread_clock() - start;
     if (result == OK) {
         printf("%s is sound\n", shown_name(a->scene).text);
         say_particles(&e);
@@ -229,7 +237,11 @@ static status check_sound(struct scene *s, const struct run_arguments *a, int th
         warn_of_yielding(e.scene, &e.warnings);
         warnings_print(&e.warnings, 0, stdout);
         advise(&e, stdout);
-        if (trial) result = check_cost(&e, a, threads, start);
+        struct warnings hints = {0};
+        hints_find(&e, &hints);
+        if (trial) result = check_cost(&e, a, threads, made);
+        for (int k = 0; k < hints.n; k++) printf("%-15s%s\n", k == 0 ? "hints" : "", hints.text[k]);
+        warnings_free(&hints);
     }
     engine_free(&e);
     return result;
@@ -242,7 +254,7 @@ status command_check(int argc, char **argv)
     const bool trial = !arguments_take(&argc, argv, "--no-trial");
     TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
     const int threads = team_make(a.threads);
-    const double start = team_clock();
+    const double start = team_thread_clock();
     struct scene s = {0};
     status result = scene_read_or_wish(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {

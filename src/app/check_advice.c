@@ -1,4 +1,4 @@
-/* Advice about a scene before it runs: parts that are not resolved, and parts that are not needed. No advice is an
+/* Remarks on a scene before it runs: what limits its accuracy, and hints at what would be faster. No remark is an
  * error. Limits and their basis:
  *
  *   feature      a peridynamic part thinner than FEATURE horizons is mostly surface, whose families are incomplete; how
@@ -85,19 +85,16 @@ int stiffness_error(const struct scene *s, enum surface_rule surface, double lay
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
-        fprintf(out,
-                "; a single layer has no stiffness against bending, and is up to %d %% too stiff or too soft "
-                "in tension",
+        fprintf(out, "; a single layer has no bending stiffness, and its stiffness in tension is off by up to %d %%",
                 stiffness_error(s, s->surface, layers));
         return;
     }
     fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
             stiffness_error(s, s->surface, layers),
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
-            : s->model == MODEL_MOSPD                 ? " at a horizon of 3.015, and several times that at others"
-                                                      : " at a horizon of 3.015, and more at longer ones");
-    fprintf(out, " (method adaptive, whose cells bend within 1 %% from 10 layers on, needs no bonds until something "
-                 "breaks)");
+            : s->model == MODEL_MOSPD ? " at a horizon of 3.015 spacings, several times as much at others"
+                                      : " at a horizon of 3.015 spacings, more at longer ones");
+    fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
 /* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
@@ -107,11 +104,12 @@ static void advise_features(const struct run *e, FILE *out)
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
         const double layers = check_layers(e, b, FEATURE * s->horizon), size = layers * s->spacing;
         if (!isfinite(layers)) continue;
-        fprintf(out,
-                "unresolved: body %s: a part of %.4g m is %.2g horizons (%.3g spacings); below %d horizons most of "
-                "it feels cut-off families: spacing %s would do",
-                s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-                length_in_words(size / (FEATURE * s->horizon), 2, s->spacing).text);
+        fprintf(
+            out,
+            "accuracy       body %s: a part of %.4g m is %.2g horizons (%.3g spacings) thick; below %d horizons most "
+            "particles lack neighbours beyond a face: use a spacing of %s",
+            s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
+            length_in_words(size / (FEATURE * s->horizon), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -151,10 +149,15 @@ static void advise_cracks(const struct scene *s, const struct fracture_state *fr
         const real share = tip[0] && tip[1] ? 1 : share_within(s, from, to);
         const real length = share * hypot(to[0] - from[0], to[1] - from[1]);
         if (tip[0] && tip[1] && length < FEATURE * horizon_of(s))
-            fprintf(out, "unresolved: crack %d is %.4g m long, %.2g horizons: its two ends are not apart\n", k + 1,
-                    length, length / horizon_of(s));
+            fprintf(
+                out,
+                "accuracy       crack %d is %.4g m long, %.2g horizons: its two tips affect each other; use a smaller "
+                "spacing\n",
+                k + 1, length, length / horizon_of(s));
         else if (tip[0] != tip[1] && 2 * length < FEATURE * horizon_of(s))
-            fprintf(out, "unresolved: crack %d is %.3g m deep, %.2g horizons: its end is not apart from the face\n",
+            fprintf(out,
+                    "accuracy       crack %d is %.3g m deep, %.2g horizons: the face affects its tip; use a smaller "
+                    "spacing\n",
                     k + 1, length, length / horizon_of(s));
     }
 }
@@ -185,10 +188,11 @@ static void advise_faces(const struct scene *s, FILE *out)
             const struct region *shape = &s->body[b].shape;
             if (s->body[b].file || shape->n == 0 || region_has_endless_box(shape, s->dim)) continue;
             if (at_stepped_face(s, shape, s->probe[k].at))
-                fprintf(out,
-                        "unresolved: probe %s: it is at a face of body %s that the lattice fills in steps; stress "
-                        "along such a face is some 10 %% low there, displacements are right\n",
-                        s->probe[k].name, s->body[b].name);
+                fprintf(
+                    out,
+                    "accuracy       probe %s: it is at a face of body %s that is curved or slanted, and stepped in the "
+                    "lattice; stress along such a face comes out some 10 %% too low, displacements do not\n",
+                    s->probe[k].name, s->body[b].name);
         }
 }
 
@@ -205,15 +209,18 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
         const real length = tables->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
         if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
             fprintf(out,
-                    "unresolved: boundary %s changes within %.3g spacings of wave: below %d waves disperse; spacing %s "
-                    "or a slower load\n",
+                    "accuracy       boundary %s changes while a wave travels %.3g spacings; below %d spacings waves "
+                    "disperse: use a spacing of %s or a slower load\n",
                     s->boundary[b].name, length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
     }
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
-            fprintf(out, "unresolved: an initial pulse is %.3g spacings wide: below %d it disperses; spacing %s\n",
-                    s->initial[k].pulse.width / s->spacing, WAVE,
-                    length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
+            fprintf(
+                out,
+                "accuracy       an initial pulse is %.3g spacings wide; below %d spacings it disperses: use a spacing "
+                "of %s\n",
+                s->initial[k].pulse.width / s->spacing, WAVE,
+                length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
 /* Bodies that collide so fast that the ringing of the front may break or yield them. */
@@ -221,10 +228,12 @@ static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = shock_expected(s);
     if (shock.share > 0)
-        fprintf(out,
-                "shock: bodies collide at %.3g m/s, %.2g times the speed of a front that breaks or yields them; "
-                "fronts ring by 10 to 30 %%, and bonds break too early for it: material.viscosity: {}\n",
-                shock.speed, shock.share);
+        fprintf(
+            out,
+            "accuracy       bodies collide at %.3g m/s, %.2g times the speed at which the front of the wave breaks or "
+            "yields them; stress oscillates behind the front by 10 to 30 %%, so that bonds break too early: use "
+            "material.viscosity: {}\n",
+            shock.speed, shock.share);
 }
 
 /* Coarse cells that the scene gives and that do not carry its loads. */
@@ -232,7 +241,7 @@ static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (frame_levels_coarse(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "unresolved: %s\n", text);
+    if (frame_levels_coarse(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
 /* Body of a particle; joined ones are one. */
@@ -267,22 +276,23 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     return tied;
 }
 
-/* Crack ends that lie exactly on bonds. */
-static void advise_ties(const struct run *e, FILE *out)
+/* Adds a hint for each pre-crack whose ends lie exactly on bonds. */
+static void hint_ties(const struct run *e, struct warnings *to)
 {
     enum { ROOM = 1024 };
     int32_t found[ROOM];
-    for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++)
-        for (int end = 0; end < 2; end++) {
-            if (cells_most(&e->cells, e->source.family.cutoff) > ROOM) return;
-            const int64_t tied = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
-            if (tied > 0)
-                fprintf(
-                    out,
-                    "unresolved: an end of crack %d lies exactly on %lld bonds, which count as cut: a hair shorter it "
-                    "would leave them; moved by a tenth of a spacing it says what it means\n",
-                    k + 1, (long long)tied);
-        }
+    for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
+        int64_t tied[2];
+        if (cells_most(&e->cells, e->source.family.cutoff) > ROOM) return;
+        for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
+        const bool both = tied[0] > 0 && tied[1] > 0;
+        if (tied[0] > 0 || tied[1] > 0)
+            warnings_add(to,
+                         "crack %d: %s exactly on %lld bonds%s; they are cut. Move %s by 0.1 spacings to make the "
+                         "choice explicit",
+                         k + 1, both ? "its ends lie" : "an end lies", (long long)(tied[0] > 0 ? tied[0] : tied[1]),
+                         both ? " each" : "", both ? "the ends" : "the end");
+    }
 }
 
 /* Formulas without a value at some time of the run. */
@@ -290,7 +300,7 @@ static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
         if (loads_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
-        fprintf(out, "unresolved: %s: a step at that time would stop the run\n", status_message());
+        fprintf(out, "accuracy       %s: the run will stop at that time\n", status_message());
         return;
     }
 }
@@ -323,27 +333,26 @@ static void advise_separation(const struct run *e, FILE *out)
         }
         if (stretch > 0.9 * s->cell)
             fprintf(out,
-                    "unresolved: the body is pulled to %.3g times its length: beyond a stretch of %.3g (cell over "
-                    "spacing) points "
-                    "no longer share nodes and part; mpm.cell %.2g, mpm.shape cpgimp, or method adaptive\n",
+                    "accuracy       the body is pulled to %.3g times its length; beyond a stretch of %.3g (cell over "
+                    "spacing) its points no longer share nodes, and it parts: use mpm.cell: %.2g, mpm.shape: cpgimp or "
+                    "method: adaptive\n",
                     stretch, s->cell, ceil(1.2 * stretch));
     }
 }
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* State-based models where bonds have the Poisson's ratio of the scene. */
-static void advise_model(const struct scene *s, FILE *out)
+/* Adds a hint where a state-based model has the Poisson's ratio of bonds. */
+static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = material_bond_poisson(s->space);
     if (s->model == MODEL_BOND || s->dim == 1) return;
     for (int m = 0; m < s->materials; m++)
         if (fabs(s->material[m].poisson - wanted) > 1e-3) return;
-    fprintf(
-        out,
-        "unneeded: model %s: bonds alone have Poisson's ratio %.4g, which is asked for, and take %.0f %% of the time\n",
-        s->model == MODEL_OSPD ? "ospd" : "mospd", wanted,
-        100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2]);
+    warnings_add(to,
+                 "model: bond has the Poisson's ratio of this scene, %.4g, too, and takes %.0f %% of the time of %s",
+                 wanted, 100 * bond_ns[MODEL_BOND][s->dim - 2] / bond_ns[s->model][s->dim - 2],
+                 s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
 /* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: unknown, with
@@ -374,20 +383,23 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Bodies in the current frame that the reference frame could hold. */
-static void advise_frame(const struct run *e, FILE *out)
+/* Adds a hint for bodies in the current frame that the reference frame could hold. */
+static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);
     for (int b = 0; b < e->scene->bodies; b++) {
+        char text[80] = "";
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
             if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
         if (e->frame->choice[b].reference || scene_frame_not_default(e->scene, b)) continue;
         if (!frame_allowed(e->frame, &e->part, e->grid)) continue;
-        fprintf(out, "unneeded: body %s in mpm.frame current: it meets no other body", e->scene->body[b].name);
-        if (strain < LITTLE) fprintf(out, " and waves strain it by %.2g at the most", strain);
-        fprintf(out, "; its material points cost a tenth to a thirtieth in frame %s\n",
-                e->scene->current_frame_key ? "reference" : "auto");
+        if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
+        warnings_add(
+            to,
+            "body %s meets no other body%s: mpm.frame: %s in place of current would take a tenth to a thirtieth "
+            "of the time for its material points",
+            e->scene->body[b].name, text, e->scene->current_frame_key ? "reference" : "auto");
     }
 }
 
@@ -399,10 +411,12 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Peridynamics where no bond can break, and nothing meets rigid bodies, which material points cannot. */
-static void advise_method(const struct run *e, FILE *out)
+/* Adds a hint where no bond of a peridynamic method can break, and nothing meets rigid bodies, which material points
+ * cannot. */
+static void hint_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
+    const char *method = s->method == METHOD_PD ? "pd" : "adaptive";
     real weakest = INFINITY;
     if (s->method == METHOD_MPM || !scene_moves(s) || has_notch(s)) return;
     if (s->bodies > 1 || s->rigids > 0) return;
@@ -410,27 +424,33 @@ static void advise_method(const struct run *e, FILE *out)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
-        fprintf(out,
-                "unneeded: method %s: nothing breaks here (neither energy_release_rate nor critical_stretch is given), "
-                "and there "
-                "is no crack: mpm would do\n",
-                s->method == METHOD_PD ? "pd" : "adaptive");
+        warnings_add(
+            to,
+            "nothing breaks, as neither energy_release_rate, toughness nor critical_stretch is given, and there "
+            "is no crack: method: mpm would do in place of %s",
+            method);
     else if (reached < weakest)
-        fprintf(out,
-                "unneeded: method %s: waves here reach %.3g Pa at the most, bonds break at %.3g Pa: mpm would do\n",
-                s->method == METHOD_PD ? "pd" : "adaptive", reached, weakest);
+        warnings_add(to, "waves reach at most %.3g Pa, and bonds break at %.3g Pa: method: mpm would do in place of %s",
+                     reached, weakest, method);
 }
 
-static void advise_symmetry(const struct run *e, FILE *out)
+/* Adds a hint with the planes about which the scene is symmetric. */
+static void hint_symmetry(const struct run *e, struct warnings *to)
 {
-    real at;
-    for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++)
-        if (scene_is_mirrored(e, axis, &at))
-            fprintf(out,
-                    "unneeded: half of it: the scene is its own mirror image at %c = %.6g m, all %lld particles, what "
-                    "they lost and "
-                    "what loads them: a boundary mirror there and half the body take half the time\n",
-                    'x' + axis, at, (long long)e->part.n);
+    static const char *const share[] = {"", "half", "a quarter", "an eighth"};
+    char planes[160] = "";
+    int n = 0;
+    for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++) {
+        const size_t used = strlen(planes);
+        real at;
+        if (!scene_is_mirrored(e, axis, &at)) continue;
+        snprintf(planes + used, sizeof planes - used, "%s%c = %.6g m", n++ ? " and " : "", 'x' + axis, at);
+    }
+    if (n > 0)
+        warnings_add(to,
+                     "the scene is symmetric about %s (all %lld particles, cracks and loads): %s of the body with a "
+                     "boundary `mirror` %s would take %s of the time",
+                     planes, (long long)e->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
 }
 
 void advise(const struct run *e, FILE *out)
@@ -446,10 +466,14 @@ void advise(const struct run *e, FILE *out)
     advise_load_steps(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);
-    advise_ties(e, out);
     advise_separation(e, out);
-    advise_model(e->scene, out);
-    advise_frame(e, out);
-    advise_method(e, out);
-    advise_symmetry(e, out);
+}
+
+void hints_find(const struct run *e, struct warnings *to)
+{
+    hint_ties(e, to);
+    hint_model(e->scene, to);
+    hint_frame(e, to);
+    hint_method(e, to);
+    hint_symmetry(e, to);
 }

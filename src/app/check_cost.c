@@ -1,6 +1,7 @@
-/* Estimates the cost of a run from trial steps, which include the effects of the machine, its load and the scene. A
- * short run is tried as a whole. Of a long run the first steps are timed with the whole body active; the effect of
- * inactive parts, conversion and reference runs is that in the same scene with larger particles, tried as a whole. */
+/* Estimates the cost of a run from trial steps, in processor time of one thread: what other programs compute meanwhile
+ * does not count, and a team on cores of its own takes as long on the clock. A short run is tried as a whole. Of a long
+ * run the first steps are timed with the whole body active; the effect of inactive parts, conversion and reference runs
+ * is that in the same scene with larger particles, tried as a whole. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,24 +18,33 @@
 #include "scene/scene_read.h"
 #include "step/checks.h"
 
-enum { PERIODS_MOST = 200 };
+enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define SECONDS_ENOUGH 0.15
 #define SECONDS_MOST 1.0
 #define SECONDS_WHOLE 1.5          /* of a trial of a whole run [s]                                     */
 #define PATIENCE 3.0               /* factor on it, for conversion or a busy machine                    */
+#define WALL_MOST 60.0             /* wall clock of it [s]                                               */
 #define COARSER_MOST 4.0           /* factor on the spacing: a body still breaks in about the same places */
 #define FRAME_BYTES 72             /* per particle: copy for the writer, its room, order                */
 #define PARTS_BYTES 56             /* ... more where there are bonds: parts of a broken body, damage    */
 #define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: itself 2.1 MB, its room for conversions 2 MB, */
                                    /* the file of all frames 1.1 MB                                     */
-#define FILE_SECONDS 2.5e-3        /* per frame, checkpoint or profile, of any size; measured, as the next: */
+#define START_SECONDS 0.02         /* of a process: its start, the summary                              */
+#define FILE_SECONDS 4e-3          /* per frame, checkpoint or profile, of any size; measured, as the next: */
 #define FILE_SECONDS_PARTICLE 8e-8 /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
 #define BONDS_MOST 2e8             /* of a body tried with all particles peridynamic                    */
 #define BONDS_TRIED 2e7            /* of one with larger particles that stands for it                    */
 
-/* Median time of a step [s] after the first one, which has cold caches; measured from sample to sample, so that samples
- * are included. */
-static status time_steps(struct run *e, double *step)
+/* Quartiles of measured times, which are sorted here; the median is the one in the middle. */
+static struct quartiles quartiles_of(double *spent, int n)
+{
+    const double median = median_of(spent, n);
+    return (struct quartiles){spent[n / 4], median, spent[n - 1 - n / 4]};
+}
+
+/* Measures the processor time of a step [s] after the first one, which has cold caches, in windows from sample to
+ * sample, so that samples are included. */
+static status time_steps(struct run *e, struct quartiles *step)
 {
     const int64_t samples = e->scene->samples > 0 ? e->scene->samples : 1;
     const int64_t period = e->clock.steps / samples > 0 ? e->clock.steps / samples : 1;
@@ -42,19 +52,20 @@ static status time_steps(struct run *e, double *step)
     int n = 0;
     e->report->quiet = e->warnings.silent = true;
     TRY(report_start(e));
-    const double begun = team_clock();
+    const double begun = team_thread_clock();
     TRY(engine_step(e));
-    const double first = team_clock() - begun;
-    while (n < PERIODS_MOST && all < SECONDS_MOST && (n < 3 || all < SECONDS_ENOUGH)) {
-        const double start = team_clock();
+    const double first = team_thread_clock() - begun;
+    while (n < PERIODS_MOST && all < SECONDS_MOST && (n < WINDOWS_LEAST || all < SECONDS_ENOUGH)) {
+        const double start = team_thread_clock();
         int64_t taken = 0;
-        for (; taken < period && e->clock.step < e->clock.steps - 1 && team_clock() - start < SECONDS_MOST; taken++)
+        for (; taken < period && e->clock.step < e->clock.steps - 1 && team_thread_clock() - start < SECONDS_MOST;
+             taken++)
             TRY(engine_step(e));
         if (taken == 0) break;
-        all += team_clock() - start;
-        spent[n++] = (team_clock() - start) / (double)taken;
+        all += team_thread_clock() - start;
+        spent[n++] = (team_thread_clock() - start) / (double)taken;
     }
-    *step = n > 0 ? median_of(spent, n) : first;
+    *step = n > 0 ? quartiles_of(spent, n) : (struct quartiles){first, first, first};
     return OK;
 }
 
@@ -64,9 +75,9 @@ static double time_force(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
-        const double start = team_clock();
+        const double start = team_thread_clock();
         run_forces(e);
-        all += spent[n++] = team_clock() - start;
+        all += spent[n++] = team_thread_clock() - start;
     }
     return median_of(spent, n);
 }
@@ -77,11 +88,11 @@ static double time_contact(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
-        const double start = team_clock();
+        const double start = team_thread_clock();
         contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step, e->contact->broken,
                        e->contact->changed);
         contact_force(e->contact, &e->part, 0);
-        all += spent[n++] = team_clock() - start;
+        all += spent[n++] = team_thread_clock() - start;
     }
     return median_of(spent, n);
 }
@@ -103,19 +114,19 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     return engine_make(e, s, NULL);
 }
 
-/* Time of all steps [s]; NAN if they fail or take far longer than expected. */
+/* Processor time of all steps [s]; NAN if they fail or take far longer than expected. */
 static double all_steps(struct run *e)
 {
-    const double start = team_clock();
+    const double start = team_thread_clock(), began = team_clock();
     e->report->quiet = e->warnings.silent = true;
     memory_reuse(true);
     if (report_start(e) != OK) return NAN;
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
         if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
-        if (team_clock() - start > PATIENCE * SECONDS_WHOLE) return NAN;
+        if (team_thread_clock() - start > PATIENCE * SECONDS_WHOLE || team_clock() - began > WALL_MOST) return NAN;
     }
-    return engine_baseline(e) == OK ? team_clock() - start : NAN;
+    return engine_baseline(e) == OK ? team_thread_clock() - start : NAN;
 }
 
 /* Time of all steps of another scene [s]: measured where `whole`, else extrapolated from the first steps; NAN:
@@ -125,14 +136,13 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
 {
     struct scene s = {0};
     struct run e = {0};
+    struct quartiles step;
     double seconds = NAN;
     if (make_other(&s, &e, a, key, value, whole) == OK) {
         if (whole)
             seconds = all_steps(&e);
-        else if (time_steps(&e, &seconds) == OK)
-            seconds *= (double)e.clock.steps;
-        else
-            seconds = NAN;
+        else if (time_steps(&e, &step) == OK)
+            seconds = step.median * (double)e.clock.steps;
     }
     if (found) warnings_join(found, &e.warnings, 0);
     engine_free(&e);
@@ -166,9 +176,16 @@ static double output_seconds(const struct run *e)
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
     for (int k = 0; k < e->scene->n_series; k++) /* of regions: of each, all particles are brought up to date */
         files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
-    return files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
-                    FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
+    return START_SECONDS + files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
+                                    FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
 }
+
+/* Factors below and above the time of a run between which it is, by the basis of that time: measured, as scenes of all
+ * kinds take (tests/scenes/long_forecast.sh). */
+static const struct {
+    double below, above;
+} range[] = {[COST_TRIED] = {1.3, 1.3}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
+#define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
 
 /* Time and basis of the whole run. */
 static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
@@ -190,6 +207,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
         loop = first * (isnan(growth) ? 1 : growth);
     }
     c->run = c->make + loop + c->output;
+    c->least = c->run / range[c->basis].below / fmin(c->spread, SPREAD_MOST);
+    c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
 /* Time of a step over its number of particles [s], all of them peridynamic and larger; NAN: unknown. */
@@ -198,16 +217,15 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     struct scene s = {0};
     struct run e = {0};
     struct run_arguments coarse = *a;
+    struct quartiles step;
     double seconds = NAN;
     char value[32];
     snprintf(value, sizeof value, "%.17g", spacing);
     coarse.override = NEW("check.coarse", a->overrides + 1, struct scene_override);
     array_copy(coarse.override, a->override, a->overrides, sizeof *a->override);
     coarse.override[coarse.overrides++] = (struct scene_override){"particles.spacing", value};
-    if (make_other(&s, &e, &coarse, "method", "pd", false) != OK || time_steps(&e, &seconds) != OK)
-        seconds = NAN;
-    else
-        seconds /= (double)e.part.n;
+    if (make_other(&s, &e, &coarse, "method", "pd", false) == OK && time_steps(&e, &step) == OK)
+        seconds = step.median / (double)e.part.n;
     memory_free(coarse.override);
     engine_free(&e);
     scene_free(&s);
@@ -226,6 +244,7 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     else if (e->part.n < e->part.n_body)
         loop = n * (double)e->clock.steps * step_peridynamic(a, s->spacing * pow(bonds / BONDS_TRIED, 1.0 / s->dim));
     c->all_peridynamic = c->make + loop + c->output;
+    if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
 /* What the run has beyond the steps so far [byte]. */
@@ -253,9 +272,11 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
         c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;
     }
-    const status result = time_steps(e, &c->step);
+    struct quartiles step;
+    const status result = time_steps(e, &step);
     warnings_join(&c->found, &e->warnings, known);
     TRY(result);
+    c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;
     c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
     c->output = output_seconds(e);

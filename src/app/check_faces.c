@@ -155,12 +155,12 @@ void say_elsewhere(const struct run *e, const struct boundary *b)
     face_free(&f);
     memory_free(selected);
     if (!(w.other > SHARE_LEAST * w.area)) return;
-    printf("; %.0f %% of the area that shows on %c%c looks elsewhere, by %.0f degrees in the mean",
-           100 * w.other / w.area, "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);
+    printf("; %.0f %% of the area seen from %c%c has other normals, by %.0f degrees on average", 100 * w.other / w.area,
+           "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);
     if (b->region.n > 0) return;
     if (isfinite(cut))
-        printf(": with a region where %c %s %.6g m nearly all of that is left out", "xyz"[b->face],
+        printf(": a region with %c %s %.6g m leaves it out", "xyz"[b->face],
                b -> side > 0 ? ">=" : "<=", b->side * cut);
     else
-        printf(": a region picks what is meant");
+        printf(": give a region to choose the face");
 }

@@ -33,7 +33,7 @@ void say_filled(const struct run *e)
         if (s->body[b].file || joined || all_boxes(shape) || !region_bounds(shape, s->dim, from, to)) continue;
         const real exact = region_volume(shape, s->dim, from, to), section = scene_section(s);
         const real filled = (real)particles_of(e->scene, &e->part, b) * pow(s->spacing, s->dim);
-        printf("filled         body %s: its particles are %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
+        printf("filled         body %s: its particles have %.4g m^3, %.2f %% %s than its shape\n", s->body[b].name,
                filled * section, 100 * fabs(filled / exact - 1), filled > exact ? "more" : "less");
     }
 }

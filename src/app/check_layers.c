@@ -151,9 +151,10 @@ void advise_incompressible(const struct run *e, FILE *out)
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,
-                "unresolved: body %s: at a Poisson's ratio of %.4g %s: %s%.0f layers bend by up to %.0f %% too "
-                "little, less with more layers%s\n",
-                s->body[b].name, poisson, families ? "families near faces are too stiff" : "cells of two spacings lock",
-                layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "" : " and a smaller ratio");
+                "accuracy       body %s: at a Poisson's ratio of %.4g %s, so that %s%.0f layers bend up to %.0f %% too "
+                "little: use more layers%s\n",
+                s->body[b].name, poisson,
+                families ? "particles near faces are too stiff" : "cells of two spacings lock",
+                layers < RUNS_MOST - 1 ? "" : "more than ", layers, off, families ? "" : " or a smaller ratio");
     }
 }

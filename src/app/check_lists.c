@@ -71,18 +71,18 @@ void advise_lists(const struct run *e, FILE *out)
         if (!s->body[b].file || s->body[b].joined != b) continue;
         const int layers = thinnest(e, b);
         if (layers >= LAYERS_MOST) continue;
-        fprintf(
-            out,
-            "unresolved: body %s: parts of its list are %d layers thin: with pd.surface %s their stiffness in bending, "
-            "twisting and tension is off by up to about %d %%; ",
-            s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
-            stiffness_error(s, s->surface, layers));
+        fprintf(out,
+                "accuracy       body %s: parts of its list are %d layers thin: with pd.surface: %s their stiffness in "
+                "bending, "
+                "twisting and tension is off by up to about %d %%; ",
+                s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
+                stiffness_error(s, s->surface, layers));
         if (s->body[b].list.lattice)
-            fprintf(out, "pd.surface moments makes that %d %%\n", stiffness_error(s, SURFACE_MOMENTS, layers));
+            fprintf(out, "with pd.surface: moments by %d %%\n", stiffness_error(s, SURFACE_MOMENTS, layers));
         else
             fprintf(out,
-                    "of a list that is a lattice (places at whole spacings, volumes of the spacing) it would be %d %%, "
-                    "with pd.surface moments\n",
+                    "in a list that is a lattice (positions at whole spacings, volumes of the spacing) by %d %%, with "
+                    "pd.surface: moments\n",
                     stiffness_error(s, SURFACE_MOMENTS, layers));
     }
 }

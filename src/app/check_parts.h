@@ -14,13 +14,20 @@
  * convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
+/* Quartiles of measured times [s]. */
+struct quartiles {
+    double lower, median, upper;
+};
+
 struct cost {
     double make;                /* from the scene to step 0; by the caller [s] */
     double step;                /* a first step, samples included, whole body active; static: an iteration;
                                    load steps: an equilibrium [s] */
+    double spread;              /* of windows of such steps: largest ratio of a quartile to the median [1] */
     double contact;             /* share of contact in such a step, whatever touches then */
     double output;              /* frames and checkpoints, on an idle disk [s] */
     double run;                 /* whole run [s] */
+    double least, most;         /* between which it is; most INFINITY: not known [s] */
     double equilibria;          /* load steps: how many at the most */
     real overload, overload_at; /* ... of bonds at the worst load time, were none broken; that time [s] */
     enum cost_basis basis;
@@ -91,9 +98,14 @@ void say_filled(const struct run *e);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* Writes a line, with numbers, for each part of the scene that is not resolved, and for each that is not needed. The
- * engine has taken no step. */
+/* Writes a line for each part of the scene that limits its accuracy: what, by how much, and what to do. The run has
+ * taken no step. */
 void advise(const struct run *e, FILE *out);
+
+/* Adds a line for each part of the scene that costs more than it has to, and for ends of cracks that lie on bonds. The
+ * run has taken no step. */
+void hints_find(const struct run *e, struct warnings *to);
+
 /* How far the stiffness of a part of so many layers is off, with a rule for families near faces [%]. */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
 /* Thin parts of bodies from lists that are no lattice (check_lists.c). */

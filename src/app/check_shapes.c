@@ -23,11 +23,11 @@ static void say_hull(const struct shape_file *f)
     printf("shape          %s: %lld %s, %lld shell%s", shown_name(f->path[0]).text, (long long)h->faces,
            f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
     if (h->open_edges > 0)
-        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, which leave no doubt what is inside",
+        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but it is clear what is inside",
                (long long)h->open_edges, h->open_at[0], h->open_at[1], h->open_at[2]);
     else
         printf(", closed");
-    if (h->reversed) printf(", turned inside out and taken the other way round");
+    if (h->reversed) printf(", with normals inward, which are reversed");
     if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
     const int slits = hull_slits(h);
     if (slits > 0)
@@ -47,7 +47,7 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
     if (f->dim == 3) printf(" x %lld", (long long)v->n[2]);
     printf(" voxels of %.4g m", v->size[0]);
     if (scene->spacing > 1.001 * v->size[0])
-        printf("; a particle stands for %.3g of them and has the grey value at its place",
+        printf("; a particle covers %.3g of them and has the grey value at its position",
                pow(scene->spacing / v->size[0], f->dim));
     putchar('\n');
 }

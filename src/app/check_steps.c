@@ -13,6 +13,8 @@
 #define LOADS_LOOKS 64     /* moments at which loads are looked at */
 #define FEW 20.0           /* spacings of crack, or ahead of it: errors of loads, measured beside handbooks */
 #define NOTHING_BREAKS 0.8 /* overload at a crack tip below which no advance comes: Griffith's load is at 0.9 */
+#define SLOWER 2.0         /* equilibria with a long crack take more iterations than the first one */
+#define LEAST_SHARE 0.1    /* of the largest run time: a body that parts early, equilibria found in fewer iterations */
 #define SPACINGS 2.0       /* of an advance */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies turn, of grips [spacings] */
@@ -60,23 +62,25 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
 
 void say_load_steps(const struct run *e)
 {
-    static const char *const by[] = {[CONTROL_LOAD] = "by load time",
-                                     [CONTROL_ENERGY] = "at the most, by energy",
+    static const char *const by[] = {[CONTROL_LOAD] = "by pseudo-time",
+                                     [CONTROL_ENERGY] = "at most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
     const struct scene *s = e->scene;
     const int tips = tips_of_cracks(e->fracture);
-    printf("solver         static: %d load steps %s, load time to %.4g s, each in equilibrium to a residual of %.3g of "
-           "the load\n",
-           s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
+    printf(
+        "solver         static: %d load steps %s, pseudo-time to %.4g s, each in equilibrium to a residual of %.3g of "
+        "the load\n",
+        s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (is_led(e))
-        printf("cracks         %d %s%s led by the hoop stress round %s, 2 spacings in an advance%s\n", tips,
+        printf("cracks         %d %s%s driven by the hoop stress around %s, 2 spacings in each increment%s\n", tips,
                s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
                s->dim == 3 ? ", straight through the body" : "");
     else
-        printf("cracks         grow by their most overloaded bonds, some 2 spacings in an advance%s%s\n",
-               tips == 0 ? "; there is no pre-crack whose load theory knows" : "; they are not led: ",
-               tips == 0 ? "" : led_fault(e, NULL));
+        printf(
+            "cracks         grow by the bonds beyond their critical stretch, some 2 spacings in each increment%s%s\n",
+            tips == 0 ? "; there is no pre-crack whose load is known in theory" : "; not by hoop stress: ",
+            tips == 0 ? "" : led_fault(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -94,14 +98,15 @@ static void advise_growth(const struct run *e, FILE *out)
     const real first = statics_load_size(e, 0);
     if (most > 0 && first > AT_ONCE * most)
         fprintf(out,
-                "unresolved: %.3g %% of the largest loads are there before the first load step: loads of load steps "
-                "grow from nothing, by time: {ramp: {until: %.4g s}} or a formula with t\n",
+                "accuracy       %.3g %% of the largest loads act before the first load step: let loads grow from 0, by "
+                "time: {ramp: {until: %.4g s}} or a formula of t\n",
                 100 * first / most, s->duration);
     if (!isnan(falls) && s->steps.control != CONTROL_LOAD)
-        fprintf(out,
-                "unresolved: loads fall before t = %.4g s: control %s looks for the load time at which the crack "
-                "advances, and wants loads that grow all the time\n",
-                falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
+        fprintf(
+            out,
+            "accuracy       loads fall before t = %.4g s: steps.control: %s searches for the pseudo-time of each crack "
+            "increment, and requires loads that grow all the time\n",
+            falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
 }
 
 /* Tips with little crack behind them or little body ahead. */
@@ -114,11 +119,12 @@ static void advise_lengths(const struct run *e, FILE *out)
                    behind = crack_behind(e->scene, &e->part, tip) / h;
         const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
-        fprintf(out,
-                "unresolved: tip at (%.4g, %.4g) m: %.0f spacings of %s: loads at which a crack grows are some 2 %% "
-                "off at 20, 0.5 %% at 40, more below\n",
-                tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
-                short_crack ? "crack behind it" : "body ahead of it");
+        fprintf(
+            out,
+            "accuracy       tip at (%.4g, %.4g) m: %.0f spacings of %s; the load at which a crack grows is off by some "
+            "2 %% at 20 spacings, 0.5 %% at 40, more below 20\n",
+            tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
+            short_crack ? "crack behind it" : "body ahead of it");
     }
 }
 
@@ -147,8 +153,9 @@ static void advise_supports(const struct run *e, FILE *out)
             const bool turns_it = by->components & ~(1 << across); /* held along another axis */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
-                    "unresolved: boundary %s holds particles over %d spacings of %c: the body cannot turn on it; a pin "
-                    "or roller is one or two particles wide, a grip more than %d\n",
+                    "accuracy       boundary %s holds particles over %d spacings along %c, so that the body cannot "
+                    "turn on it: a "
+                    "pin or roller is one or two particles wide, a grip more than %d\n",
                     by->name, columns, "xyz"[across], GRIP_LEAST);
         }
     }
@@ -195,22 +202,24 @@ static double advances_of(const struct run *e)
 
 status cost_load_steps(struct cost *c, struct run *e)
 {
-    const double began = team_clock();
+    const double began = team_thread_clock();
     const real first = e->scene->duration / e->scene->steps.number;
     TRY(engine_equilibrium_try(e, first));
-    c->step = team_clock() - began;
+    c->step = team_thread_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
     if (engine_overload_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
-    c->run = c->make + c->step * c->equilibria + c->output;
+    c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
+    c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;
 }
 
 void say_load_steps_cost(const struct run *e, const struct cost *c, int threads)
 {
-    printf("run time       up to about %.2g s on %d thread%s: at most some %.2g equilibria of %.2g s", c->run, threads,
-           threads > 1 ? "s" : "", c->equilibria, c->step);
+    printf("run time       %.2g to %.2g s on %d idle core%s: at most some %.2g equilibria of %.2g s", c->least, c->most,
+           threads, threads > 1 ? "s" : "", c->equilibria, c->step);
     if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
-        printf("\nunresolved: the most stretched bond reaches %.2g of its limit, at a load time of %.4g s: nothing "
-               "breaks below %.1f; larger loads are expected",
-               c->overload, c->overload_at, NOTHING_BREAKS);
+        printf(
+            "\naccuracy       the most stretched bond reaches %.2g of its limit, at a pseudo-time of %.4g s; nothing "
+            "breaks below %.1f: use larger loads",
+            c->overload, c->overload_at, NOTHING_BREAKS);
 }

@@ -168,7 +168,7 @@ static void say_place(const real *at, int dim, FILE *out)
 /* Prints the name of the body, that of the part's material if it is one of several, and the place. */
 static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
 {
-    fprintf(out, "unresolved: body %s: ", p->scene->body[p->body].name);
+    fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);
     if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
 }
 

@@ -338,6 +338,13 @@ double team_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+double team_thread_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
 const char *const timer_name[TIMERS] = {
     [TIMER_BONDS] = "bonds",     [TIMER_SCATTER] = "scatter", [TIMER_GRID] = "grid",     [TIMER_GATHER] = "gather",
     [TIMER_CONVERT] = "convert", [TIMER_SAMPLE] = "sample",   [TIMER_OUTPUT] = "output",

@@ -24,7 +24,7 @@ named()
 {
     what=$1 part=$2; shift 2
     checked "$@"
-    holds "$what: $(cat "$work/said")" grep -q "^unresolved: body body: $part; particles.spacing .* divides it" "$work/said"
+    holds "$what: $(cat "$work/said")" grep -q "^accuracy  *body body: $part; particles.spacing .* divides it" "$work/said"
     width=$(echo "$part" | sed 's/.*\(a part [0-9.]* m\).*/\1/')
     for spacing in $(sed -n "/$width /s/.*particles.spacing \([0-9.]*\) m\( or \([0-9.]*\) m\)* divides it/\1 \3/p" "$work/said"); do
         checked "$@" -s particles.spacing="$spacing"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Advice of `cleave check` on a shipped scene is answered in the scene: each line of advice (unneeded, unresolved) by a comment
+# Advice of `cleave check` on a shipped scene is answered in the scene: each line of accuracy and of hints by a comment
 #     # check: WORDS: REASON
 # whose words are in that line. One comment may answer several lines; a comment that answers none is an error.
 test_name=test_shipped_scenes
@@ -9,7 +9,8 @@ test_name=test_shipped_scenes
 unanswered()
 {
     awk '
-        FILENAME == ARGV[1] { if (/^(unneeded|unresolved): /) advice[++lines] = $0; next }
+        FILENAME == ARGV[1] { if (/^(accuracy|hints) /) advice[++lines] = $0; hints = /^hints/ || (hints && /^  /)
+            if (hints && /^  /) advice[++lines] = $0; next }
         !/^ *# check: / { next }
         {
             words = $0; sub(/^ *# check: /, "", words); at = index(words, ": ")
@@ -38,15 +39,15 @@ for scene in inputs/*.yaml; do
 done
 
 # The comparison itself detects missing and superfluous comments.
-printf 'unneeded: half of it: own mirror image at x = 0\nunneeded: half of it: own mirror image at y = 0\n' >"$work/said"
-printf '# check: own mirror image: both halves are shown\n' >"$work/scene"
+printf 'accuracy       own mirror image at x = 0\nhints          another one\n               own mirror image at y = 0\n' >"$work/said"
+printf '# check: own mirror image: both halves are shown\n# check: another one: to be read\n' >"$work/scene"
 is "one comment for two lines" "$(unanswered "$work/scene" "$work/said")" ""
-printf '# check: image at x: both halves are shown\n' >"$work/scene"
-is "a line without comment" "$(unanswered "$work/scene" "$work/said")" "unanswered: unneeded: half of it: own mirror image at y = 0"
-printf '# check: own mirror image: both halves are shown\n  # check: method pd: a reason of old\n# check: own mirror image\n' >"$work/scene"
+printf '# check: image at x: both halves are shown\n# check: another one: to be read\n' >"$work/scene"
+is "a line without comment" "$(unanswered "$work/scene" "$work/said")" "unanswered:                own mirror image at y = 0"
+printf '# check: own mirror image: both halves are shown\n# check: another one: to be read\n  # check: method pd: a reason of old\n# check: own mirror image\n' >"$work/scene"
 is "comments without line or reason" "$(unanswered "$work/scene" "$work/said" | cut -c 1-16 | tr '\n' ' ')" \
     "answers nothing: gives no reason: "
 : >"$work/said"
-is "no advice, a comment" "$(unanswered "$work/scene" "$work/said" | grep -c '^answers nothing')" 3
+is "no advice, a comment" "$(unanswered "$work/scene" "$work/said" | grep -c '^answers nothing')" 4
 
 finish
