@@ -57,7 +57,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
-        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s wants a value; usage: cleave %s", word, usage);
+        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s needs a value; usage: cleave %s", word, usage);
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))
@@ -78,7 +78,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
             a->scene = word;
     }
     if (a->resume && a->overwrite)
-        return status_set(REFUSED, "--resume goes on with a run and --overwrite replaces it: one of them");
+        return status_set(REFUSED, "--resume continues a run and --overwrite replaces it: give one of them");
     return a->scene ? OK : status_set(REFUSED, "no scene given; usage: cleave %s", usage);
 }
 

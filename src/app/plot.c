@@ -46,7 +46,7 @@ static status read_times(struct plot_words *w, const char *text)
     while (s == OK && (word = strsep(&rest, ",")) != NULL) {
         real time = 0;
         if (r->times == PANELS_MAX)
-            s = status_set(REFUSED, "plot: --times: %d times are the most; a film shows all frames", PANELS_MAX);
+            s = status_set(REFUSED, "plot: --times: at most %d times; a film shows all frames", PANELS_MAX);
         else if (!word_time(&time, word, what, sizeof what))
             s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", shown_name(word).text, what);
         else
@@ -61,7 +61,7 @@ static status read_slice(struct plot_words *w, const char *text)
 {
     struct projection *projection = &w->request.projection;
     char what[256];
-    const char *wrong = "the direction and place of a slice are expected, as z=4mm, or the direction alone";
+    const char *wrong = "an axis and a position are expected, as z=4mm, or the axis alone";
     if (text[0] < 'x' || text[0] > 'z' || (text[1] && text[1] != '='))
         return status_set(REFUSED, "plot: --slice %s: %s", shown_name(text).text, wrong);
     projection->normal = text[0] - 'x';
@@ -133,7 +133,7 @@ static status settle_format(struct plot_words *w)
     if (!w->format && picture_format_named(&w->request.format, dot + 1)) return OK;
     if (w->format && strcmp(w->format, dot + 1) == 0) return OK;
     return status_set(REFUSED,
-                      w->format ? "plot: -o %s: the ending is not that of --format %s"
+                      w->format ? "plot: -o %s: its ending is not that of --format %s; give one of the two"
                                 : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
                       shown_name(out).text, w->format);
 }
@@ -148,14 +148,14 @@ static status words_together(const struct plot_words *w)
                           shown_name(w->times).text, shown_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_moves(r->format))
         return status_set(REFUSED,
-                          "plot: --frames %d: a picture has %d panels at the most; a film (mp4, gif) has any "
-                          "number",
+                          "plot: --frames %d: a picture has at most %d panels; a film (mp4, gif) has any number",
                           r->panels, PANELS_MAX);
     if (!w->scene.scene && w->scene.overrides)
         return status_set(REFUSED, "plot: -s changes a scene; it goes with --scene");
     if (r->projection.outside && r->projection.normal >= 0)
-        return status_set(REFUSED, "plot: --slice looks into the body, --view at it from outside: one of them");
-    if (!w->scene.scene && !r->folder) return status_set(REFUSED, "plot: which run? usage: %s", usage);
+        return status_set(REFUSED, "plot: --slice shows the inside, --view the outside: give one of them");
+    if (!w->scene.scene && !r->folder)
+        return status_set(REFUSED, "plot: no folder of a run is given; usage: %s", usage);
     return OK;
 }
 

@@ -25,7 +25,7 @@ static status key_add(struct sweep_arguments *a, const char *text)
     const char *key = a->key[a->keys++].key;
     for (int k = 0; k + 1 < a->keys; k++)
         if (strcmp(a->key[k].key, key) == 0)
-            return status_set(REFUSED, "-s %s: given twice; all its values stand in one list", key);
+            return status_set(REFUSED, "-s %s: given twice; give all its values in one list, separated by commas", key);
     return OK;
 }
 
@@ -60,8 +60,11 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
     }
     if (!a->scene) return status_set(REFUSED, "no scene given; usage: cleave %s", usage);
     if (a->list && a->collect)
-        return status_set(REFUSED, "--list runs nothing and --collect reads what has run: one of them");
-    if (a->keys == 0) return status_set(REFUSED, "nothing varies; usage: cleave %s", usage);
+        return status_set(REFUSED, "--list runs nothing and --collect reads finished runs: give one of them");
+    if (a->keys == 0)
+        return status_set(
+            REFUSED, "no key has several values, so no key has several values, so nothing varies; usage: cleave %s",
+            usage);
     return OK;
 }
 
@@ -130,7 +133,7 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
     sweep_print(s);
     const int failed = cases_in(s, CASE_FAILED), stopped = cases_in(s, CASE_STOPPED);
     if (failed == 0 && stopped > 0)
-        return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command goes on", stopped,
+        return status_set(INTERRUPTED, "%d of %d runs have stopped early; the same command continues them", stopped,
                           s->n - cases_in(s, CASE_SAME));
     return failed > 0 ? status_set(FAILED, "%d of %d runs have failed", failed, s->n - cases_in(s, CASE_SAME)) : OK;
 }

@@ -82,17 +82,16 @@ status contact_overlap_check(struct run *e)
         const int32_t i = c->deepest;
         return status_set(FAILED,
                           "contact at step %lld, t = %.3g s: particle %d, now at (%.6g, %.6g, %.6g) m, is %.2f "
-                          "spacings inside another, which it is about to pass; see whether the speeds (wave speed "
-                          "%.4g m/s) are meant, or choose a larger contact.stiffness (now %.3g) with a smaller "
-                          "time.safety",
+                          "spacings inside another and is about to pass through it: check the speeds (wave speed %.4g "
+                          "m/s), or use a larger contact.stiffness (now %.3g) with a smaller time.safety",
                           (long long)e->clock.step, e->clock.t, (int)p->id[i], p->x[0][i], p->dim > 1 ? p->x[1][i] : 0,
                           p->dim > 2 ? p->x[2][i] : 0, overlap, e->tables.wave_speed, e->scene->contact_stiffness);
     }
     if (e->contact->overlap_said) return OK;
     e->contact->overlap_said = true;
     snprintf(text, sizeof text,
-             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): pressures "
-             "there are no longer those of the material; a larger contact.stiffness overlaps less",
+             "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): contact "
+             "pressures are then wrong: use a larger contact.stiffness",
              OVERLAP_DOUBTFUL);
     warnings_say(&e->warnings, text);
     return OK;

@@ -50,7 +50,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
-                     s->rigids > 0 ? " (rigid ones they meet)" : "");
+                     s->rigids > 0 ? " (contact with rigid bodies is there)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)

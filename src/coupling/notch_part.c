@@ -14,9 +14,9 @@ static const char *scene_obstacle(const struct scene *s)
     if (s->conversion.notch == NOTCH_BONDS) return "the scene says so";
     if (s->growths > 0) return "growth lets bonds along cracks fade";
     for (int k = 0; k < s->probes; k++)
-        if (s->probe[k].kind == PROBE_SIF) return "a sif probe looks at the bonds of its crack";
+        if (s->probe[k].kind == PROBE_SIF) return "a sif probe needs the bonds of its crack";
     if (s->contact_between == CONTACT_ALL && !s->contact_convert)
-        return "with contact.convert false the faces of a slit would pass through each other";
+        return "with contact.convert: false its faces would pass through each other";
     return NULL;
 }
 
@@ -25,7 +25,7 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
 {
     const char *why = scene_obstacle(s);
     if (!why && !frame_any(r)) why = "there are no material points in the reference frame";
-    if (!why && grid_mirror_between(g, s)) why = "a mirror lies between two nodes of the mesh";
+    if (!why && grid_mirror_between(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
 
@@ -34,7 +34,8 @@ static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
         if (!n->notch[k].slit)
-            return status_set(REFUSED, "conversion.notch: crack %d cannot be a slit: %s; auto and bonds can do it",
+            return status_set(REFUSED,
+                              "conversion.notch: crack %d cannot be a slit of the mesh: %s; auto or bonds is expected",
                               k + 1, n->notch[k].reason);
     return OK;
 }

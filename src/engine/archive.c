@@ -46,8 +46,8 @@ static status kernels_archive(struct warnings *to, struct archive *a)
     then[sizeof then - 1] = 0;
     if (strcmp(then, now->name) == 0) return OK;
     snprintf(text, sizeof text,
-             "the checkpoint was written with %s kernels and the run goes on with %s: the same to round-off, not to "
-             "the last bit; CLEAVE_SIMD=%s keeps the bits, where the processor runs them",
+             "the checkpoint was written with %s kernels, and the run continues with %s: results agree to round-off, "
+             "not to the last bit; CLEAVE_SIMD=%s keeps the kernels where the processor has them",
              then, now->name, then);
     warnings_say(to, text);
     return OK;

@@ -51,16 +51,16 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
 static void warn_of_coupling(const struct scene *s, enum coupling kind, struct warnings *to)
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
-        warnings_add(to, "method mpm has one velocity field and ignores the pre-cracks; pd or adaptive represent them");
+        warnings_add(to,
+                     "method: mpm has one velocity field and ignores the pre-cracks; pd and adaptive represent them");
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
     if (coupling_moves_by_grid(kind))
-        warnings_add(
-            to,
-            "coupling %s is as published: no energy stands behind its forces, and a long run may gain some; watch "
-            "energy.balance_error, or use partial stress",
-            coupling_name[kind]);
+        warnings_add(to,
+                     "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
+                     "energy.balance_error, or use coupling: partial stress",
+                     coupling_name[kind]);
 }
 
 /* Warns of shape functions beside driven particles, and of cells with one point. on_grid: points are on the grid. */
@@ -70,14 +70,14 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
     for (int b = 0; b < s->boundaries; b++) driven |= s->boundary[b].kind == BOUNDARY_VELOCITY;
     if (driven && on_grid && (s->shape == SHAPE_QUADRATIC || s->shape == SHAPE_CUBIC))
         warnings_add(to,
-                     "mpm.shape %s beside fixed and driven particles: stress there comes out up to a third too "
-                     "large, displacements 2 to 3 %%; with a mirror in place of what holds the face, or shapes linear "
-                     "and gimp, they do not",
+                     "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
+                     "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
                      s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5)
-        warnings_add(
-            to, "one point a cell (mpm.cell %.3g) leaves a zig-zag of 0.8 %% behind coupling interfaces; 2 is usual",
-            s->cell);
+        warnings_add(to,
+                     "one point per cell (mpm.cell: %.3g) leaves an oscillation of 0.8 %% behind coupling interfaces; "
+                     "2 is usual",
+                     s->cell);
 }
 
 /* Warns of keys of coarse cells and slits that have no effect. */
@@ -135,8 +135,8 @@ static void warn_of_probes(const struct scene *s, struct warnings *to)
     for (int k = 0; k < s->probes && yields; k++)
         if (s->probe[k].kind == PROBE_SIF)
             warnings_add(to,
-                         "probe %s: K_I, K_II and J are those of an elastic body; where a material yields within "
-                         "its ring they mean nothing, and rings of other radii differ: contour_spread",
+                         "probe %s: K_I, K_II and J hold for an elastic body; where a material yields within the ring "
+                         "they are meaningless, and differ with the radius (contour_spread)",
                          s->probe[k].name);
 }
 
@@ -153,7 +153,7 @@ static void warn_of_fields(unsigned asked, const struct particles *p, const stru
 {
     enum { ASK_PLASTIC_STRAIN = 1 << 4, ASK_OTHERS = ASK_LEVEL | ASK_STRAIN | ASK_PLASTIC_WORK };
     if (asked & ASK_PLASTIC_STRAIN && (asked & ASK_OTHERS) != ASK_OTHERS && !p->plastic_strain && !b->plastic_path)
-        warnings_add(to, "output.fields: no material here yields, and frames will have no plastic_strain");
+        warnings_add(to, "output.fields: no material yields, so frames will have no plastic_strain");
 }
 
 /* Warns of regions of frames without a particle. */
@@ -180,7 +180,7 @@ void engine_warn(struct run *e)
     struct warnings *to = &e->warnings;
     if (s->renamed[0]) warnings_add(to, "%s; earlier names work in this version, with the same meaning", s->renamed);
     if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
-        warnings_add(to, "the time step is above the critical one: expect a run that blows up");
+        warnings_add(to, "the time step is above the critical one: the run will be unstable");
     warn_of_coupling(s, e->coupling_kind, to);
     warn_of_cells(s, e->part.n_free > 0, to);
     if (e->part.n_free > 0) warn_of_spin(s, e->grid, to);
@@ -195,7 +195,7 @@ void engine_warn(struct run *e)
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, to);
     if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
-        warnings_add(to, "the pre-cracks cut no bond: do they lie in the body?");
+        warnings_add(to, "the pre-cracks cut no bond: check that they are inside the body");
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

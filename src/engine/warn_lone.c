@@ -121,11 +121,11 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     const bool lattice = apart[n - 1] < (1 + ALIKE) * apart[0] && median_sorted(beside, n) <= 2 * p->dim;
     if (share > CROWDED_MOST || (isfinite(distance) && distance > APART_MOST * spacing) ||
         (lattice && fabs(distance / spacing - 1) > LATTICE_OFF))
-        warnings_add(to,
-                     "%.200s has no volumes: each particle has that of the spacing of %.4g m, and nearest neighbours "
-                     "are %.4g m apart, so that masses and forces are those of another body; particles.spacing "
-                     "%.4g m, or a column volume, is expected",
-                     b->file, spacing, distance, distance);
+        warnings_add(
+            to,
+            "%.200s has no volumes: each particle has that of the spacing of %.4g m, and nearest neighbours are %.4g m "
+            "apart, so that masses and forces are wrong: use particles.spacing %.4g m, or a column volume",
+            b->file, spacing, distance, distance);
 }
 
 void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
@@ -148,7 +148,7 @@ void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const
         warnings_add(to, "body %s: %lld of its particles ha%s no neighbour, the first at (%s) m: nothing holds %s%s",
                      s->body[k].name, (long long)lone[k].n, lone[k].n == 1 ? "s" : "ve", place,
                      lone[k].n == 1 ? "it" : "them",
-                     scene_at_rest(s) ? ", and there is no equilibrium; remove what lies alone" : "");
+                     scene_at_rest(s) ? ", and there is no equilibrium; remove such particles" : "");
     }
     memory_free(lone);
 }

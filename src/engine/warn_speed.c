@@ -88,8 +88,8 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
     if (change > d->limit)
         warnings_add(to,
                      "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
-                     "what it drives; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: a "
-                     "slower change is expected, if it is no blow",
+                     "its body; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a "
+                     "slower change, unless an impact is meant",
                      d->load->boundary->name, change, within, d->limit);
 }
 
@@ -113,13 +113,13 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
         else if (speed > limit)
             warnings_add(to,
                          "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
-                         "the critical stretch times the wave speed: a longer time is expected, if it is no blow",
+                         "the critical stretch times the wave speed: use a longer time, unless an impact is meant",
                          s->boundary[b].name, speed, limit);
         else
             warnings_add(to,
-                         "boundary %s: its velocity is up to %.3g m/s beside that of what it drives at t = 0; bonds "
-                         "beside it break at %.3g m/s, the critical stretch times the wave speed: a lower velocity is "
-                         "expected, if it is no blow",
+                         "boundary %s: its velocity is up to %.3g m/s different from that of its particles at t = 0; "
+                         "bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a lower "
+                         "velocity, unless an impact is meant",
                          s->boundary[b].name, jump, limit);
     }
     memory_free(body);

@@ -38,8 +38,8 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
                                    settings->of[k].value);
     if (settings->n == 0)
         return status_set(REFUSED,
-                          "%s: once bonds break, families of peri/lps keep the weight they had whole, and results "
-                          "differ; model: bond, or --allow-different, is expected",
+                          "%s: once bonds break, particles of peri/lps keep the weight of their whole neighbourhood, "
+                          "and results differ; model: bond, or --allow-different, is expected",
                           shown_name(s->path).text);
     return status_set(REFUSED,
                       "%s: LAMMPS runs it to the same result with%s; give these, or --allow-different, which "
@@ -245,7 +245,8 @@ static void export_print(const struct exported *x, const struct lammps_types *t)
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
     if (lammps_families_differ(x->s))
-        puts("differs from Cleave once bonds break: families of peri/lps keep the weight that they had whole");
+        puts(
+            "differs from Cleave once bonds break: particles of peri/lps keep the weight of their whole neighbourhood");
 }
 
 static status export_write(struct exported *x)

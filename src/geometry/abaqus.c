@@ -435,7 +435,7 @@ static status instance_read(struct deck *d)
     char field[FIELD];
     if (scope < 0) return source_fault(d->s, "an instance of part %.40s, which there is not", part ? part : "?");
     struct scope *p = &d->scope[scope];
-    if (p->placed) return source_fault(d->s, "part %.40s stands in the assembly twice; once is expected", p->name);
+    if (p->placed) return source_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
     if (data_line(d->s)) {
         for (int k = 0; k < 3 && deck_field(d->s, field); k++) TRY(deck_real(d->s, field, &shift[k]));
         source_next_line(d->s);

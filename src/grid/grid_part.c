@@ -25,9 +25,8 @@ static void warn_of_mirrors(const struct run *e, struct warnings *to)
         if (s->method != METHOD_PD && s->boundary[b].kind == BOUNDARY_MIRROR &&
             !mirror_on_nodes(&s->boundary[b], &e->grid->field[0].grid, s->spacing))
             warnings_add(to,
-                         "the mirror of boundary %s stands neither on a node of the grid nor half-way between "
-                         "two: errors of 15 to 20 %%, and refinement helps little; mpm.origin or mpm.cell can move the "
-                         "nodes",
+                         "boundary %s: the mirror plane is neither on a grid node nor midway between two nodes: errors "
+                         "of 15 to 20 %%, which refinement hardly reduces; move the nodes by mpm.origin or mpm.cell",
                          s->boundary[b].name);
 }
 

@@ -43,8 +43,8 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
             const struct boundary *one = l->load[b].boundary, *mirror = l->load[m].boundary;
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
             return status_at(one->place, status_set(REFUSED,
-                                                    "boundary %s: the body goes on behind mirror %s at this "
-                                                    "face; a face of the whole body is expected to absorb",
+                                                    "boundary %s: the body continues behind mirror %s at this face; a "
+                                                    "face of the whole body is expected",
                                                     one->name, mirror->name));
         }
     return OK;

@@ -52,8 +52,8 @@ status load_displacement_known(const struct boundary *b)
 {
     if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_in_time(b)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: a velocity by a formula of t does not tell how far it goes; displacement by a "
-                      "formula of t, or velocity times a function of time, is expected",
+                      "boundary %s: the displacement of a velocity that is a formula of t is not known; a displacement "
+                      "that is a formula of t, or a velocity times a function of time, is expected",
                       b->name);
 }
 

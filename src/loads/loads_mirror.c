@@ -90,7 +90,8 @@ static status mirror_checked(const struct boundary *b, const struct particles *p
         above = above || p->X[b->axis][i] > b->at + LOADS_TOLERANCE * spacing;
     }
     if (!(below && above)) return OK;
-    return status_set(REFUSED, "boundary %s: the mirror at %c = %.6g m cuts the body; a mirror stands at its border",
+    return status_set(REFUSED,
+                      "boundary %s: the mirror plane %c = %.6g m cuts the body; a plane at its border is expected",
                       b->name, "xyz"[b->axis], b -> at);
 }
 
@@ -115,16 +116,13 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             const real apart = fabs(b[k].at - b[m].at);
             if (apart <= 1e-6 * spacing)
                 return status_at(b[k].place,
-                                 status_set(REFUSED,
-                                            "boundary %s: its mirror stands where that of %s does; one is enough",
+                                 status_set(REFUSED, "boundary %s: its mirror plane is that of %s; one is enough",
                                             b[k].name, b[m].name));
             if (apart + spacing <= reach)
-                return status_at(
-                    b[k].place,
-                    status_set(REFUSED,
-                               "boundary %s: the mirror is %.6g m from that of %s; bonds that reach %.6g m want them "
-                               "farther apart than %.6g m",
-                               b[k].name, apart, b[m].name, reach, reach - spacing));
+                return status_at(b[k].place, status_set(REFUSED,
+                                                        "boundary %s: the mirror is %.6g m from that of %s; with bonds "
+                                                        "of %.6g m they must be farther apart than %.6g m",
+                                                        b[k].name, apart, b[m].name, reach, reach - spacing));
         }
     return OK;
 }

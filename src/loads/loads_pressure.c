@@ -109,7 +109,7 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
     struct pressed pressed = {area, follows ? &faces : NULL};
     if (any) pressure_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
     if (!any)
-        s = status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
+        s = status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     else if (follows)
         s = load_surface_make(l, &faces, boundary, n, p, spacing);
     else if (!pressure_shares(l, p, area))

@@ -145,7 +145,7 @@ status load_select(struct load *l, const struct boundary *b, struct particles *p
     if (b->kind == BOUNDARY_BODY_FORCE) body_shares(l, p);
     memory_free(selected);
     if (!any && (boundary_is_force(b) || needs_face(b)))
-        return status_set(REFUSED, "boundary %s: no particle lies in its region", b->name);
+        return status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
                       "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "

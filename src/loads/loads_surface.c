@@ -122,8 +122,8 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
         const bool on = place_on_lattice(s, (int32_t)i, k);
         s->site[s->n] = (struct site){site_key(s->p->body[i], k, s->p->dim), (int32_t)i};
         if (!on || s->site[s->n++].key < 0)
-            return status_set(REFUSED, "pressure that follows wants particles on a regular lattice of the spacing; "
-                                       "follow: false, or particles.irregularity 0 and no list, is expected");
+            return status_set(REFUSED, "follow: true needs particles on a regular lattice of the spacing; follow: "
+                                       "false, or particles.irregularity: 0 and no list, is expected");
     }
     array_sort(s->site, s->n, sizeof *s->site, by_key);
     return OK;
@@ -144,13 +144,11 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
             const real twice = mirror_steps(s, &s->all[m], s->p->body[i]);
             if (fabs(s->p->X[s->all[m].axis][i] - s->all[m].at) > BESIDE * s->spacing) continue;
             if (fabs(remainder(twice - 1, 2)) < 2 * OFF_LATTICE) continue;
-            return status_at(
-                s->all[m].place,
-                status_set(REFUSED,
-                           "boundary %s: pressure that follows wants mirrors "
-                           "half-way between particles; half a spacing from the first ones is expected, or follow: "
-                           "false",
-                           s->all[m].name));
+            return status_at(s->all[m].place,
+                             status_set(REFUSED,
+                                        "boundary %s: follow: true needs mirror planes midway between particles; a "
+                                        "plane half a spacing from the first particles, or follow: false, is expected",
+                                        s->all[m].name));
         }
     return OK;
 }

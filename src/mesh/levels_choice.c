@@ -186,7 +186,7 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
         snprintf(text, room, "none, as the body has %lld particles: from %d on they save time", (long long)c->particles,
                  PAYS);
     else if (c->why == LEVELS_DAMPED)
-        snprintf(text, room, "none with damping, which knows one time step");
+        snprintf(text, room, "none with damping, which has one time step");
     else if (c->why == LEVELS_LONG_STEP)
         snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f", c->step_share,
                  LEVELS_STEP_MOST);

@@ -76,7 +76,7 @@ static status draw_views(const struct plot_request *r, const struct run_frames *
     const struct contents has = contents_of(cloud, frames->shown);
     if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
-        return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
+        return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
     const struct path damage = sheet_path(r, DRAWN_DAMAGE), kind = sheet_path(r, DRAWN_KIND),
                       latest = sheet_path(r, DRAWN_LAST);
     const bool damaged = has.damage || view.notches > 0;

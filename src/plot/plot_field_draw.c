@@ -75,7 +75,7 @@ static status draw_field_clouds(const struct plot_request *r, const char *path, 
     struct view view = view_of(cloud, clouds);
     view_set_field(&view, r->projection.field, cloud, clouds);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
-        return status_set(FAILED, "%s: the frames hold no particles, or places that are not numbers", r->folder);
+        return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
     if (same_everywhere(cloud, clouds)) {
         char why[96];
         snprintf(why, sizeof why, "%s is %.4g%s%s everywhere", r->projection.field->name, cloud[0].value[0],

@@ -160,7 +160,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     struct reactions r;
     struct gnuplot g;
     reactions_find(&r, h);
-    if (r.n == 0) return nothing_to_draw(sheet.path, "no reaction probe says what a support bears");
+    if (r.n == 0) return nothing_to_draw(sheet.path, "no reaction probe records the force of a support");
     if (!(r.displacement > 0))
         return nothing_to_draw(sheet.path, "no support with a reaction probe and no point probe moves");
     const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.displacement);

@@ -128,7 +128,7 @@ static status bind_point(struct probe *q, const struct observed *o)
     if (q->list[0] >= 0) return OK;
     char text[96];
     position_text(q->request.at, o->part->dim, text, sizeof text);
-    return status_set(REFUSED, "probe \"%s\": the point (%s) m lies outside the bodies", q->request.name, text);
+    return status_set(REFUSED, "probe \"%s\": the point (%s) m is outside the bodies", q->request.name, text);
 }
 
 /* Finds the particles nearest to the stations of a LINE probe. Returns REFUSED if all stations are outside the body. */
@@ -145,7 +145,7 @@ static status bind_line(struct probe *q, const struct observed *o)
         inside += q->list[q->n] >= 0;
     }
     if (inside > 0) return OK;
-    return status_set(REFUSED, "probe \"%s\": the whole line lies outside the bodies", q->request.name);
+    return status_set(REFUSED, "probe \"%s\": the whole line is outside the bodies", q->request.name);
 }
 
 /* Lists the particles of the region, including those on its surface within round-off. */

@@ -59,7 +59,7 @@ static status find_bar(struct probe *q, const struct observed *o)
     for (int64_t k = 1; k < b->n; k++) {
         real step = p->X[0][b->order[k]] - p->X[0][b->order[k - 1]];
         if (step <= 0 || step > 2.5 * o->spacing)
-            return refuse(q, step <= 0 ? "two particles share a place; one bar is expected"
+            return refuse(q, step <= 0 ? "two particles are at one position; one bar is expected"
                                        : "the bodies do not touch; one bar is expected");
     }
     const struct material *m = &o->material[p->material[0]];

@@ -175,8 +175,8 @@ static status check_ring(const struct sif_tracked *w, const struct probe_request
         const real *other = o->tips->tip[k].origin;
         if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < w->reach)
             return status_set(REFUSED,
-                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m lies within its radius %.6g "
-                              "m; choose a smaller outer radius",
+                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use a "
+                              "smaller outer radius",
                               r->name, other[0], other[1], w->reach);
     }
     return OK;
@@ -197,8 +197,8 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
         if (hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]) > w->reach) continue;
         if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
             return status_set(REFUSED,
-                              "probe \"%s\": another material or body lies within its radius %.6g m, at (%.6g, "
-                              "%.6g) m; choose a smaller outer radius",
+                              "probe \"%s\": another material or body is within its radius %.6g m, at (%.6g, %.6g) m; "
+                              "use a smaller outer radius",
                               r->name, w->reach, p->X[0][i], p->X[1][i]);
     }
     return OK;

@@ -140,13 +140,13 @@ static status unbalanced(const struct statics *s, const struct particles *p, con
 {
     real X[DIM_MAX] = {0};
     if (s->balance.n > 0) unknown_position(s, p, mesh, s->balance.worst, X);
-    return status_set(FAILED,
-                      "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (%.3g is "
-                      "wanted), most of it near x = %.6g, y = %.6g, z = %.6g m; see whether every part is held and "
-                      "loads are what the body bears, or choose %ssteps.control energy, more steps, or a larger "
-                      "solver_tolerance",
-                      (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
-                      p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
+    return status_set(
+        FAILED,
+        "load step %lld, t = %.6g s: no equilibrium, the residual stays at %.3g of the load (at most %.3g is "
+        "required), most of it near x = %.6g, y = %.6g, z = %.6g m: check that every part is held and that the body "
+        "can carry the loads, or use %ssteps.control: energy, more steps or a larger solver_tolerance",
+        (long long)step, s->t, s->balance.residual, s->balance.tolerance, X[0], X[1], X[2],
+        p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
 /* *crossed: faces have gone through each other. */
@@ -218,8 +218,8 @@ static status solve_whole(struct run *e, real t)
         trial_undo(e, &saved, NULL);
     }
     return status_set(FAILED,
-                      "load step %lld, t = %.6g s: faces go through each other on the way to equilibrium; more "
-                      "load steps, or a larger spacing, are expected",
+                      "load step %lld, t = %.6g s: crack faces pass through each other before equilibrium is reached: "
+                      "use more load steps or a larger spacing",
                       (long long)e->clock.step + 1, t);
 }
 

@@ -86,7 +86,7 @@ static const char *mirrors_find(struct led_plane *plane)
         const int axis = m.axis;
         if (plane->dim == 3 && fabs(plane->front[axis]) > 1 - STRAIGHT) continue;
         for (m.axis = 0; m.axis < 2 && fabs(plane->axis[m.axis][axis]) < 1 - STRAIGHT;) m.axis++;
-        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry lies askew to them";
+        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry is oblique to them";
         if (plane->axis[m.axis][axis] < 0) m.at = -m.at, m.outside = -m.outside;
         plane->mirror[plane->mirrors++] = m;
     }

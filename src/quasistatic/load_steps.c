@@ -247,13 +247,14 @@ static status check_opening(const struct scene *scene, const struct particles *p
         for (int d = 0; d < part->dim; d++) away += square(X[d] - at[k][d]);
         if (sqrt(away) > FAR_OFF * scene->spacing)
             return status_set(REFUSED,
-                              "steps.%s: the body is %.3g m away from there; a place on it, where the gauge is clipped "
-                              "on, is expected",
+                              "steps.%s: the body is %.3g m away from this position; a position on the body, where the "
+                              "gauge is mounted, is expected",
                               k ? "to" : "from", sqrt(away));
     }
     if (nearest[0] != nearest[1]) return OK;
-    return status_set(REFUSED, "steps.from and steps.to are at one particle, which opens nothing; two places, on both "
-                               "sides of the crack, are expected");
+    return status_set(
+        REFUSED,
+        "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
 }
 
 /* REFUSED where loads and supports do not follow the pseudo-time: the crack would wait for others in vain. */
@@ -277,7 +278,7 @@ status statics_check(const struct run *e)
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
-                              "solver: load steps want material points in the reference frame, and body %s is not in "
+                              "solver: load steps need material points in the reference frame, and body %s is not in "
                               "it%s%s; method: pd, or solver: explicit, is expected",
                               s->body[b].name, e->frame->choice[b].reason ? ": " : "",
                               e->frame->choice[b].reason ? e->frame->choice[b].reason : "");
@@ -302,8 +303,8 @@ static void say_flowed(struct warnings *to, const struct particles *p)
     char text[200];
     for (int64_t i = 0; i < p->n && p->plastic_correction[0]; i++) most = real_max(most, p->plastic_strain[i]);
     snprintf(text, sizeof text,
-             "points have flowed by a plastic strain of %.2g, and load steps know that of a few per cent: see whether "
-             "the body bears its loads, or choose smaller ones, or solver explicit",
+             "the plastic strain has reached %.2g, and load steps are for a few per cent: check that the body can "
+             "carry its loads, or use smaller loads or solver: explicit",
              most);
     if (most > FLOW_LARGE) warnings_say(to, text);
 }
@@ -313,9 +314,10 @@ static void say_missed(struct warnings *to, const struct rigid_body *body, int n
 {
     for (int k = 0; k < n; k++) {
         const struct rigid_body *r = &body[k];
-        char text[160];
+        char text[200];
         snprintf(text, sizeof text,
-                 "rigid body %.60s went its way and pushed nothing: see whether it meets a body, and what holds that",
+                 "rigid body %.60s has moved without pushing anything: check that it meets a body, and that this body "
+                 "is held",
                  r->name);
         if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_say(to, text);
     }
@@ -338,9 +340,8 @@ static status check_held(struct run *e, bool *apart)
     const status held = statics_unheld(e->statics, &e->part, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
-        warnings_say(&e->warnings,
-                     "the crack goes through: after its next advance next to nothing holds a piece of the body under "
-                     "its loads, and the run ends before it");
+        warnings_say(&e->warnings, "the crack goes through: after its next increment a fragment of the body would be "
+                                   "almost unsupported under its loads, and the run ends before it");
     return parts ? OK : held;
 }
 

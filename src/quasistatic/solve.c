@@ -77,8 +77,8 @@ static void say_large_strain(struct warnings *to, const struct particles *p, con
         for (int k = 0; k < symmetric_count(p->dim); k++)
             most = real_max(most, fabs(p->stress[k][i]) / material[p->material[i]].young);
     snprintf(text, sizeof text,
-             "stresses of the solution reach %.2g times Young's modulus: no solid bears that, and elasticity of small "
-             "strains does not describe it; see whether loads are meant, and in which unit",
+             "stresses of the solution reach %.2g times Young's modulus, beyond any solid and beyond small strains: "
+             "check the loads and their units",
              most);
     if (!(most <= STRAIN_LARGE)) warnings_say(to, text);
 }
@@ -109,10 +109,10 @@ static void solver_finish(struct run *e)
 static status not_converged(const struct solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
-        return status_set(FAILED,
-                          "the solver diverged at step %lld; smaller loads are expected, or solver relaxation in "
-                          "place of cg, or explicit",
-                          (long long)step);
+        return status_set(
+            FAILED,
+            "the solver diverged at step %lld: use smaller loads, or solver: relaxation in place of cg, or explicit",
+            (long long)step);
     if (s->residual * s->scale <= s->noise)
         return status_set(FAILED,
                           "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "

@@ -25,10 +25,11 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
-            warnings_add(to, "a static equilibrium has no velocities: those of `initial` are left out");
+            warnings_add(to, "a static equilibrium has no velocities: the velocities of `initial` are ignored");
     for (int b = 0; b < s->bodies; b++)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
-            warnings_add(to, "a static equilibrium has no velocities: that of body %s is left out", s->body[b].name);
+            warnings_add(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
+                         s->body[b].name);
     if (s->bodies > 1 || s->cracks > 0)
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                          "where they close");

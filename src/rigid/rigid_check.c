@@ -36,8 +36,8 @@ static status check_mirrors(const struct rigid_body *r, const struct scene *s)
         const real at = mirror->at, gap = s->spacing;
         if (mirror->kind != BOUNDARY_MIRROR || from[mirror->axis] > at + gap || to[mirror->axis] < at - gap) continue;
         return status_set(REFUSED,
-                          "rigid body %s flies (it has a mass), and mirrors do not act on it: it may not touch that of "
-                          "boundary %s; the scene without the mirror is expected",
+                          "rigid body %s flies (it has a mass), and mirrors do not act on it, so that it must not "
+                          "touch the mirror of boundary %s; a scene without the mirror is expected",
                           r->name, mirror->name);
     }
     return OK;
@@ -60,11 +60,11 @@ status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, 
         const real turning = sqrt(dot(r->spin, r->spin, DIM_MAX)) * r->radius;
         const real increment = (sqrt(dot(r->v, r->v, DIM_MAX)) + turning) * clock->dt / s->spacing;
         if (increment <= INCREMENT_MOST) continue;
-        return status_set(FAILED,
-                          "rigid body %s at step %lld, t = %.3g s: it moves %.3g spacings a step, and particles would "
-                          "be inside it before they feel it; see whether its speed and mass are meant, or choose a "
-                          "smaller time.safety (now %.2g)",
-                          r->name, (long long)clock->step, clock->t, increment, s->safety);
+        return status_set(
+            FAILED,
+            "rigid body %s at step %lld, t = %.3g s: it moves %.3g spacings per step, so that particles would be "
+            "inside it before contact acts: check its speed and mass, or use a smaller time.safety (now %.2g)",
+            r->name, (long long)clock->step, clock->t, increment, s->safety);
     }
     return OK;
 }

@@ -9,8 +9,8 @@ static status position_dependent_on_grid(const struct boundary *b, const struct 
     for (int64_t k = 0; k < l->n && !b->rotates && drives_by_place(b); k++)
         if (particle_on_grid(p, l->particle[k]) && !(p->flag[l->particle[k]] & FLAG_MESHED))
             return status_set(REFUSED,
-                              "boundary %s: a %s by x, y, z is that of reference places, which the grid of mpm.frame "
-                              "current does not know; reference, or method pd, is expected",
+                              "boundary %s: a %s by x, y, z depends on reference positions, which the grid of "
+                              "mpm.frame: current does not have; mpm.frame: reference, or method: pd, is expected",
                               b->name, b->displaces ? "displacement" : "velocity");
     return OK;
 }
@@ -26,8 +26,8 @@ static status starts_at_reference(const struct boundary *b, const struct particl
             const real off = p->x[d][l->particle[k]] - p->X[d][l->particle[k]];
             if (b->components >> d & 1 && !(fabs(off) <= DISPLACEMENT_TOLERANCE * spacing))
                 return status_set(REFUSED,
-                                  "boundary %s: a displacement is from the reference place, and `initial` begins with "
-                                  "one of %.4g m along %c there; a velocity, or no initial state there, is expected",
+                                  "boundary %s: displacements are relative to the reference position, and `initial` "
+                                  "gives %.4g m along %c there; a velocity, or no initial state there, is expected",
                                   b->name, off, "xyz"[d]);
         }
     return OK;

@@ -69,11 +69,11 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
     const int body = body_made_for(s, X, p->body[i]), beside = body_made_for(s, Y, p->body[j]);
     const char *own = s->body[body].name, *other = s->body[beside].name;
     if (body != beside)
-        return status_set(REFUSED,
-                          "bodies %s and %s are joined, but not on one lattice: their particles at %s and %s m are %s "
-                          "spacings apart; whole numbers (sizes and places of both in whole spacings), or pd.surface "
-                          "volume, are expected",
-                          own, other, here, there, apart);
+        return status_set(
+            REFUSED,
+            "bodies %s and %s are joined, but not on one lattice: their particles at %s and %s m are %s spacings "
+            "apart; sizes and positions of both in whole spacings, or pd.surface: volume, are expected",
+            own, other, here, there, apart);
     return status_set(REFUSED,
                       "body %s is on no lattice: its particles at %s and %s m are %s spacings apart; whole numbers, or "
                       "pd.surface volume, are expected",

@@ -205,7 +205,7 @@ static status draft_empty(const struct draft *d, int body, bool listed)
     region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
-    snprintf(why + used, sizeof why - used, " m at the most, thinner than the spacing, or another unit meant?");
+    snprintf(why + used, sizeof why - used, " m at most: is it thinner than the spacing, or in another unit?");
     return draft_refuse(d, body, why);
 }
 
@@ -274,10 +274,10 @@ static status check_values(const struct particles *p, const struct draft *d, rea
         bool good = isfinite(p->mass[i]) && p->mass[i] > 0 && isfinite(spacing);
         for (int a = 0; a < p->dim; a++) good = good && fabs(p->X[a][i]) <= FILL_FARTHEST * spacing;
         if (!good)
-            return draft_refuse(d, p->body[i],
-                                "a particle lies beyond 1e7 spacings from the origin, where doubles no longer "
-                                "resolve strains, or has no finite mass; see whether places and spacing have "
-                                "the same unit, and move the body to the origin");
+            return draft_refuse(
+                d, p->body[i],
+                "a particle is beyond 1e7 spacings from the origin, where doubles no longer resolve strains, or has no "
+                "finite mass: check that positions and spacing have the same unit, and move the body to the origin");
     }
     return OK;
 }
@@ -326,9 +326,9 @@ static status check_distances(const struct particles *p, const struct draft *d, 
     const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
     const char *place = (one > two ? one : two)->place;
     if (one == two)
-        return status_at(place, status_set(REFUSED, "body %s has two particles in one place: (%.6g, %.6g, %.6g) m",
+        return status_at(place, status_set(REFUSED, "body %s has two particles at one position: (%.6g, %.6g, %.6g) m",
                                            one->name, X[0], X[1], X[2]));
-    return status_at(place, status_set(REFUSED, "bodies %s and %s have particles in one place: (%.6g, %.6g, %.6g) m",
+    return status_at(place, status_set(REFUSED, "bodies %s and %s have particles at one position: (%.6g, %.6g, %.6g) m",
                                        one->name, two->name, X[0], X[1], X[2]));
 }
 

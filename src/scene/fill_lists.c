@@ -175,7 +175,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
     if (v->lone > LONE_MOST)
         return refuse_list(
             c,
-            "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: those of the list are "
+            "%s%.0f %% of its particles have no neighbour within %.4g spacings of %.4g m: particles of the list are "
             "%.4g m apart; a list in m is expected%s, or a particles.spacing of about %.2g m",
             c->n > LOOKED_AT ? "about " : "", 100 * v->lone, c->reach / spacing, spacing, v->apart,
             unit_guess(v->apart / spacing, by_volume), v->apart);
@@ -196,13 +196,12 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
                              : "",
             volume_guess(v->filled));
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
-        return refuse_list(
-            c,
-            "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need some %.2g "
-            "GB, and %.2g can be had (%s); those of the list are %.4g m apart: a particles.spacing like that "
-            "is expected",
-            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9, team_memory_limit(),
-            v->apart);
+        return refuse_list(c,
+                           "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need "
+                           "some %.2g GB of the %.2g GB at hand (%s); particles of the list are %.4g m apart: a "
+                           "particles.spacing of this size is expected",
+                           v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
+                           team_memory_limit(), v->apart);
     return OK;
 }
 

@@ -50,12 +50,11 @@ status check_size(struct reader *r, const struct node *root)
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
-            return status_at(
-                s->body[b].place,
-                status_set(REFUSED,
-                           "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; has "
-                           "it faces far from the others, or another unit?",
-                           s->body[b].name, longest_side(from, to, s->dim), count));
+            return status_at(s->body[b].place,
+                             status_set(REFUSED,
+                                        "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; "
+                                        "check its unit, and for faces far from the others",
+                                        s->body[b].name, longest_side(from, to, s->dim), count));
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
@@ -87,9 +86,9 @@ status check_absorbing(struct reader *r, const struct node *root)
     const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
     for (int b = 0; b < s->boundaries && n; b++, n = n->next)
         if (s->boundary[b].kind == BOUNDARY_ABSORBING && !scene_moves(s))
-            return fault(r, node_find(n, "absorbing"),
-                         "a static equilibrium knows no waves, and nothing holds the body there; solver: explicit is "
-                         "expected");
+            return fault(
+                r, node_find(n, "absorbing"),
+                "a static equilibrium has no waves, and nothing holds the body there; solver: explicit is expected");
     return OK;
 }
 
@@ -100,9 +99,9 @@ static status check_damping(struct reader *r, const struct node *root)
     const struct node *damping = node_find(root, "damping"), *levels = scene_check_below(root, "mpm", "levels");
     if (!(s->damping > 0)) return OK;
     if (!scene_moves(s))
-        return fault(r, damping, "a static equilibrium knows no velocities; solver: explicit is expected");
+        return fault(r, damping, "a static equilibrium has no velocities; solver: explicit is expected");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
-        return fault(r, levels, "%s levels have time steps of their own, damping knows one; 0 is expected",
+        return fault(r, levels, "%s levels have time steps of their own, and damping has one; 0 is expected",
                      shown(r, levels));
     return OK;
 }
@@ -131,8 +130,8 @@ status check_bearing(struct reader *r, const struct node *root)
                          "expected");
         if (formula && load_displacement_known(load) != OK)
             return fault(r, node_find(n, "velocity"),
-                         "static solvers drive as far as a velocity goes, which is not known of formulas of t; "
-                         "displacement is expected in its place");
+                         "static solvers need the displacement, which does not follow from a velocity that is a "
+                         "formula of t; displacement is expected in its place");
     }
     return OK;
 }
@@ -153,8 +152,8 @@ static status check_origin(struct reader *r, const struct node *root)
     for (int a = 0; a < s->dim && s->has_grid_origin && s->spacing > 0; a++)
         if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
             return fault(r, scene_check_below(root, "mpm", "origin"),
-                         "%.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a place near "
-                         "the body is expected",
+                         "%.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a position "
+                         "near the body is expected",
                          s->grid_origin[a]);
     return OK;
 }
@@ -192,9 +191,9 @@ status resolve_contact(struct reader *r, const struct node *root)
         return fault(r, scene_check_below(root, "contact", "distance"),
                      "lammps is the rule of its peri/pmb; contact.law: pair and model: bond are expected");
     if (s->contact_between != CONTACT_NONE && scene_at_rest(s))
-        return fault(r, between, "a static equilibrium knows no contact; solver: explicit is expected");
+        return fault(r, between, "a static equilibrium has no contact; solver: explicit is expected");
     if (s->contact_friction > 0 && s->contact_between == CONTACT_NONE && s->rigids == 0)
-        return fault(r, friction, "nothing meets (contact.between: none), so nothing rubs");
+        return fault(r, friction, "there is no contact (contact.between: none), so there is no friction");
     return OK;
 }
 
@@ -263,17 +262,17 @@ static void resolve_defaults(struct reader *r, const struct node *root)
 const char *scene_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
-    if (scene_at_rest(s)) return "static solvers want frame current";
+    if (scene_at_rest(s)) return "static solvers need the current frame";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
-        return "couplings pm to pgg carry bonds on the grid of frame current";
-    if (s->cell != 2) return "it wants mpm.cell 2";
-    if (s->irregularity > 0) return "it wants a regular lattice";
-    if (s->body[body].list.mass) return "particles with masses of their own want frame current";
+        return "couplings pm to pgg need the grid of the current frame";
+    if (s->cell != 2) return "it needs mpm.cell: 2";
+    if (s->irregularity > 0) return "it needs a regular lattice";
+    if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
     for (int m = 0; m < s->materials; m++)
         if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m])) {
-            if (!scene_in_steps(s)) return "materials that yield want frame current";
-            if (s->method != METHOD_MPM) return "its points yield, which load steps know with method mpm or pd";
-            if (s->lattice_constants) return "materials that yield there want mpm.constants isotropic";
+            if (!scene_in_steps(s)) return "materials that yield need the current frame";
+            if (s->method != METHOD_MPM) return "its material yields, which load steps do with method: mpm or pd";
+            if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
         }
     return NULL;
 }
@@ -282,7 +281,7 @@ const char *scene_frame_not_default(const struct scene *s, int body)
 {
     const char *why = scene_frame_unsupported(s, body);
     if (why) return why;
-    if (s->bodies > 1) return "bodies meet on the grid of frame current only";
+    if (s->bodies > 1) return "bodies meet on the grid of the current frame only";
     if (s->body[body].file) return "particles from a list need not be a lattice";
     return NULL;
 }
@@ -291,9 +290,9 @@ const char *scene_frame_not_default(const struct scene *s, int body)
  * NULL: none. */
 static const char *current_frame_key(const struct scene *s)
 {
-    if (s->has_shape) return "the scene says mpm.shape, which frame reference knows nothing of";
-    if (s->has_transfer) return "the scene says mpm.transfer, which frame reference knows nothing of";
-    if (s->has_interface_damping) return "the scene says interface_damping, which frame reference knows nothing of";
+    if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
+    if (s->has_transfer) return "the scene gives mpm.transfer, which the reference frame does not have";
+    if (s->has_interface_damping) return "the scene gives interface_damping, which the reference frame does not have";
     return NULL;
 }
 
@@ -353,9 +352,9 @@ static status check_model(struct reader *r, const struct node *root)
     const struct node *model = node_find(root, "model"), *surface = scene_check_below(root, "pd", "surface");
     const bool moments = surface && s->surface == SURFACE_MOMENTS;
     if (moments && (s->dim == 1 || s->irregularity > 0))
-        return fault(r, surface, "moments wants a regular lattice in 2D or 3D; volume or none is expected");
+        return fault(r, surface, "moments needs a regular lattice in 2D or 3D; volume or none is expected");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
-        return fault(r, surface, "with %s moments wants method pd and pd.normalisation bulk; none is expected",
+        return fault(r, surface, "with %s moments needs method: pd and pd.normalisation: bulk; none is expected",
                      shown(r, model));
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", shown(r, model));

@@ -87,7 +87,7 @@ static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
         return compile_wrong(c, "ends where %s is expected%s", expected,
-                             c->depth > 0 ? " (in a list a formula with a comma stands in quotes)" : "");
+                             c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;

@@ -52,8 +52,7 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
         return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", shown(r, n));
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
-        if (b->components >> axis & 1)
-            return fault(r, c, "%s stands there twice; each axis is expected once", shown(r, c));
+        if (b->components >> axis & 1) return fault(r, c, "%s is given twice; each axis is expected once", shown(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;
@@ -381,7 +380,7 @@ static status check_exact(struct reader *r, const struct node *n, const struct n
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
     if (p->kind != PROBE_EXACT) return OK;
     if (r->scene->space != SPACE_LINE)
-        return fault(r, map ? map : n, "closed forms are those of a bar; space line is expected");
+        return fault(r, map ? map : n, "closed forms are for a bar; space: line is expected");
     for (size_t k = 0; k < COUNT_OF(numbers); k++) {
         const struct node *given = node_find(map, numbers[k]);
         if (given && p->form != EXACT_MANUFACTURED)

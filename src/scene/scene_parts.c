@@ -102,7 +102,7 @@ static status read_viscosity(struct reader *r, const struct node *n, struct mate
                                                        "volume is known"
                       : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"
                       : !scene_moves(s)                                   ? "goes with solver explicit"
-                      : s->levels > 0 ? "goes with mpm.levels: 0, as it knows one time step"
+                      : s->levels > 0 ? "goes with mpm.levels: 0, as it has one time step"
                                       : NULL;
     return why ? fault(r, n, "%s", why) : OK;
 }
@@ -286,8 +286,7 @@ static status read_polarisation(struct reader *r, const struct node *n, struct w
     const real along = dot(moved, w->direction, dim);
     w->transverse = fabs(along) < 1e-6;
     if (!w->transverse && fabs(along) < 1 - 1e-6)
-        return fault(
-            r, n, "lies neither along direction nor across it; particles of a plane wave move in one of the two ways");
+        return fault(r, n, "is neither along direction nor across it; particles of a plane wave move along or across");
     for (int d = 0; d < dim; d++)
         moved[d] = w->transverse ? moved[d] - along * w->direction[d] : along * w->direction[d];
     length = sqrt(dot(moved, moved, dim));
@@ -398,7 +397,7 @@ static status check_growth_probes(struct reader *r, const struct node *root)
     for (int k = 0; k < s->probes; k++, n = n->next) {
         bool found = false;
         if (s->probe[k].kind != PROBE_GROWTH) continue;
-        if (s->growths == 0) return fault(r, n, "no crack grows as it is told; growth is expected");
+        if (s->growths == 0) return fault(r, n, "no crack has a prescribed growth; the key growth is expected");
         for (int g = 0; g < s->growths; g++)
             found = found || !s->probe[k].of[0] || strcmp(s->growth[g].name, s->probe[k].of) == 0;
         if (!found)

@@ -276,7 +276,7 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
     else if (strcmp(child->key, "region") == 0)
         TRY(read_named(r, child, s));
     else if (signed_before)
-        return fault(r, child, "stands inside add, subtract or intersect; a solid such as box is expected there");
+        return fault(r, child, "is inside add, subtract or intersect; a solid such as box is expected there");
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));

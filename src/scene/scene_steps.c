@@ -12,18 +12,18 @@ static status check_steps_motion(struct reader *r, const struct node *root)
         if (s->body[s->bodies + k].mass > 0)
             return status_at(s->body[s->bodies + k].place,
                              status_set(REFUSED,
-                                        "rigid body %s flies (it has a mass), and load steps know no inertia; "
-                                        "a velocity, or solver: explicit, is expected",
+                                        "rigid body %s flies (it has a mass), and load steps have no inertia; a "
+                                        "velocity, or solver: explicit, is expected",
                                         s->body[s->bodies + k].name));
     if (s->growths > 0)
-        return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed want solver explicit");
+        return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed need solver: explicit");
     if (s->contact_friction > 0)
         return fault(r, tree_at(root, "contact.friction"),
                      "friction has no energy to be in equilibrium with; 0, or "
                      "solver: explicit, is expected");
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_velocity || s->initial[k].sets_pulse)
-            return fault(r, node_find(root, "initial"), "load steps know no velocities; solver: explicit is expected");
+            return fault(r, node_find(root, "initial"), "load steps have no velocities; solver: explicit is expected");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
             return fault(r, solver, "static has no waves for probe %s to measure; explicit is expected",
@@ -39,8 +39,7 @@ static status check_steps_loads(struct reader *r, const struct node *root)
     for (int b = 0; b < s->boundaries && n; b++, n = n->next) {
         if (s->boundary[b].follow)
             return fault(r, node_find(n, "follow"),
-                         "load steps know loads on the reference state only; false, or "
-                         "solver: explicit, is expected");
+                         "load steps have loads on the reference state only; false, or solver: explicit, is expected");
         TRY(status_at(s->boundary[b].place, load_displacement_known(&s->boundary[b])));
     }
     return OK;
@@ -82,8 +81,8 @@ status check_load_steps(struct reader *r, const struct node *root)
                      "hoop leads the tips of cracks; bonds, or auto, is expected on a line");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,
-                 "control opening wants steps.from and steps.to, two places, and steps.opening, how far they "
-                 "are moved apart");
+                 "control: opening needs steps.from and steps.to, two positions, and steps.opening, by how much their "
+                 "distance grows");
 }
 
 /* The echo of a scene has all keys, with their defaults. */

@@ -68,7 +68,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
     if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_fault(&c->in, name, "its unit is too long");
-    if (time && c->time >= 0) return csv_fault(&c->in, name, "column %.40s stands there twice", name);
+    if (time && c->time >= 0) return csv_fault(&c->in, name, "column %.40s is given twice", name);
     if (!time && c->value >= 0) {
         c->second = name;
         return OK;
@@ -96,8 +96,8 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     if (c->time < 0)
         return csv_fault(&c->in, c->in.text, "no column is called time; a header such as time [us], value is expected");
     if (c->second)
-        return csv_fault(&c->in, c->second, "column %.40s is a second one of values; column: NAME says which is meant",
-                         c->second);
+        return csv_fault(&c->in, c->second,
+                         "column %.40s is a second column of values; give column: NAME to choose one", c->second);
     if (c->value >= 0) return OK;
     if (*wanted) return csv_fault(&c->in, c->in.text, "no column is called %.40s", wanted);
     return csv_fault(&c->in, c->in.text,

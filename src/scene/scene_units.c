@@ -469,9 +469,9 @@ const char *number_text(char text[32], real value)
 
 void scene_help_units(FILE *out)
 {
-    fputs("A number without a unit is SI. A unit stands behind it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\n"
-          "symbols   ",
-          out);
+    fputs(
+        "A number without a unit is SI. A unit follows it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\nsymbols   ",
+        out);
     for (size_t k = 0; k < COUNT_OF(symbols); k++)
         if (strcmp(symbols[k].name, "1") != 0) fprintf(out, " %s", symbols[k].name);
     fputs("; times also min, h; angles deg, rad\nprefixes  ", out);

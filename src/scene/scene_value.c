@@ -169,7 +169,7 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
         if (keys[k].type != KEY_GROUP && strcmp(key_leaf(&keys[k]), n->key) == 0)
             return strchr(keys[k].path, '.')
                        ? fault(r, n, "does not belong here; it is the key %s", keys[k].path)
-                       : fault(r, n, "does not belong here; %s stands alone, at the left margin", n->key);
+                       : fault(r, n, "does not belong here; %s is a key of its own, at the left margin", n->key);
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 

@@ -104,8 +104,7 @@ status wish_read(struct reader *r, const struct node *root, const char *text, si
     const struct node *model = tree_at(root, "model"), *solver = tree_at(root, "solver");
     const bool given = tree_at(root, "particles.spacing");
     if (tree_at(root, "steps"))
-        return fault(r, tree_at(root, "method"),
-                     "auto knows no load steps (steps); pd, or adaptive, is expected beside them");
+        return fault(r, tree_at(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
     TRY(accuracy_read(r, root, w));
     TRY(provisional_scene(r, text, length, &w->provisional, given));
     if (given) w->spacing = w->provisional.spacing;

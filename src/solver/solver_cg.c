@@ -156,8 +156,8 @@ status cg_step(struct solver *s, const struct static_body *body, int64_t step, b
     team_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
-                          "conjugate gradients at step %lld: the body gives way without a force; is every "
-                          "part of it held, or bonded to one that is?",
+                          "conjugate gradients at step %lld: the body moves without resistance: check that every part "
+                          "is held, or bonded to a part that is held",
                           (long long)step);
     s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));

@@ -78,11 +78,10 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
         if (!(sum == 0) && i < first) first = i;
     }
     if (first == p->n) return OK;
-    return status_set(
-        FAILED,
-        "step %lld, t = %.4g s: particle %d has a stress, place or velocity that is no finite number; see whether "
-        "material, supports and initial state are meant (`cleave check`)",
-        (long long)clock->step, clock->t, (int)p->id[first]);
+    return status_set(FAILED,
+                      "step %lld, t = %.4g s: particle %d has a stress, position or velocity that is not finite: check "
+                      "material, supports and initial state (`cleave check`)",
+                      (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
 /* Returns true if frame number `frames` of the body is due after `step` steps. */

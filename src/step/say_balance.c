@@ -20,10 +20,11 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     char text[320];
     const real released = energy_released(w);
     if (scene_at_rest(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
-    snprintf(text, sizeof text,
-             "bonds released %.3g J as they broke that they had not held (energy.fracture %.3g): families of model %s "
-             "under pressure gain energy where they lose bonds; compare with model: bond, do not trust what came after",
-             released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
+    snprintf(
+        text, sizeof text,
+        "bonds released %.3g J more than they held when they broke (energy.fracture %.3g): with model %s, particles "
+        "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
+        released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
     warnings_say(to, text);
 }
 

@@ -112,19 +112,16 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
     if (!loads_explain_motion(&e->part, e->frame, given)) return false;
     if (e->stability->start_speed >= speed) {
-        snprintf(
-            text, room,
-            "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed; see whether the "
-            "velocities of "
-            "its bodies and of `initial` are meant, and in which unit",
-            e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
+        snprintf(text, room,
+                 "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed: check the "
+                 "velocities of its bodies and of `initial`, and their units",
+                 e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
         return true;
     }
     if (start_strain(e->scene) >= LARGE_STRAIN) {
         snprintf(text, room,
-                 "no smaller time step helps: the scene starts strained by %.3g, and what that frees throws the body "
-                 "apart; see "
-                 "whether the displacement gradients of `initial` are meant, 0.001 is a strain of 0.1 %%",
+                 "no smaller time step helps: the scene starts with a strain of %.3g, whose energy throws the body "
+                 "apart: check the displacement gradients of `initial` (0.001 is a strain of 0.1 %%)",
                  start_strain(e->scene));
         return true;
     }
@@ -138,16 +135,14 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     const real value = b->kind == BOUNDARY_PRESSURE ? fabs(b->value[0]) : size;
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
-    snprintf(
-        text, room,
-        "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the wave "
-        "speed, and loads "
-        "have done %.3g J of work; see whether its value is meant, and in which unit",
-        b->name, b->displaces ? "displacement" : word[b->kind], value,
-        b->displaces ? "m"
-        : b->by_mass ? "N/kg"
-                     : unit[b->kind],
-        b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed, work);
+    snprintf(text, room,
+             "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the "
+             "wave speed, and loads have done %.3g J of work: check its value and unit",
+             b->name, b->displaces ? "displacement" : word[b->kind], value,
+             b->displaces ? "m"
+             : b->by_mass ? "N/kg"
+                          : unit[b->kind],
+             b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed, work);
     return true;
 }
 
@@ -209,9 +204,9 @@ static bool squeeze_explanation(const struct bonds *b, const struct particles *p
     const real least = shortest_bond(b, p);
     if (!(least < SQUEEZED)) return false;
     snprintf(text, room,
-             "bonds are squeezed to %.2g of their length, where no law here holds; see whether so much compression is "
-             "meant, or choose a smaller time.safety (now %.2f of the critical %.3g s), which keeps particles apart "
-             "a little farther",
+             "bonds are squeezed to %.2g of their length, beyond the validity of the bond laws: check that so much "
+             "compression is meant, or use a smaller time.safety (now %.2f of the critical %.3g s), which keeps "
+             "particles farther apart",
              least, clock->dt / clock->dt_critical, clock->dt_critical);
     return true;
 }
@@ -223,8 +218,8 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
     if (scene_in_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, room,
-                 "in an equilibrium: more load steps (steps.number), or a smaller solver_tolerance, are "
-                 "the way to find where it comes from; please report the scene");
+                 "in an equilibrium: find out where it comes from by more load steps (steps.number) or a smaller "
+                 "solver_tolerance, and please report the scene");
         return;
     }
     if (load_explanation(e, steps, text, room)) return;
@@ -243,7 +238,7 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
         snprintf(text, room,
                  "a smaller step (now %.2f of the critical %.3g s) need not help, and the balance of energies shows no "
-                 "gain: loads or supports may drive it; see whether they are meant, or try %s",
+                 "gain: loads or supports may drive it: check them, or try %s",
                  e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
         return;
     }
@@ -284,11 +279,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
     }
     return status_set(FAILED,
-                      "inverted at step %lld, t = %.3g s: at %s, from (%.6g, %.6g, %.6g) m, the mesh of the "
-                      "reference frame is squeezed "
-                      "through itself; choose mpm.frame: current, whose points keep their order on the grid, or see "
-                      "whether loads and "
-                      "supports are meant",
+                      "inverted at step %lld, t = %.3g s: at %s, from (%.6g, %.6g, %.6g) m, the mesh of the reference "
+                      "frame is inverted; use mpm.frame: current, or check loads and supports",
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
@@ -388,11 +380,11 @@ static bool say_stretched(const struct particles *p, const struct material *mate
         if (2 * sum < square(STRETCH_MOST * m->young)) continue;
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
-        snprintf(text, sizeof text,
-                 "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, round x = %.4g m: from some 10 "
-                 "%% on they come apart (mpm.transfer apic) or gain energy (flip), whatever the shape; mpm.frame "
-                 "reference bears any stretch",
-                 100 * strain, t, p->x[0][i]);
+        snprintf(
+            text, sizeof text,
+            "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond some 10 %% "
+            "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; use mpm.frame: reference",
+            100 * strain, t, p->x[0][i]);
         warnings_say(to, text);
         return true;
     }
@@ -404,11 +396,10 @@ static bool say_stretched(const struct particles *p, const struct material *mate
 status energy_check(struct run *e)
 {
     if (e->stability->lost)
-        return status_set(
-            FAILED,
-            "step %lld, t = %.4g s: an energy is no finite number, though all places are; see whether material, "
-            "supports and initial state are meant (`cleave check`)",
-            (long long)e->clock.step, e->clock.t);
+        return status_set(FAILED,
+                          "step %lld, t = %.4g s: an energy is not finite, though all positions are: check material, "
+                          "supports and initial state (`cleave check`)",
+                          (long long)e->clock.step, e->clock.t);
     const struct diagnostics *w = e->diagnostics;
     const real excess = w->now.balance_error * w->energy_scale + energy_released(w);
     const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);

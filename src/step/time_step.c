@@ -207,9 +207,9 @@ status time_step_make(struct run *e)
     const real dt = s->time_step > 0 ? s->time_step : automatic;
     e->clock.stride = 1 << levels;
     if (e->clock.stride > 1 && dt > LEVELS_STEP_MOST * e->clock.dt_critical * (1 + 1e-9))
-        return status_set(REFUSED,
-                          "time.step: %.4g s is more than mpm.levels above 0 bears, %.4g s (%.2f of the critical step)",
-                          dt, LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
+        return status_set(
+            REFUSED, "time.step: %.4g s is more than mpm.levels above 0 allows, %.4g s (%.2f of the critical step)", dt,
+            LEVELS_STEP_MOST * e->clock.dt_critical, LEVELS_STEP_MOST);
     e->clock.dt_bears = dt;
     if (scene_in_steps(s))
         e->clock.steps = s->steps.number, e->clock.dt = s->duration / s->steps.number;

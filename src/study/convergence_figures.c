@@ -154,7 +154,9 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     *figures = 0;
     for (int f = 0; f < s->table.figures && wanteds == 0; f++)
         if (is_of_interest(s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
-            fprintf(stderr, "%s is left out: several places tie in a run, which gives one of them; --of %s shows it\n",
+            fprintf(stderr,
+                    "%s is left out, as several positions are equal in a run, which reports one of them; --of %s shows "
+                    "it\n",
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)

@@ -178,8 +178,8 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
     double value;
     for (int k = 0; k < w->wanteds; k++)
         if (summary_number(folder.text, w->wanted[k], &value) != OK)
-            fprintf(stderr, "warning: the first run has no figure %s; those of %s/summary.json can be asked for\n",
-                    w->wanted[k], shown_name(folder.text).text);
+            fprintf(stderr, "warning: the first run has no figure %s; choose one of %s/summary.json\n", w->wanted[k],
+                    shown_name(folder.text).text);
 }
 
 /* Makes the first run; while the scene is invalid at the coarsest level, all levels are refined. */

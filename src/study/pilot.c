@@ -170,8 +170,8 @@ static status search_failed(const struct pilot_search *p)
     char limit[64] = "at its spacing";
     if (!(p->wish.spacing > 0)) snprintf(limit, sizeof limit, "in %g times that time", PILOT_LONGEST);
     return status_set(REFUSED,
-                      "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% %s (%s); "
-                      "a larger accuracy.within or accuracy.budget, or method and particles.spacing, would do",
+                      "%s: pilot runs of %.3g s found no method that is accurate to %.2g %% %s (%s); use a larger "
+                      "accuracy.within or accuracy.budget, or give method and particles.spacing",
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
@@ -205,9 +205,8 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
                 "%.3g s (accuracy.budget); they are in %s\n",
                 pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
-        fprintf(stderr,
-                "pilot          a body at rest is one equilibrium, in which no bond breaks; load steps want method "
-                "pd or adaptive\n");
+        fprintf(stderr, "pilot          solver: relaxation and cg find one equilibrium, in which no bond breaks; load "
+                        "steps need method: pd or adaptive\n");
     TRY(search_first(p));
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);

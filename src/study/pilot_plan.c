@@ -54,7 +54,7 @@ status pilot_plan(struct pilot_search *p)
                               p->scene);
     if (!(p->wish.spacing > 0) && !(spacing_coarse(s) > 0))
         return status_set(REFUSED,
-                          "%s: no length tells where pilot runs should begin; write a method and "
+                          "%s: the scene has no length from which pilot runs could choose a spacing; give method and "
                           "particles.spacing",
                           p->scene);
     if (p->wish.figure[0]) TRY(figure_name_check(s, p->wish.figure));
@@ -91,9 +91,8 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
         fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
     fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     if (w->at_rest)
-        fprintf(out,
-                "auto           a body at rest is one equilibrium, in which no bond breaks; load steps want method pd "
-                "or adaptive\n");
+        fprintf(out, "auto           solver: relaxation and cg find one equilibrium, in which no bond breaks; load "
+                     "steps need method: pd or adaptive\n");
     fprintf(out,
             "auto           they cost at most %.4g s (accuracy.budget), of which %.4g s are for the first %d runs of "
             "each method; the run that they choose costs at most %.4g s\n",

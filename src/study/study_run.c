@@ -286,7 +286,8 @@ static status cases_run(struct runner *r)
         cases_take(r);
         if (r->running > 0) nanosleep(&pause, NULL);
     }
-    if (s == OK && r->how.stop && *r->how.stop) return status_set(INTERRUPTED, "interrupted; the same command goes on");
+    if (s == OK && r->how.stop && *r->how.stop)
+        return status_set(INTERRUPTED, "interrupted; the same command continues");
     return s;
 }
 

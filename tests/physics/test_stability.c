@@ -190,7 +190,7 @@ static void test_close_mirrors(void **state)
         "body: {box: {from: [0, 0], to: [24e-3, 1e-3]}}\nparticles: {spacing: 1e-3}\n"
         "boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 1e-3}}\n";
     assert_int_equal(stability_observe(&(struct stability_case){.method = "pd", .text = row}, 10, 0, &l), REFUSED);
-    assert_non_null(strstr(status_message(), "want them farther apart than 0.002"));
+    assert_non_null(strstr(status_message(), "they must be farther apart than 0.002"));
 }
 
 int main(void)

@@ -34,7 +34,7 @@ for method in pd mpm adaptive; do
         refused "$method, strained by $gradient" "$work/r" "initial" "$work/block.yaml"
     done
     block "method: $method" "initial: [{displacement_gradient: [0, 1000, 0, 0]}]" >"$work/block.yaml"
-    stopped "$method, strained by 1000" "$work/b" "no smaller time step helps: the scene starts strained by 1e+03" "$work/block.yaml" --overwrite
+    stopped "$method, strained by 1000" "$work/b" "no smaller time step helps: the scene starts with a strain of 1e+03" "$work/block.yaml" --overwrite
 done
 
 # ---- energies ----------------------------------------------------------------------------------------------------

@@ -239,7 +239,7 @@ same "no descriptors" "$work/once" "$work/closed"
 # ---- numbers that are not finite ---------------------------------------------------------------------------------
 
 sed 's/^boundary:/boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 0, tangential: held}}/' inputs/kalthoff_winkler.yaml >"$work/twice.yaml"
-refused "two mirrors in one place" "$work/twice" "its mirror stands where that of" "$work/twice.yaml"
+refused "two mirrors in one place" "$work/twice" "its mirror plane is that of" "$work/twice.yaml"
 "$cleave" run -q -o "$work/lost" $small -s material.young=1e-300 2>"$work/err"
 holds "a modulus of nothing: exit status" test $? -ne 0
 holds "a modulus of nothing: no number that is none" test -z "$(cut -d, -f3-8 "$work/lost/history.csv" 2>/dev/null | grep -i 'nan\|inf')"

@@ -160,7 +160,7 @@ done <<'END'
 14|boundary:^  - {absorbing: false, face: x+}|15:6|not true
 14|boundary:^  - {absorbing: true}|15:5|face
 14|boundary:^  - {absorbing: true, face: z+}|15:23|no face in space
-14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|knows no waves
+14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|has no waves
 17|    body: disk|17:5|there is no body
 18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
 18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times ascend
@@ -292,7 +292,7 @@ list "nan" "kept/grains.csv:2:" "" <<'END'
 x,y,volume
 nan,0.5e-3,1e-8
 END
-list "two in one place" "bad.yaml:7:25: particles: " "has two particles in one place" <<'END'
+list "two in one place" "bad.yaml:7:25: particles: " "has two particles at one position" <<'END'
 x,y,volume
 0.5e-3,0.5e-3,1e-8
 0.5e-3,0.5e-3,1e-8

@@ -109,5 +109,5 @@ resumed()
 }
 resumed $first 0
 resumed portable $([ $first = portable ] && echo 0 || echo 1)
-[ $first = portable ] || holds "what is said: $(cat "$work/err")" grep -q "^warning: .*written with $first .*goes on with portable.*CLEAVE_SIMD=$first" "$work/err"
+[ $first = portable ] || holds "what is said: $(cat "$work/err")" grep -q "^warning: .*written with $first .*run continues with portable.*CLEAVE_SIMD=$first" "$work/err"
 finish

@@ -375,7 +375,7 @@ output: {frames: 0, samples: 1}
 END
 rows=$work/rows.yaml
 refused "two lattices at an interface" 'bodies ring and core are joined, but not on one lattice: their particles at (' "$rows"
-refused "two lattices: how far off" ') m are (1.5, 2.5) spacings apart; whole numbers (sizes and places of both in whole spacings), or pd.surface volume, are' "$rows"
+refused "two lattices: how far off" ') m are (1.5, 2.5) spacings apart; sizes and positions of both in whole spacings, or pd.surface: volume, are' "$rows"
 says "one lattice at an interface" 'is sound' "$rows" -s bodies.ring.shape.ring.inner=8mm -s bodies.core.shape.disc.radius=8mm
 says "two lattices, which surface volume takes" 'is sound' "$rows" -s pd.surface=volume
 refused "rows beside a mirror" 'body body: its lattice does not go on beyond the mirror of boundary half at y = 0 m: its first row is 0.25 spacings from it; 0.5 (' \

@@ -47,7 +47,7 @@ between "a weight rests" "$mean" 380 420
 
 warned "rigid bodies do not meet" "$work/through" "meet particles, not each other" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, mass: 1 g, velocity: [100 m/s, 0], shape: {box: {from: [30 mm, 0], to: [35 mm, 9 mm]}}}, {name: q, rigid: true, shape: {box: {from: [36 mm, 0], to: [40 mm, 9 mm]}}}')"
-stopped "a blade that outruns contact" "$work/blade" "spacings a step" "$work/plate.yaml" \
+stopped "a blade that outruns contact" "$work/blade" "spacings per step" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, velocity: [0, -3e4 m/s], shape: {box: {from: [0, 11 mm], to: [20 mm, 11.6 mm]}}}')"
 refused "a rigid body inside another" "$work/no" "overlaps body a" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, shape: {box: {from: [15 mm, 0], to: [25 mm, 5 mm]}}}')"
@@ -57,8 +57,8 @@ refused "a ramp of a body that flies" "$work/no" "one without mass" "$work/plate
 refused "a force without a mass" "$work/no" "moves only what has a mass" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, force: [0, 1 N], shape: {box: {from: [30 mm, 0], to: [35 mm, 9 mm]}}}')"
 refused "a load of a rigid body" "$work/no" "p is rigid" "$work/plate.yaml" -s "boundary=[{body_force: [0, -1e9], body: p}]"
-refused "friction of nothing" "$work/no" "so nothing rubs" "$work/plate.yaml" -s "$alone" -s contact.between=none -s contact.friction=0.3
-refused "contact without time" "$work/no" "knows no contact" "$work/plate.yaml" -s "$alone" -s contact.between=all -s solver=cg
+refused "friction of nothing" "$work/no" "so there is no friction" "$work/plate.yaml" -s "$alone" -s contact.between=none -s contact.friction=0.3
+refused "contact without time" "$work/no" "has no contact" "$work/plate.yaml" -s "$alone" -s contact.between=all -s solver=cg
 says=$("$cleave" check "$work/plate.yaml" -t 1 2>&1)
 case $says in *"a with itself"*"rigid p;"*"near a face"*) pass ;; *) fail "check does not say who meets: $says" ;; esac
 

@@ -111,7 +111,7 @@ refused "png, svg, pdf, mp4 or gif" results/strip --format bmp
 refused "not that of --format pdf" results/strip --field speed --format pdf -o x.png
 refused "an ending .png" results/strip --field speed -o x.bmp
 refused "one of them" results/strip --times 1us --frames 2
-refused "24 panels at the most" results/strip --frames 30
+refused "at most 24 panels" results/strip --frames 30
 refused "cleave plot --scene strip.yaml" strip.yaml
 refused "before it runs" results/strip --scene strip.yaml
 refused "for scenes in space" --scene strip.yaml --view x+

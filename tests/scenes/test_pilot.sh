@@ -145,7 +145,7 @@ refused "found no method that is accurate to 1e-07 %" collide.yaml -s accuracy.w
 refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s particles.spacing=1mm -s accuracy.within=0.1%
 refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
 refused "accuracy_table: is no longer a key, as .method: auto. chooses by pilot runs alone; remove it" plate.yaml -s accuracy_table=mine.csv
-refused "auto knows no load steps" plate.yaml -s steps.number=3
+refused "auto does not do load steps" plate.yaml -s steps.number=3
 refused "accuracy: 0 is out of range" plate.yaml -s accuracy=0
 refused "no figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
 refused "no method for the scene with its model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"

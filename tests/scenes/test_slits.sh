@@ -115,9 +115,9 @@ stays()
     reason=$1; shift
     "$cleave" check "$@" >"$work/out" 2>"$work/err" || fail "$reason: $(cat "$work/err")"
     holds "auto: $reason" grep -q "^notch .*cut bonds: .*$reason" "$work/out"
-    refused "slit: $reason" "$work/not" "cannot be a slit: .*$reason" "$@" -s conversion.notch=slit
+    refused "slit: $reason" "$work/not" "cannot be a slit of the mesh: .*$reason" "$@" -s conversion.notch=slit
 }
-stays "no end of it lies in the body" "$work/squeeze.yaml" -s "cracks=[{from: [-1 mm, 0], to: [61 mm, 0]}]"
+stays "neither of its ends is inside the body" "$work/squeeze.yaml" -s "cracks=[{from: [-1 mm, 0], to: [61 mm, 0]}]"
 stays "hold all of it" "$work/squeeze.yaml" -s "cracks=[{from: [20 mm, 0], to: [30 mm, 0]}]"
 stays "pass through each other" "$work/squeeze.yaml" -s contact.convert=false
 stays "reference frame" "$work/squeeze.yaml" -s mpm.frame=current

@@ -160,7 +160,7 @@ refused "runs in it" bar.yaml -s duration=8us,4ms -s particles.spacing=0.5mm -o 
 kill -TERM $first
 wait $first
 is "interrupted" $? 130
-grep -q 'the same command goes on' err && pass || fail "interrupted: $(cat err)"
+grep -q 'the same command continues' err && pass || fail "interrupted: $(cat err)"
 holds "the first stays done" test "$(figure long/duration=8us status)" = done
 "$cleave" sweep bar.yaml -s duration=8us,4ms,5ms,6ms -s particles.spacing=0.5mm -o long -j 1 >out 2>err &
 first=$!

@@ -221,7 +221,7 @@ static void test_refused(void **state)
         "boundary pull: every particle in its region has one of its body before it towards y+; let the region hold");
     sample_free(&a);
     sample_try(&a, "plane stress", holed, "", "traction: [0, 1], face: y+, region: " BOX(40, 2, 50, 6),
-               "no particle lies in its region");
+               "no particle is in its region");
     sample_free(&a);
 }
 

@@ -164,12 +164,9 @@ static void faults_are_placed(void **state)
         {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, as 190 GPa"},
         {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, as 0.25"},
         {UNIT_NONE, "x*t", "x*t is in m^1 s^1; a plain number is expected, as 0.25"},
-        {UNIT_NONE, "2*(3 +",
-         "2*(3 + ends where a number is expected (in a list a formula with a comma "
-         "stands in quotes)"},
+        {UNIT_NONE, "2*(3 +", "2*(3 + ends where a number is expected (in a list a formula with a comma needs quotes)"},
         {UNIT_NONE, "2*(3",
-         "2*(3 ends where an operation or ) is expected (in a list a formula with a comma "
-         "stands in quotes)"},
+         "2*(3 ends where an operation or ) is expected (in a list a formula with a comma needs quotes)"},
         {UNIT_NONE, "2*3)", "2*3) has ) at character 4, where an operation is expected"},
         {UNIT_NONE, "2**3", "2**3 has * at character 3, where a number is expected"},
         {UNIT_NONE, "--2", "--2 has - at character 2, where a number is expected"},

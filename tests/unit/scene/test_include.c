@@ -159,7 +159,7 @@ static void faults_name_the_file(void **state)
         {"include: inner.yaml\ninclude: inner.yaml\n", "space: line\n",
          "sub/outer.yaml:2:1: include: given twice, first in line 1; keep one"},
         {"include: inner.yaml\nduration: 1\n", "space: line\nduration:\n  include: b.yaml\nparticles: {include: a}\n",
-         "sub/inner.yaml:4:13: include: does not belong here; include stands alone, at the left margin"},
+         "sub/inner.yaml:4:13: include: does not belong here; include is a key of its own, at the left margin"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {
         struct scene s;

@@ -114,8 +114,8 @@ static void bad_lists_are_refused(void **state)
         {"0 0 0 3 1\n", "bad.csv:1:7: the scene has no material of block_id 3 (numbered from 1 in its order); it has"},
         {"0 0 0 0 1\n", "bad.csv:1:7: block_id: 0 must be a whole number from 1 to 256"},
         {"x,y,volume\r0,0,1\r", "lines end in carriage returns alone"},
-        {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles in one place: (0, 0, 0) m"},
-        {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles in one place"},
+        {"x,y,volume\n0,0,1\n3,3,1\n0,0,1\n", "two particles at one position: (0, 0, 0) m"},
+        {"x,y,volume\n0,0,1\n0.0004,0.0002,1\n", "particles at one position"},
         {"x,y,volume\n1e10,0,1\n", "beyond 1e7 spacings"},
         {"x,y,volume\n0,0,1e308\n", "no finite mass"},
     };
@@ -180,7 +180,7 @@ static void hdf5_lists_are_read(void **state)
         particles_free(&p);
     }
     s.scene.dim = 1, s.scene.space = SPACE_LINE;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles in one place: (0, 0, 0) m");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles at one position: (0, 0, 0) m");
     remove(name);
 }
 
@@ -317,7 +317,7 @@ static const struct {
      1e-3,
      {10, 1, 0, 0, 1, 0},
      "100 % of its particles have no neighbour within 3.015 "
-     "spacings of 0.001 m: those of the list are 1 m apart; a list in m is expected "
+     "spacings of 0.001 m: particles of the list are 1 m apart; a list in m is expected "
      "(is it in mm?), or a particles.spacing of about 1 m"},
     {SPACE_PLANE_STRESS, MPM, 1e-3, {10, 1, 0, 0, 1, 0}, "no neighbour within 2 spacings of 0.001 m"},
     {SPACE_PLANE_STRESS,

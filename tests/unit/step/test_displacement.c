@@ -354,10 +354,10 @@ static void jumps_are_refused(void **state)
         assert_refused(refusal(PLATE, bad[k].keys, bad[k].boundary, NULL), bad[k].part);
     assert_refused(
         refusal(PLATE, "method=mpm", "mpm.frame=current", GRIP("displacement: [1e-3*x*ramp(t/(10 us)), free]"), NULL),
-        "a displacement by x, y, z is that of reference places");
+        "a displacement by x, y, z depends on reference positions");
     assert_refused(refusal(PLATE, "method=pd", "initial=[{displacement_gradient: [[1e-3, 0], [0, 0]]}]",
                            GRIP("displacement: [1 um, free], face: x+, time: {ramp: {until: 10 us}}"), NULL),
-                   "a displacement is from the reference place, and `initial` begins with one of");
+                   "displacements are relative to the reference position, and `initial` gives");
 }
 
 int main(void)
