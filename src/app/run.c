@@ -31,11 +31,11 @@ static void print_breaks(const struct run *e)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
         printf("  first bond broken at %.4g s", w->break_time);
-    if (broke && w->break_ends > 1) printf(" at %lld places", (long long)w->break_ends);
+    if (broke && w->break_ends > 1) printf(" at %lld positions", (long long)w->break_ends);
     if (tip)
         printf("%slongest crack grew %.4g mm at %.3g degrees", broke ? ", " : "  ", 1e3 * tip->growth,
                tip_angle(tip, e->part.dim));
-    if (tied > 1) printf(", one of %lld tips as far within a spacing", (long long)tied);
+    if (tied > 1) printf(", one of %lld tips of equal growth within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
     if (isnan(w->driven_time)) return;
     if (in_steps)

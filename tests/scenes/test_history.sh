@@ -196,12 +196,12 @@ output: {frames: 0}
 probes: [break, tip]
 END
 holds "run" "$cleave" run "$work/notches.yaml" -t 1 -o "$work/notches" >"$work/said" 2>&1
-holds "terminal: two places" grep -q 'first bond broken at [0-9.e-]* s at 2 places' "$work/said"
+holds "terminal: two places" grep -q 'first bond broken at [0-9.e-]* s at 2 positions' "$work/said"
 is "first breaks that tie" "$(figure "$work/notches" probes.break.tied)" 2
 between "one of both roots" "$(figure "$work/notches" probes.break.x)" 8e-3 10.1e-3
 between "on its plane" "$(figure "$work/notches" probes.break.y)" -1e-9 1e-9
 is "tips that tie" "$(figure "$work/notches" probes.tip.tied) $(figure "$work/notches" crack.tied)" "2 2"
-holds "terminal: two tips" grep -q 'one of 2 tips as far within a spacing' "$work/said"
+holds "terminal: two tips" grep -q 'one of 2 tips of equal growth within a spacing' "$work/said"
 
 cat >"$work/fork.yaml" <<'END'
 space: plane stress
