@@ -21,7 +21,7 @@ struct conversion {
     int64_t peak_bonds;               /* largest number of stored directed bonds at a time */
     int64_t peak;                     /* largest number of peridynamic particles at a time */
     int64_t reverted, reversions;     /* particles that became material points again; passes with reversions */
-    real reversion_energy;            /* change of the total energy by these passes [J] */
+    real reversion_energy;            /* change of the total energy by reversions [J] */
 };
 
 /* Callbacks of a pass. sync: updates n listed particles whose motion is stored on the nodes of a mesh (mesh.h), before

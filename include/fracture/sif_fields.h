@@ -13,7 +13,7 @@ struct crack_medium {
     real shear, lambda;
     real poisson, kappa;                      /* Poisson's ratio nu; Kolosov's constant [1] */
     real modulus;                             /* E*: E, in plane strain E/(1 - nu^2) [Pa] */
-    real density;                             /*                                                          [kg/m^3] */
+    real density;                             /* mass density [kg/m^3] */
     real longitudinal, shear_speed, rayleigh; /* c_d, c_s, c_R [m/s] */
 };
 
@@ -23,10 +23,10 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space);
 /* Motion at a point as the interaction integral needs it, in the local frame. */
 struct crack_state {
     real gradient[2][2];    /* du_i/dx_j [1] */
-    real stress[2][2];      /*                                                          [Pa] */
-    real velocity[2];       /*                                                          [m/s] */
+    real stress[2][2];      /* stress [Pa] */
+    real velocity[2];       /* particle velocity [m/s] */
     real velocity_along[2]; /* d velocity_i/dx_1 [1/s] */
-    real acceleration[2];   /*                                                          [m/s^2] */
+    real acceleration[2];   /* particle acceleration [m/s^2] */
 };
 
 struct crack_field {

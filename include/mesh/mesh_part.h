@@ -77,8 +77,8 @@ void frame_exposed_follow(struct reference_frame *r, struct particles *p);
 /* Computes the forces of the nodes in step number `step`: of bonds, stored in p->f before, and of cells. */
 void frame_force(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Moves the nodes under these forces, and the exposed points with them. middle: time in the middle of the step;
- * dt_velocity: time by which velocities advance [s]. */
+/* Moves the nodes under the forces by frame_force, and the exposed points with the nodes. middle: time in the middle of
+ * the step; dt_velocity: time by which velocities advance [s]. */
 void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
                 real middle, real dt_velocity);
 
@@ -196,7 +196,7 @@ void frame_hollow_change(struct reference_frame *r, const uint8_t *level);
 bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
                          bool gradients);
 
-/* Releases these points. */
+/* Releases the points of the last frame. */
 void frame_hollow_points_free(struct hollow_points *h);
 
 #endif

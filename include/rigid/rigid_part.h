@@ -51,7 +51,7 @@ struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt);
  * [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
 int rigids_columns(const struct run *e, struct column *column);
 
-/* Writes the values of these columns at the time of the present sample to `record`. */
+/* Writes the values of the columns of rigid bodies at the time of the present sample to `record`. */
 void rigids_record(struct run *e, real *record);
 
 /* Stores the positions and velocities at time t [s], before a step, in rigid->motion for the present sample. */

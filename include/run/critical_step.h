@@ -32,9 +32,9 @@ void bond_body_stiffness(void *bond_body, const real *u, real *y);
 real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
                       real spacing);
 
-/* Returns the critical step of a block of full lattice with free surfaces, which is made for this purpose [s]: no body
- * that is a part of this lattice has a larger frequency. density [kg/m^3]; longest: extents of the bodies in question
- * [dim, m]; bound: NULL, or set to the block-Gershgorin bound of the critical step of the block [s]. */
+/* Returns the critical step of a block of full lattice with free surfaces, made by the function [s]: no body that is a
+ * part of the lattice has a larger frequency. density [kg/m^3]; longest: extents of the bodies in question [dim, m];
+ * bound: NULL, or set to the block-Gershgorin bound of the critical step of the block [s]. */
 real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *force, real density, const real *longest,
                               real *bound);
 

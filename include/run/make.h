@@ -11,8 +11,8 @@ void strength_found(struct elastic *elastic, const struct particles *p);
  * there are no such faces. The caller frees them. */
 struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists the bodies whose shapes may have voids (tables->voids), and the mirrors that these have images beyond. Returns
- * false if there are none. */
+/* Lists the bodies whose shapes may have voids (tables->voids), and the mirrors of the scene, beyond which bodies have
+ * images. Returns false if there are none. */
 bool run_voids_list(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
 /* Returns the distance up to which bonds (of reach `cutoff` [m]) or cells join particles [m]. */
