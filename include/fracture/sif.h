@@ -26,7 +26,7 @@
 struct sight {
     const struct crack *crack;
     int cracks;
-    const struct bonds *bonds; /* NULL: broken bonds do not hide */
+    const struct bonds *bonds; /* whose broken bonds hide particles; NULL: none */
 };
 
 struct gradient_rule {

@@ -41,7 +41,7 @@ struct ahead {
     const struct particles *p;
     struct tip_reach *reach;
     int64_t n[TIPS_MAX];
-    struct place *place[TIPS_MAX]; /* NULL: particles are only counted */
+    struct place *place[TIPS_MAX]; /* positions of the particles; NULL: counted only */
 };
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
