@@ -1,142 +1,170 @@
-/* Room `quasistatic`: load steps. It knows every part and the step; the engine calls it.
+/* Room `quasistatic`: load steps, and the solvers of static problems. The room may use every part of a run and the
+ * step; the engine calls it.
  *
- * Load steps (`solver: static` with `steps`): the body is led through states of equilibrium, and bonds break between
- * them. Time is a pseudo-time of which loads and supports are functions; nothing has inertia. */
+ * Load steps (`solver: static` with `steps`): the body follows a sequence of equilibrium states, and bonds break
+ * between them. Loads and supports are functions of a pseudo-time; nothing has inertia. */
 #ifndef CLEAVE_STATICS
 #define CLEAVE_STATICS
 
 #include "base/memory_archive.h"
-#include "data/region.h"
 #include "bonds/family.h"
+#include "data/region.h"
 #include "scene/scene.h"
 #include "solver/equilibrium.h"
 
-/* A directed bond that was broken on trial, and what its row and its particle had. */
+/* A directed bond broken in a trial, with the values of its row and its particle that breaking it changes. */
 struct broken_bond {
-    int32_t i, j; /* of the row; the other end */
-    int64_t row, entry;
-    real w, fracture, damage; /* weight; of the row so far [J]; of the particle */
-    real plastic;             /* plastic work of bonds that the row has lost [J] */
-    float volume;             /* of those [m^3] */
-    uint32_t gap;             /* 0: checkpoints hold the record byte by byte */
-    real held;                /* half of what the bond takes to its limit [J] */
-    uint8_t flag, gaps[7];    /* 0, likewise */
+    int32_t i, j;       /* particle of the row; neighbour */
+    int64_t row, entry; /* of the bond in the bond storage */
+    real w;             /* weight of the bond */
+    real fracture;      /* fracture energy of the row with the bond intact [J] */
+    real damage;        /* damage of the particle with the bond intact [1] */
+    real plastic;       /* plastic work of the broken bonds of the row, with the bond intact [J] */
+    float volume;       /* volume of the broken bonds of the row, with the bond intact [m^3] */
+    uint32_t gap;       /* 0: padding, since checkpoints hold the record byte by byte */
+    real held;          /* half of the energy that stretches the bond from zero force to its critical stretch [J] */
+    uint8_t flag;       /* flags of the particle with the bond intact */
+    uint8_t gaps[7];    /* 0: padding */
 };
 _Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no member sets");
+
+/* A list of directed bonds in the order in which they break. */
 struct break_list {
     int64_t n;
-    struct broken_bond *bond; /* in the order in which they broke */
+    struct broken_bond *bond; /* [n] */
 };
 
-/* An advance of the crack: what its bonds hold at their limits [J], and what the body releases by it over the square
- * of the size of its loads. */
-struct advance {
-    real cost, release;
+/* Energies of a crack increment. */
+struct crack_increment {
+    real cost;    /* energy of its bonds at their critical stretch [J]; 0: there is no increment */
+    real release; /* energy that the body releases, over the square of the load size (statics_load_size) [J/m^2, J/N^2]
+                   */
 };
 
-/* A crack tip that is led (led.c); in space a front, by its place in the plane across it. */
-struct led_tip {
-    real start[2], place[2];   /* where it started, where it is: reference positions [m] */
-    real along[2], heading[2]; /* unit vectors: frame of its factors; where it goes */
-    real last[2];              /* unit vector: of the last stretch behind it */
-    real hold;                 /* length for which it still goes straight on [m] */
-    real sees;                 /* length of the crack behind the tip or its kink [m] */
-    real grown;                /* length so far [m] */
-    bool reversed;             /* its pre-crack has its first corner here */
-    bool ended;                /* it has reached a surface or another crack */
-    bool comes;                /* it takes part in the next advance */
+/* The tip of a SIF-driven crack: the direction of its growth follows from its stress-intensity factors. In space the
+ * struct describes a straight front by its intersection with the plane across it. Positions are reference positions in
+ * that plane. */
+struct sif_crack_tip {
+    real start[2];      /* position before any growth [m] */
+    real position[2];   /* present position [m] */
+    real along[2];      /* unit vector: x axis of the frame of the stress-intensity factors */
+    real heading[2];    /* unit vector: direction of the next increment */
+    real last[2];       /* unit vector: direction of the segment that ends at the tip */
+    real straight;      /* length of growth for which the direction still stays constant [m] */
+    real length_behind; /* length of the crack behind the tip, from its start or its last kink [m] */
+    real grown;         /* growth so far [m] */
+    bool reversed;      /* the first corner of the pre-crack lies at this tip, not the second one */
+    bool ended;         /* the tip has reached a surface or another crack and grows no more */
+    bool selected;      /* the tip takes part in the next crack increment */
     int body;
-    real K[2];                    /* factors of the last measurement [Pa m^(1/2)] */
-    struct advance ahead, behind; /* the stretch ahead, and the last one; cost 0: none */
-    real due;                     /* size of the loads at which the stretch ahead comes */
+    real K[2];                     /* K_I and K_II of the last evaluation [Pa m^(1/2)] */
+    struct crack_increment ahead;  /* the next increment of the tip */
+    struct crack_increment behind; /* the last increment of the tip */
+    real due;                      /* load size at which the next increment is due, INFINITY: at no load */
 };
-/* The plane in which tips are led: of the body, or in space the one across the fronts of its cracks, which are
- * straight, parallel, and go through the body (led_plane.c). */
-struct led_plane {
+
+/* The plane in which the tips move: the plane of a plane body, or in space the plane across the fronts, which must be
+ * straight and parallel and run through the whole body (led_plane.c). */
+struct sif_plane {
     bool made;
-    int dim;                               /* of the body */
-    real spacing, section;                 /* [m]; thickness of a plane body [m] */
-    real axis[2][DIM_MAX], front[DIM_MAX]; /* unit vectors: of the plane; along the fronts, 0 in a plane body */
-    real middle;                           /* of a front, along it [m] */
+    int dim;               /* of the body */
+    real spacing;          /* of the particles [m] */
+    real section;          /* thickness of a plane body [m] */
+    real axis[2][DIM_MAX]; /* unit vectors that span the plane */
+    real front[DIM_MAX];   /* unit vector along the fronts; 0 for a plane body */
+    real middle;           /* position of the middle of a front along `front` [m] */
     int mirrors;
-    struct mirror_plane mirror[2 * DIM_MAX]; /* of the body, by axes of the plane */
+    struct mirror_plane
+        mirror[2 * DIM_MAX]; /* [mirrors] symmetry planes parallel to the fronts; `axis` is one of the plane */
     int body_mirrors;
-    const struct mirror_plane *body_mirror; /* of the body, by axes of space; borrowed */
+    const struct mirror_plane
+        *body_mirror; /* [body_mirrors] symmetry planes of the body; `axis` is one of space; borrowed */
 };
-enum { LED_MAX = 64 };
-struct led_stretch {
-    real at[2][DIM_MAX];
-    int tip;
+
+enum { SIF_TIPS_MAX = 64 };
+
+/* A straight segment of the path of a tip, which bonds do not cross. */
+struct path_segment {
+    real at[2][DIM_MAX]; /* its ends, in the plane of the tips [m] */
+    int tip;             /* number of the tip */
 };
-struct led {
-    const struct scene *scene; /* borrowed, as the source, from which cracks and bonds are made */
-    const struct bond_source *source;
-    struct led_plane plane;
-    const char *fault; /* why there is none; NULL: there is */
-    bool known;        /* tips have been looked for */
+
+/* The cracks whose growth direction follows from their stress-intensity factors. */
+struct sif_cracks {
+    const struct scene *scene;        /* borrowed */
+    const struct bond_source *source; /* borrowed: pre-cracks, family and critical stretches */
+    struct sif_plane plane;
+    const char *fault; /* why no crack of the scene is SIF-driven; NULL: cracks are */
+    bool known;        /* the tips of the pre-cracks have been found */
     int n;
-    struct led_tip tip[LED_MAX];
-    real tried; /* size of the loads at which the next advance was tried */
-    int64_t stretches;
-    struct led_stretch *path; /* [stretches] what they have cut, in its order */
+    struct sif_crack_tip tip[SIF_TIPS_MAX]; /* [n] */
+    real tried;                             /* load size at which the next increment was last determined [m, N] */
+    int64_t segments;
+    struct path_segment *path; /* [segments] cut so far, in the order of growth */
 };
 
-/* What history.csv says of a load step beside what it says of all runs (steps_record.c). */
+/* A state of the crack from which a release rate is computed. */
 struct release_mark {
-    real area, released;
-}; /* [m^2], [J] */
-struct steps_record {
-    struct release_mark mark[2];   /* the release rate is that of the growth since the first one */
-    real released, area, rate;     /* at the last record [J], [m^2]; over the last growth, 0 before any [J/m^2] */
-    real broken;                   /* area that broken bonds have crossed [m^2] */
-    real load_most;                /* largest size of the loads, control energy (statics_load_size) */
-    int64_t step;                  /* the load step at hand or just done; 0: none yet */
-    int64_t directions, solutions; /* of all load steps before */
+    real area;     /* crack area [m^2] */
+    real released; /* energy released so far [J] */
 };
 
-/* A piece of the body that nothing holds in some rigid motions: its nodes, and these motions there [n dim][6], of which
- * the first `motions` are orthonormal [1]. */
-struct free_piece {
+/* Values of the columns that load steps add to history.csv (steps_record.c). */
+struct steps_record {
+    struct release_mark mark[2]; /* the release rate is computed from the growth since the first one */
+    real released;               /* energy released until the last record [J] */
+    real area;                   /* crack area at the last record [m^2] */
+    real rate;                   /* release rate of the last growth, 0 before any growth [J/m^2] */
+    real broken;                 /* crack area by the number of broken bonds [m^2] */
+    real load_most;              /* largest load size so far, under energy control [m, N] */
+    int64_t step;                /* number of the present or last load step; 0: none yet */
+    int64_t directions;          /* search directions of the solver until the last record */
+    int64_t solutions;           /* equilibria until the last record */
+};
+
+/* A fragment of the body that supports, bonds and contact leave free in some rigid motions. */
+struct unconstrained_fragment {
     int64_t n;
-    int32_t *node;
-    int motions;
-    real *motion;
+    int32_t *node;        /* [n] its unknowns */
+    int motions;          /* number of the free rigid motions, at most 6 */
+    real *motion;         /* [n dim][6] orthonormal free motions in the first columns [1] */
     real middle[DIM_MAX]; /* reference position of a node in the middle of the list [m] */
 };
 
-/* State of a body between two load steps, and what equilibrium works on. Nodes of the unknowns are the peridynamic
- * particles, then the nodes of the mesh. */
+/* State of a body between two load steps, and the storage of the equilibrium solver. The nodes of the system of
+ * equations are the peridynamic particles, then the nodes of the mesh that move. */
 struct statics {
-    int64_t particles; /* of the nodes, the first ones */
-    int32_t *node;     /* [nodes] particle, or node of the mesh */
-    real *weight;      /* [nodes] 1/2 for every plane of symmetry that a particle lies on */
-    int16_t *load;     /* [nodes DIM_MAX] boundary that holds a component, -1: none or a mirror */
+    int64_t particles; /* number of peridynamic particles, the first nodes */
+    int32_t *node;     /* [nodes] index of the particle, or of the node in the mesh */
+    real *weight;      /* [nodes] 1/2 for each plane of symmetry on which a particle lies */
+    int16_t *load;     /* [nodes DIM_MAX] boundary that prescribes a component, -1: none or a mirror */
     struct equilibrium balance;
-    struct field way;       /* [nodes] of the next step: supports, and a guess of the rest [m] */
-    real *applied[DIM_MAX]; /* [particles of the body] applied forces now [N] */
-    int64_t pieces;         /* that nothing holds */
-    struct free_piece *piece;
-    struct block_matrix *matrix; /* springs of bonds and cells, for the preconditioner */
-    struct multigrid *precondition;
-    int64_t directions;            /* that the first solution with it took; 0: none yet */
-    struct memory_archive plastic; /* plastic state at the last equilibrium (system.c) */
-    real t;                        /* pseudo-time of loads and supports [s] */
-    real overload;                 /* largest stretch over its limit of the last equilibrium [1] */
-    struct break_list next;        /* bonds of the next advance; none: it has not been looked for */
-    struct advance ahead, behind;  /* the next advance, and the last; cost 0: none */
-    real due;                      /* size of the loads at which the next one comes, INFINITY: at none */
-    bool meets;                    /* the scene has contact or rigid bodies */
-    bool advances;                 /* the next load step begins with it */
-    bool severs;                   /* the next advance would leave a piece that nothing holds: it does not come */
-    bool stale;                    /* bonds have broken since the preconditioner was made */
-    bool kept;                     /* at a checkpoint: there is one, and the next load step goes on with it */
-    bool parted;                   /* and since pieces were looked for */
-    real released_time;            /* that releases in time have taken so far [s] */
-    struct led led;
-    real largest;      /* of the balance, before the solution at hand [N] */
-    bool touches;      /* something did after the last solution */
-    real energy;       /* before it [J] */
-    int64_t opens[2];  /* particles whose distance is the opening */
+    struct field increment; /* [nodes] displacement increment to the next equilibrium: prescribed, else predicted [m] */
+    real *applied[DIM_MAX]; /* [particles of the body] present applied forces [N] */
+    int64_t fragments;      /* number of unconstrained fragments */
+    struct unconstrained_fragment *fragment; /* [fragments] */
+    struct block_matrix *matrix;             /* stiffness of bonds, cells and contact, for the preconditioner */
+    struct multigrid *precondition;          /* NULL: to be made before the next use */
+    int64_t directions;                      /* search directions of the first solution with it; 0: none yet */
+    struct memory_archive plastic;           /* plastic state at the start of the next solutions (system.c) */
+    real t;                                  /* present pseudo-time [s] */
+    real stretch_ratio;            /* largest ratio of stretch to critical stretch in the last equilibrium [1] */
+    struct break_list next;        /* bonds of the next crack increment; empty: none has been found */
+    struct crack_increment ahead;  /* the next crack increment */
+    struct crack_increment behind; /* the last crack increment */
+    real due;                      /* load size at which the next increment is due, INFINITY: at no load [m, N] */
+    bool has_contact;              /* the scene has contact or rigid bodies */
+    bool increment_due;            /* the next load step begins with the crack increment */
+    bool severs;                   /* the next increment would sever the body and is not made */
+    bool precondition_stale;       /* bonds have broken since the preconditioner was made */
+    bool kept;                     /* the checkpoint was written while there was a preconditioner */
+    bool fragments_stale;          /* bonds have broken since the fragments were found */
+    real released_time;            /* sum of the physical times of all dynamic releases [s] */
+    struct sif_cracks sif;
+    real largest;      /* largest force norm of the balance before the present solution [N] */
+    bool in_contact;   /* anything was in contact at the end of the last solution */
+    real energy;       /* stored energy and plastic work of bonds before the present solution [J] */
+    int64_t gauge[2];  /* particles whose distance is the opening */
     int64_t solutions; /* equilibria found so far */
     struct steps_record record;
 };

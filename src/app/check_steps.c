@@ -29,7 +29,7 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_led(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && led_fault(e, NULL) == NULL; }
+static bool is_sif_driven(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && sif_fault(e, NULL) == NULL; }
 
 /* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
@@ -72,7 +72,7 @@ void say_load_steps(const struct run *e)
         "the load\n",
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
-    if (is_led(e))
+    if (is_sif_driven(e))
         printf("cracks         %d %s%s driven by the hoop stress around %s, 2 spacings in each increment%s\n", tips,
                s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
                s->dim == 3 ? ", straight through the body" : "");
@@ -80,7 +80,7 @@ void say_load_steps(const struct run *e)
         printf(
             "cracks         grow by the bonds beyond their critical stretch, some 2 spacings in each increment%s%s\n",
             tips == 0 ? "; there is no pre-crack whose load is known in theory" : "; not by hoop stress: ",
-            tips == 0 ? "" : led_fault(e, NULL));
+            tips == 0 ? "" : sif_fault(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -178,7 +178,7 @@ static double equilibria_of_advance(const struct run *e)
     const struct family *f = &e->source.family;
     const double neighbours = f->full / f->cell_volume, reach = 0.4 * f->horizon / s->spacing;
     double wide = 1, at_once = PAIRS_AT_ONCE;
-    if (is_led(e)) return LED_EQUILIBRIA;
+    if (is_sif_driven(e)) return LED_EQUILIBRIA;
     for (int d = 0; d < s->dim && s->dim == 3; d++) {
         real low, high;
         particles_extent(&e->part, e->part.n, d, &low, &high);
@@ -207,7 +207,7 @@ status cost_load_steps(struct cost *c, struct run *e)
     TRY(engine_equilibrium_try(e, first));
     c->step = team_thread_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
-    if (engine_overload_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
+    if (engine_stretch_ratio_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
     c->run = c->make + LEAST_SHARE * (c->most - c->make), c->least = c->run, c->basis = COST_FIRST;
     return OK;

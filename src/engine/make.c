@@ -348,7 +348,7 @@ static status make_probes(struct run *e)
     e->probing->strain_stress = largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(named(s, led_check(e)));
+    TRY(named(s, sif_check(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);

@@ -1,4 +1,4 @@
-/* Load steps: what supports and loads do from one pseudo-time to the next, equilibrium there, and its accounts. */
+/* Load steps: the equilibrium at the next pseudo-time, and the balance of energy over a load increment. */
 #include <float.h>
 #include <math.h>
 
@@ -16,29 +16,32 @@
 #include "step/report.h"
 #include "step/step.h"
 
-#define GAIN_MOST 0.01 /* share of what loads may have worked beyond the mean that a solution may gain */
-enum { TRIES_MOST = 4, MORE_STRIDES = 4 };
+#define GAIN_MOST 0.01 /* largest energy gain of a solution, as a share of the uncertainty of the work of loads */
+enum { TRIES_MOST = 4, SUBSTEPS_FACTOR = 4 };
 
-/* ---- the way to a pseudo-time ------------------------------------------------------------------------------------ */
+/* ---- predictor --------------------------------------------------------------------------------------------------- */
 
-/* How much more of the same t makes of supports and loads, of which `before` were there; 0 where it makes others. */
-static real growth_to(const struct statics *s, const struct particles *part, real t, real *const *before)
+/* Returns the relative growth of loads and prescribed displacements from the last equilibrium to pseudo-time t [s] by
+ * projection on those of the last equilibrium [1], or 0 if there were none. before: applied forces of the last
+ * equilibrium [dim][particles, N]. */
+static real load_growth(const struct statics *s, const struct particles *part, real t, real *const *before)
 {
-    real now = 0, was = 0;
+    real now = 0, initial = 0;
     for (int64_t k = 0; k < s->balance.n; k++)
         for (int d = 0; d < part->dim; d++) {
             const real u = s->balance.u.of[d][k];
-            if (s->load[k * DIM_MAX + d] >= 0) now += u * (u + s->way.of[d][k]), was += u * u;
+            if (s->load[k * DIM_MAX + d] >= 0) now += u * (u + s->increment.of[d][k]), initial += u * u;
         }
-    for (int d = 0; d < part->dim && was == 0; d++)
-        for (int64_t i = 0; i < part->n; i++) now += s->applied[d][i] * before[d][i], was += square(before[d][i]);
-    return was > 0 && t != s->t ? now / was - 1 : 0;
+    for (int d = 0; d < part->dim && initial == 0; d++)
+        for (int64_t i = 0; i < part->n; i++) now += s->applied[d][i] * before[d][i], initial += square(before[d][i]);
+    return initial > 0 && t != s->t ? now / initial - 1 : 0;
 }
 
-/* The way to pseudo-time t: of supports what is prescribed, of the rest what a linear body does under proportional
- * loads. `before`: the applied forces until now. */
-static void way_make(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads,
-                     real t, real *const *before)
+/* Stores the displacement increment to pseudo-time t [s] in `increment`: the prescribed displacements of supports, and
+ * for all other components a prediction that scales the present displacements by the growth of the loads. before:
+ * applied forces of the last equilibrium [dim][particles, N]. */
+static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
+                              const struct loads *loads, real t, real *const *before)
 {
     struct displacing by[BOUNDARIES_MAX];
     for (int b = 0; b < loads->n; b++) by[b] = displacing_make(loads->load[b].boundary, p->dim, t);
@@ -48,18 +51,19 @@ static void way_make(struct statics *s, const struct particles *p, const struct 
         for (int d = 0; d < p->dim; d++) {
             const int load = s->load[k * DIM_MAX + d];
             const real u = s->balance.u.of[d][k];
-            if (s->balance.held[k] >> d & 1) s->way.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
+            if (s->balance.held[k] >> d & 1)
+                s->increment.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
         }
     }
-    const real growth = growth_to(s, p, t, before);
+    const real growth = load_growth(s, p, t, before);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
-            if (!(s->balance.held[k] >> d & 1)) s->way.of[d][k] = growth * s->balance.u.of[d][k];
-    statics_pieces_hold(s, &s->way);
+            if (!(s->balance.held[k] >> d & 1)) s->increment.of[d][k] = growth * s->balance.u.of[d][k];
+    unconstrained_project(s, &s->increment);
 }
 
-/* Norm of the forces that the round-off of positions makes, with a margin of ten [N]. */
-static real round_off_of(const struct bonds *bonds, const struct particles *part)
+/* Returns ten times the norm of the bond forces caused by round-off of the positions [N]. */
+static real round_off_force(const struct bonds *bonds, const struct particles *part)
 {
     real sum = 0;
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -72,13 +76,13 @@ static real round_off_of(const struct bonds *bonds, const struct particles *part
 
 /* ---- accounts ---------------------------------------------------------------------------------------------------- */
 
-/* What the work of a step adds up from: forces before it, and displacements. */
+/* Displacements and forces at the start of a solution, from which the work over the solution is computed. */
 struct account {
-    struct field u, f;
-    real *applied[DIM_MAX];
+    struct field u, f;      /* [nodes] displacement [m], force [N] */
+    real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */
 };
 
-static void account_begin(struct account *a, const struct statics *s, const struct particles *part)
+static void account_start(struct account *a, const struct statics *s, const struct particles *part)
 {
     for (int d = 0; d < part->dim; d++) {
         a->u.of[d] = BARE("statics.account", s->balance.n, real);
@@ -93,25 +97,28 @@ static void account_begin(struct account *a, const struct statics *s, const stru
     }
 }
 
-/* Work of supports and of applied forces over the step, each by the mean of its forces at both ends, and what the bend
- * of the way adds; *before holds where loaded particles were. Returns how far that is from the work of loads that are
- * there as in the end, or as in the beginning, on the whole way [J]. */
+/* Adds the work of supports and of applied forces over the solution to that of the loads. The work is the mean of the
+ * initial and final force times the displacement (trapezoidal rule), plus the work of loads beyond that mean along the
+ * curved path of the solver (`bent`), unless contact changes the forces. before: initial positions of the particles
+ * [dim][particles, m]. Frees the storage of *a. Returns the difference between the trapezoidal rule and the work with
+ * either the initial or the final force, as an estimate of its uncertainty [J]. */
 static real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
                         bool touched, real *const *before)
 {
     real range[2] = {0};
-    if (!touched) loads->work += s->balance.bent; /* else forces change on the way by what touches */
+    if (!touched) loads->work += s->balance.bent;
     for (int d = 0; d < p->dim; d++) {
         for (int64_t k = 0; k < s->balance.n; k++) {
-            const real way = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k], was = a->f.of[d][k];
+            const real shift = s->balance.u.of[d][k] - a->u.of[d][k], now = s->balance.f.of[d][k],
+                       initial = a->f.of[d][k];
             if (!(s->balance.held[k] >> d & 1)) continue;
-            loads->constraint_work -= 0.5 * (was + now) * way;
-            range[0] += 0.5 * (now - was) * way;
+            loads->constraint_work -= 0.5 * (initial + now) * shift;
+            range[0] += 0.5 * (now - initial) * shift;
         }
         for (int64_t i = 0; i < p->n; i++) {
-            const real way = p->x[d][i] - before[d][i], now = s->applied[d][i], was = a->applied[d][i];
-            loads->work += 0.5 * (was + now) * way;
-            range[1] += 0.5 * (now - was) * way;
+            const real shift = p->x[d][i] - before[d][i], now = s->applied[d][i], initial = a->applied[d][i];
+            loads->work += 0.5 * (initial + now) * shift;
+            range[1] += 0.5 * (now - initial) * shift;
         }
         memory_free(a->u.of[d]);
         memory_free(a->f.of[d]);
@@ -120,23 +127,26 @@ static real account_end(struct account *a, const struct statics *s, const struct
     return fabs(range[0]) + fabs(range[1]);
 }
 
-/* Books what was lost on the way since `lost` [J]. Where points yield or faces close, forces change other than evenly
- * on it, and loads and supports work other than the mean of both ends times it: less by up to `range` [J], or more;
- * where faces touch by as much at the most, as forces grow. Only what is beyond is lost, or comes from nowhere: faces
- * have gone through each other on the way, and hold the body in a state that loads cannot have led to. Returns whether
- * that is so. */
-static bool lost_book(struct equilibrium *q, struct loads *loads, real lost, real range, bool touches, bool yields)
+/* Corrects the losses of the solver since `lost` [J]. If points yield or faces come into contact, forces do not change
+ * linearly over the increment, and the work of loads may differ from the trapezoidal rule by up to `range` [J]; a
+ * difference within this range is moved from the losses to the work of loads. Only the remainder is lost energy. A gain
+ * of energy beyond it shows that faces have passed through each other and that contact holds the body in a state that
+ * the loads cannot have reached. in_contact: contact at the start or the end. Returns true in that case. */
+static bool losses_store(struct equilibrium *q, struct loads *loads, real lost, real range, bool in_contact,
+                         bool yields)
 {
-    real uneven = yields || touches ? real_min(q->lost - lost, range) : 0;
-    if (touches && !yields) uneven = real_max(uneven, -range);
+    real uneven = yields || in_contact ? real_min(q->lost - lost, range) : 0;
+    if (in_contact && !yields) uneven = real_max(uneven, -range);
     loads->work -= uneven, q->lost -= uneven;
-    return touches && !yields && lost - q->lost > GAIN_MOST * range;
+    return in_contact && !yields && lost - q->lost > GAIN_MOST * range;
 }
 
 /* ---- equilibrium ------------------------------------------------------------------------------------------------- */
 
-/* FAILED, with the place of the largest residual and what helps. */
-static status unbalanced(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t step)
+/* Returns FAILED with a message that names the position of the largest residual and possible remedies. step: number of
+ * the load step. */
+static status equilibrium_failed(const struct statics *s, const struct particles *p, const struct mesh *mesh,
+                                 int64_t step)
 {
     real X[DIM_MAX] = {0};
     if (s->balance.n > 0) unknown_position(s, p, mesh, s->balance.worst, X);
@@ -149,7 +159,8 @@ static status unbalanced(const struct statics *s, const struct particles *p, con
         p->plastic_correction[0] ? "a yield_tangent of a thousandth of young, " : "");
 }
 
-/* *crossed: faces have gone through each other. */
+/* Finds the equilibrium at pseudo-time t [s] in a single solution and updates all accounts. Stores in *crossed whether
+ * faces have passed through each other. */
 static status solve_at(struct run *e, real t, bool *crossed)
 {
     struct statics *s = e->statics;
@@ -158,59 +169,61 @@ static status solve_at(struct run *e, real t, bool *crossed)
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
     TRY(loads_finite(&e->loads, &e->part, t));
-    statics_touch_begin(e, t);
-    account_begin(&account, s, &e->part);
+    statics_contact_begin(e, t);
+    account_start(&account, s, &e->part);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
         array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
     }
     applied_forces_make(s, &e->part, &e->loads, t);
-    if (s->parted) statics_pieces_make(e);
-    way_make(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
+    if (s->fragments_stale) unconstrained_find(e);
+    increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
     s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
-    if (!s->precondition) s->balance.noise = round_off_of(&e->bonds, &e->part);
-    const status found = equilibrium_find(&s->balance, &s->way, t != s->t);
-    statics_flow(e);
+    if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
+    const status found = equilibrium_find(&s->balance, &s->increment, t != s->t);
+    plastic_update(e);
     frame_sync(e->frame, &e->part, &e->loads);
     loads_mirror(&e->loads, &e->part);
     s->t = t;
-    const bool touched = statics_touched(s, e->contact);
+    const bool touched = statics_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
                range = account_end(&account, s, &e->part, &e->loads, touched, before);
-    const real rigids = statics_touch_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
-    *crossed = lost_book(&s->balance, &e->loads, lost, range + rigids, touched || s->touches,
-                         e->part.plastic_correction[0] != NULL);
+    const real rigids = statics_contact_end(e, e->loads.work + e->loads.constraint_work - worked, lost);
+    *crossed = losses_store(&s->balance, &e->loads, lost, range + rigids, touched || s->in_contact,
+                            e->part.plastic_correction[0] != NULL);
     e->damped += s->balance.lost - lost;
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
     statics_precondition_watch(s, s->balance.directions - asked);
-    return found == OK ? OK : unbalanced(s, &e->part, &e->frame->mesh, e->clock.step + 1);
+    return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 
-/* The way to t in strides. */
-static status solve_in(struct run *e, real t, int strides, bool *crossed)
+/* Finds the equilibria of `substeps` equal increments to pseudo-time t [s]; stops when faces have passed through each
+ * other (*crossed). */
+static status solve_substeps(struct run *e, real t, int substeps, bool *crossed)
 {
     const real from = e->statics->t;
     *crossed = false;
-    for (int k = 1; k <= strides && !*crossed; k++)
-        TRY(solve_at(e, k == strides ? t : from + (t - from) * k / strides, crossed));
+    for (int k = 1; k <= substeps && !*crossed; k++)
+        TRY(solve_at(e, k == substeps ? t : from + (t - from) * k / substeps, crossed));
     return OK;
 }
 
-/* Divides the increment to t into more solutions if faces have gone through each other; once only where something
- * yields, as that cannot be undone. */
+/* Finds the equilibrium at pseudo-time t [s]. If faces have passed through each other, restores the initial state and
+ * divides the increment into four times as many substeps, up to four times. Bodies that yield are solved once only,
+ * since yielding is not undone. */
 static status solve_whole(struct run *e, real t)
 {
     const real from = e->statics->t;
-    int strides = statics_strides(e->scene, e->rigid, t);
+    int substeps = statics_substeps(e->scene, e->rigid, t);
     bool crossed = false;
-    if (!e->statics->meets || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
-        return solve_in(e, t, strides, &crossed);
-    for (int k = 0; k < TRIES_MOST; k++, strides *= MORE_STRIDES) {
+    if (!e->statics->has_contact || e->part.plastic_correction[0] || e->bonds.plastic_stretch)
+        return solve_substeps(e, t, substeps, &crossed);
+    for (int k = 0; k < TRIES_MOST; k++, substeps *= SUBSTEPS_FACTOR) {
         struct memory_archive saved;
         trial_begin(e, &saved);
-        const status solved = solve_in(e, t, strides, &crossed);
+        const status solved = solve_substeps(e, t, substeps, &crossed);
         if (solved != OK || !crossed || t == from) {
             memory_archive_free(&saved);
             return solved;
@@ -223,18 +236,18 @@ static status solve_whole(struct run *e, real t)
                       (long long)e->clock.step + 1, t);
 }
 
-/* A step that is broken off leaves the checkpoint of the one before it. */
-status statics_go(struct run *e, real t)
+/* An interrupted step leaves the checkpoint of the previous step valid. */
+status equilibrium_at(struct run *e, real t)
 {
     if (e->report->stop && *e->report->stop)
         return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
                           (long long)e->clock.step + 1, (long long)e->clock.steps);
     TRY(solve_whole(e, t));
-    e->statics->overload = statics_overload(&e->bonds, &e->part, &e->source.limit);
+    e->statics->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);
     return OK;
 }
 
-status statics_convert(struct run *e, int64_t broken)
+status equilibrium_convert(struct run *e, int64_t broken)
 {
     while (step_convert(e, broken)) {
         broken = 0;
@@ -242,7 +255,7 @@ status statics_convert(struct run *e, int64_t broken)
         statics_unknowns_free(e->statics);
         statics_unknowns_make(e);
         e->statics->next.n = 0;
-        TRY(statics_go(e, e->statics->t));
+        TRY(equilibrium_at(e, e->statics->t));
     }
     return OK;
 }

@@ -1,31 +1,35 @@
-/* The plane in which cracks are led: that of a plane body, or in space the one across their fronts.
+/* The plane in which the tips of SIF-driven cracks move: that of a plane body, or in space the plane across the crack
+ * fronts.
  *
- * In space a front is led as a whole: straight, through the body, with the factors of its mean. That is what specimens
- * of constant section and cracks through plates are; mode III, and what sides do to a front, are left out. Everything
- * then happens in the plane across the front, onto which particles are projected; what cuts a bond there cuts it in
- * space, and lengths become areas by the width of the body along the front. */
+ * In space a front grows as a whole and stays straight; it runs through the body, and its stress-intensity factors
+ * are means over its length. Specimens of constant section and through cracks of plates have such fronts; mode III
+ * and the effect of the free sides on a front are neglected. The analysis takes place in the plane across the front,
+ * onto which particles are projected: a bond is cut in space if its projection is cut in the plane, and lengths
+ * become areas by the width of the body along the front. */
 #include <math.h>
 
 #include "led.h"
 
 #include "base/memory.h"
 
-#define STRAIGHT 1e-6  /* sine of an angle that is none */
-#define NUDGE 1e-6     /* by which places between particles belong to one of them [spacings] */
-#define ON_MIRROR 1e-3 /* [spacings] */
-#define RAGGED 1e-3    /* ends of a pre-crack that are no line along its front [spacings] */
-enum { SAMPLES = 16 }; /* of the width along a stretch */
+#define STRAIGHT 1e-6  /* sine of the angle below which directions are parallel */
+#define NUDGE 1e-6     /* offset that assigns a point on the border of two particles to one of them [spacings] */
+#define ON_MIRROR 1e-3 /* distance from a plane of symmetry within which a point lies on it [spacings] */
+#define RAGGED 1e-3    /* largest deviation of the edge of a pre-crack from a line along the front [spacings] */
+enum { SAMPLES = 16 }; /* points of a segment at which the width is computed */
 
 /* ---- axes -------------------------------------------------------------------------------------------------------- */
 
+/* Scales the vector a[3] to length 1. */
 static void make_unit(real *a)
 {
     const real length = sqrt(dot(a, a, 3));
     for (int d = 0; d < 3; d++) a[d] /= length;
 }
 
-/* Axes of space where they lie across the front, so that planes of symmetry do. */
-static void axes_make(struct led_plane *plane)
+/* Sets the axes of the plane across plane->front: axes of space where these are perpendicular to the front, so that
+ * planes of symmetry are perpendicular to an axis. */
+static void axes_make(struct sif_plane *plane)
 {
     real *f = plane->front;
     int most = 0, least = 0;
@@ -42,21 +46,22 @@ static void axes_make(struct led_plane *plane)
     vector_product(f, plane->axis[0], plane->axis[1]);
 }
 
-void led_project(const struct led_plane *plane, const real *X, real to[2])
+void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2])
 {
     for (int a = 0; a < 2; a++) to[a] = dot(plane->axis[a], X, plane->dim);
 }
 
-void led_project_particle(const struct led_plane *plane, const struct particles *p, int64_t i, real to[2])
+void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2])
 {
     real X[DIM_MAX] = {0};
     particle_place(p, i, X);
-    led_project(plane, X, to);
+    sif_plane_project(plane, X, to);
 }
 
-/* ---- what has to be so in space ---------------------------------------------------------------------------------- */
+/* ---- requirements in space --------------------------------------------------------------------------------------- */
 
-static const char *front_find(const struct tips *t, struct led_plane *plane)
+/* Stores the direction of the fronts of the pre-cracks. Returns NULL, or why there is no common direction. */
+static const char *front_find(const struct tips *t, struct sif_plane *plane)
 {
     bool found = false;
     for (int k = 0; k < t->n; k++) {
@@ -72,14 +77,16 @@ static const char *front_find(const struct tips *t, struct led_plane *plane)
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-static void front_middle(const struct tips *t, struct led_plane *plane)
+/* Stores the position of the middle of the first front along its direction. */
+static void front_middle(const struct tips *t, struct sif_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
         if (t->tip[k].from_crack) plane->middle = dot(plane->front, t->tip[k].origin, 3);
 }
 
-/* A plane of symmetry lies along the fronts, or across them. */
-static const char *mirrors_find(struct led_plane *plane)
+/* Lists the planes of symmetry parallel to the fronts, with the axis of the plane to which each is perpendicular.
+ * Returns NULL, or why one is neither parallel nor perpendicular to the fronts. */
+static const char *mirrors_find(struct sif_plane *plane)
 {
     for (int k = 0; k < plane->body_mirrors; k++) {
         struct mirror_plane m = plane->body_mirror[k];
@@ -93,17 +100,17 @@ static const char *mirrors_find(struct led_plane *plane)
     return NULL;
 }
 
-/* In space the segment has its normal on the side of the polygon's. */
-bool led_segment(const struct led_plane *plane, const struct crack *c, real at[2][DIM_MAX])
+/* The direction of the segment is such that its normal lies on the side of the normal of the polygon. */
+bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;
     if (plane->dim == 2) return memcpy(at, c->corner, 2 * sizeof *at), true;
     crack_area_vector(c, area);
-    led_project(plane, area, across);
+    sif_plane_project(plane, area, across);
     const real size = hypot(across[0], across[1]), along[2] = {across[1] / size, -across[0] / size};
     for (int k = 0; k < c->n; k++) {
         real P[2];
-        led_project(plane, c->corner[k], P);
+        sif_plane_project(plane, c->corner[k], P);
         const real s = dot(along, P, 2);
         for (int d = 0; d < 2 && s < least; d++) at[0][d] = P[d];
         for (int d = 0; d < 2 && s > most; d++) at[1][d] = P[d];
@@ -113,14 +120,15 @@ bool led_segment(const struct led_plane *plane, const struct crack *c, real at[2
     return fabs(dot(area, plane->front, 3)) <= STRAIGHT * size;
 }
 
-static const char *cracks_check(const struct crack_list *l, const struct led_plane *plane)
+/* Returns NULL if all pre-cracks are rectangles with edges along the fronts, else why they are not. */
+static const char *cracks_check(const struct crack_list *l, const struct sif_plane *plane)
 {
     for (int k = 0; k < l->n; k++) {
         real at[2][DIM_MAX] = {{0}};
-        if (!led_segment(plane, &l->crack[k], at)) return "a pre-crack does not lie along them";
+        if (!sif_plane_segment(plane, &l->crack[k], at)) return "a pre-crack does not lie along them";
         for (int c = 0; c < l->crack[k].n; c++) {
             real P[2];
-            led_project(plane, l->crack[k].corner[c], P);
+            sif_plane_project(plane, l->crack[k].corner[c], P);
             const real off = real_min(hypot(P[0] - at[0][0], P[1] - at[0][1]), hypot(P[0] - at[1][0], P[1] - at[1][1]));
             if (off > RAGGED * plane->spacing) return "a pre-crack is no rectangle along them";
         }
@@ -128,23 +136,23 @@ static const char *cracks_check(const struct crack_list *l, const struct led_pla
     return NULL;
 }
 
-/* Fronts end where the body does. */
-static const char *fronts_check(const struct tips *t, const struct particles *p, const struct led_plane *plane)
+/* Returns NULL if all fronts run through the whole width of the body, else why they do not. */
+static const char *fronts_check(const struct tips *t, const struct particles *p, const struct sif_plane *plane)
 {
     const real h = plane->spacing;
     for (int k = 0; k < t->n; k++) {
         real at[2][2], along[2];
         if (!t->tip[k].from_crack) continue;
-        led_project(plane, t->tip[k].origin, at[0]);
-        led_project(plane, t->tip[k].along, along);
-        led_ahead(at[0], h, along, at[1]);
-        const real width = led_width(plane, p, at[0], at[1]);
+        sif_plane_project(plane, t->tip[k].origin, at[0]);
+        sif_plane_project(plane, t->tip[k].along, along);
+        sif_point_ahead(at[0], h, along, at[1]);
+        const real width = sif_plane_width(plane, p, at[0], at[1]);
         if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a front ends within the body";
     }
     return NULL;
 }
 
-const char *led_plane_find(struct led_plane *plane, const struct tips *t, const struct crack_list *cracks,
+const char *sif_plane_find(struct sif_plane *plane, const struct tips *t, const struct crack_list *cracks,
                            const struct particles *p)
 {
     const char *fault = NULL;
@@ -161,8 +169,9 @@ const char *led_plane_find(struct led_plane *plane, const struct tips *t, const 
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* Is a particle on a plane of symmetry along the front, so that half of it belongs to the body? */
-static real share_beside_mirrors(const struct led_plane *plane, const struct particles *p, int64_t i)
+/* Returns the share of particle i that belongs to the body: 1/2 for each plane of symmetry across the front on which it
+ * lies. */
+static real share_beside_mirrors(const struct sif_plane *plane, const struct particles *p, int64_t i)
 {
     real share = 1;
     for (int k = 0; k < plane->body_mirrors; k++) {
@@ -173,14 +182,15 @@ static real share_beside_mirrors(const struct led_plane *plane, const struct par
     return share;
 }
 
-/* Length within the box of a particle of the line along the front through P [m]. */
-static real chord(const struct led_plane *plane, const struct particles *p, int64_t i, const real *P)
+/* Returns the length of the intersection of the cube of particle i with the line along the front through the point P of
+ * the plane [m]. */
+static real chord(const struct sif_plane *plane, const struct particles *p, int64_t i, const real *P)
 {
     const real half = 0.5 * cbrt(p->volume0[i]);
     real low = -INFINITY, high = INFINITY;
     for (int d = 0; d < 3; d++) {
-        const real place = P[0] * plane->axis[0][d] + P[1] * plane->axis[1][d] + NUDGE * plane->spacing;
-        const real from = p->X[d][i] - half - place, to = p->X[d][i] + half - place, f = plane->front[d];
+        const real position = P[0] * plane->axis[0][d] + P[1] * plane->axis[1][d] + NUDGE * plane->spacing;
+        const real from = p->X[d][i] - half - position, to = p->X[d][i] + half - position, f = plane->front[d];
         if (fabs(f) < STRAIGHT) {
             if (from > 0 || to <= 0) return 0;
         } else {
@@ -190,15 +200,15 @@ static real chord(const struct led_plane *plane, const struct particles *p, int6
     return real_max(0, high - low);
 }
 
-real led_width(const struct led_plane *plane, const struct particles *p, const real *from, const real *to)
+real sif_plane_width(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to)
 {
     const real a[DIM_MAX] = {from[0], from[1]}, b[DIM_MAX] = {to[0], to[1]};
     real sum = 0;
     if (plane->dim == 2) return plane->section;
     for (int64_t i = 0; i < p->n; i++) {
-        const real place[DIM_MAX] = {p->X[0][i], p->X[1][i], p->X[2][i]};
+        const real position[DIM_MAX] = {p->X[0][i], p->X[1][i], p->X[2][i]};
         real X[2];
-        led_project(plane, place, X);
+        sif_plane_project(plane, position, X);
         if (segment_distance(a, b, X, 2) > cbrt(p->volume0[i])) continue;
         const real share = share_beside_mirrors(plane, p, i);
         for (int k = 0; k < SAMPLES; k++) {
@@ -209,7 +219,7 @@ real led_width(const struct led_plane *plane, const struct particles *p, const r
     return sum / SAMPLES;
 }
 
-bool led_on_mirror(const struct led_plane *plane, const real *from, const real *to)
+bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const real *to)
 {
     bool on = false;
     for (int k = 0; k < plane->mirrors; k++) {
@@ -220,8 +230,8 @@ bool led_on_mirror(const struct led_plane *plane, const real *from, const real *
     return on;
 }
 
-real led_face_area(const struct led_plane *plane, const struct particles *p, const real *from, const real *to)
+real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to)
 {
     const real length = hypot(to[0] - from[0], to[1] - from[1]);
-    return length * led_width(plane, p, from, to) * (led_on_mirror(plane, from, to) ? 0.5 : 1);
+    return length * sif_plane_width(plane, p, from, to) * (sif_plane_on_mirror(plane, from, to) ? 0.5 : 1);
 }

@@ -1,21 +1,21 @@
-/* Size of the loads, as one number that scales with them, and the size at which crack increments balance. */
+/* The load size, and the load size at which crack increments are in balance. */
 #include <math.h>
 
 #include "load_size.h"
 
 #include "rigid/rigid_part.h"
 
-/* ---- size of loads ----------------------------------------------------------------------------------------------- */
+/* ---- load size --------------------------------------------------------------------------------------------------- */
 
-/* Square of the way of rigid bodies up to t [m^2]. */
-static real rigid_way2(const struct rigid_set *r, int n, real t)
+/* Returns the sum of squares of the displacements of rigid bodies up to t [m^2]. r->body[n]. */
+static real rigid_displacement2(const struct rigid_set *r, int n, real t)
 {
-    real sum = 0, way[DIM_MAX];
-    for (int k = 0; k < n; k++) sum += square(rigid_displacement(&r->body[k], t, way));
+    real sum = 0, shift[DIM_MAX];
+    for (int k = 0; k < n; k++) sum += square(rigid_displacement(&r->body[k], t, shift));
     return sum;
 }
 
-/* Sum of squares of what supports and rigid bodies go up to t; where they do not move, of applied forces. */
+/* The load size is that of the applied forces if supports and rigid bodies do not move. */
 real statics_load_size(const struct run *e, real t)
 {
     real sum = 0, forces = 0;
@@ -32,7 +32,7 @@ real statics_load_size(const struct run *e, real t)
             forces += dot(f, f, e->part.dim);
         }
     }
-    sum += rigid_way2(e->rigid, e->scene->rigids, t);
+    sum += rigid_displacement2(e->rigid, e->scene->rigids, t);
     return sqrt(sum > 0 ? sum : forces);
 }
 
@@ -58,17 +58,17 @@ real statics_released(const struct statics *s, const struct bonds *b)
     return bonds_fracture_energy(b) + s->balance.lost;
 }
 
-real size_of_balance(const struct advance *a, const struct advance *b)
+real balanced_load(const struct crack_increment *a, const struct crack_increment *b)
 {
     const real release = a->release + b->release;
     return a->cost > 0 && release > 0 ? sqrt((a->cost + b->cost) / release) : INFINITY;
 }
 
-real size_of_advance(const struct advance *a) { return size_of_balance(a, &(struct advance){0}); }
+real balanced_load_alone(const struct crack_increment *a) { return balanced_load(a, &(struct crack_increment){0}); }
 
-struct advance advance_before(const struct advance *first, const struct advance *second)
+struct crack_increment increment_before(const struct crack_increment *first, const struct crack_increment *second)
 {
     const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
     const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);
-    return (struct advance){first->cost, real_max(0, release)};
+    return (struct crack_increment){first->cost, real_max(0, release)};
 }

@@ -1,4 +1,5 @@
-/* Size of the loads, one number that scales with them; crack increments by the size at which they are due. */
+/* The load size, a number that is proportional to the loads, and the load size at which crack increments are in
+ * balance. */
 #ifndef CLEAVE_LOAD_SIZE
 #define CLEAVE_LOAD_SIZE
 
@@ -6,20 +7,23 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the pseudo-time near the present one at which the loads have this size [s]. */
+/* Returns the pseudo-time at which the load size equals `size`, by the secant method from the present pseudo-time
+ * [s]. */
 real statics_time_of_size(const struct run *e, real size);
 
-/* Returns the size of loads at which two crack increments together release what they cost, INFINITY if at none. */
-real size_of_balance(const struct advance *a, const struct advance *b);
+/* Returns the load size at which the increments a and b together release as much energy as they cost, sqrt((cost_a +
+ * cost_b)/(release_a + release_b)); INFINITY if they release none. */
+real balanced_load(const struct crack_increment *a, const struct crack_increment *b);
 
-/* Returns the size of loads at which a crack increment releases what it costs, INFINITY if at none. */
-real size_of_advance(const struct advance *a);
+/* Returns the load size at which the increment a alone releases as much energy as it costs; INFINITY if it releases
+ * none. */
+real balanced_load_alone(const struct crack_increment *a);
 
-/* Returns the increment before the first one of a pre-crack, as if the pre-crack had grown by it: its release follows
- * from those of the first two increments linearly, and is 0 or more. */
-struct advance advance_before(const struct advance *first, const struct advance *second);
+/* Returns the fictitious increment by which the pre-crack would have reached its present length. Its release is
+ * extrapolated linearly from the first two increments, and is at least 0. */
+struct crack_increment increment_before(const struct crack_increment *first, const struct crack_increment *second);
 
-/* Returns the energy released so far: taken by broken bonds, or lost in solutions [J]. */
+/* Returns the energy released so far: fracture energy of broken bonds and losses of solutions [J]. */
 real statics_released(const struct statics *s, const struct bonds *b);
 
 #endif

@@ -1,4 +1,5 @@
-/* Load steps: the body is led through states of equilibrium, and its crack advances between them (advance.c). */
+/* Load steps: control of the loads through a sequence of equilibrium states, with crack increments (advance.c) between
+ * them. */
 #include <math.h>
 #include <stdio.h>
 
@@ -23,98 +24,99 @@
 #include "step/report.h"
 #include "step/sample.h"
 
-#define OPENING_ERROR 1e-4 /* of an opening that is prescribed */
-#define FAR_BEYOND 1.2     /* overload from which on loads are too large to begin with */
-#define NEAR_LIMIT 0.95    /* overload at which an advance is looked for instead */
-#define NEAR_LEAST 0.85    /* overload from which on loads cannot come much nearer */
-#define ROUND_OFF 1e-6     /* of loads that are the same */
-#define THROUGH 1e-2       /* share of the largest loads below which nothing is left of what a crack had to cut */
-#define FAR_OFF 2.0        /* from the place of an opening to the body [spacings] */
+#define OPENING_ERROR 1e-4 /* relative error of a prescribed opening */
+#define FAR_BEYOND 1.2     /* stretch ratio above which an equilibrium is discarded for one at smaller loads */
+#define NEAR_LIMIT 0.95    /* stretch ratio of the equilibrium that replaces it */
+#define NEAR_LEAST 0.85    /* stretch ratio above which the loads are close enough to the next increment */
+#define ROUND_OFF 1e-6     /* relative difference of equal loads */
+#define THROUGH 1e-2       /* share of the largest load size at which the body counts as severed */
+#define FAR_OFF 2.0        /* largest distance of a gauge position from the body [spacings] */
 enum { SECANTS_MOST = 12, APPROACHES_MOST = 12 };
 
 /* ---- control ----------------------------------------------------------------------------------------------------- */
 
-/* Size of the loads at which the advance ahead comes while they grow: of the first one that at which a pre-crack is in
- * balance; of later ones that at which they pay for themselves, so that loads swing about those of a crack that grows
- * evenly. */
-static real size_to_come(const struct statics *s, const struct diagnostics *diagnostics)
+/* Returns the load size at which the next crack increment is made while loads grow. For the first increment it is the
+ * load of the pre-crack. For later ones it is at least the load at which the increment alone is in balance, so that
+ * loads oscillate about those of a crack that grows continuously. */
+static real increment_load(const struct statics *s, const struct diagnostics *diagnostics)
 {
-    return diagnostics->bonds_broken > 0 ? real_max(s->due, size_of_advance(&s->ahead)) : s->due;
+    return diagnostics->bonds_broken > 0 ? real_max(s->due, balanced_load_alone(&s->ahead)) : s->due;
 }
 
-/* A state that loads have led to: it counts for the largest forces. */
-static void state_note(struct run *e)
+/* Updates the probes and the largest forces of the rigid bodies for the present equilibrium, a state that the loads
+ * have reached. */
+static void state_sample(struct run *e)
 {
     sample_probes(e);
     for (int k = 0; k < e->scene->rigids; k++) rigid_note(&e->rigid->body[k]);
 }
 
-/* Goes to loads of this size, between two pseudo-times. */
+/* Finds the equilibrium at load size `size`, with the pseudo-time limited to least..most [s]. */
 static status go_to_size(struct run *e, real size, real least, real most)
 {
-    return statics_go(e, real_min(real_max(statics_time_of_size(e, size), least), most));
+    return equilibrium_at(e, real_min(real_max(statics_time_of_size(e, size), least), most));
 }
 
-/* Goes to t, or where bonds come near their limits before it, there: far beyond them energies are those of a body that
- * would long have broken, what an advance releases drowns in their round-off, and bonds have yielded that never would.
- * Looks for what advances. */
+/* Finds the equilibrium at pseudo-time t [s], or an earlier one at which bonds come near their critical stretch. Far
+ * beyond it energies are those of a body that would have broken before, the release of an increment is lost in their
+ * round-off, and bonds have yielded that never would. Then determines the next crack increment. */
 static status approach_loads(struct run *e, real t)
 {
     struct statics *s = e->statics;
-    const real from = s->t, low = statics_load_size(e, from), at_low = s->overload;
+    const real from = s->t, low = statics_load_size(e, from), at_low = s->stretch_ratio;
     bool far = true;
     for (int k = 0; k < APPROACHES_MOST && far; k++) {
         struct memory_archive saved;
         trial_begin(e, &saved);
-        const status gone = statics_go(e, t);
-        far = gone == OK && s->overload > FAR_BEYOND && at_low < NEAR_LEAST;
+        const status gone = equilibrium_at(e, t);
+        far = gone == OK && s->stretch_ratio > FAR_BEYOND && at_low < NEAR_LEAST;
         if (far) {
-            const real share = (NEAR_LIMIT - at_low) / (s->overload - at_low);
+            const real share = (NEAR_LIMIT - at_low) / (s->stretch_ratio - at_low);
             t = real_max(from, statics_time_of_size(e, low + share * (statics_load_size(e, t) - low)));
             trial_undo(e, &saved, NULL);
         } else
             memory_archive_free(&saved);
         TRY(gone);
     }
-    if (far) TRY(statics_go(e, t));
-    TRY(statics_convert(e, 0));
-    return statics_look_ahead(e);
+    if (far) TRY(equilibrium_at(e, t));
+    TRY(equilibrium_convert(e, 0));
+    return crack_increment_find(e);
 }
 
-/* The advance ahead, at the loads at which it comes or, where it would have come under less, under those of the one
- * before it, *size; what supports bear there counts for their largest force. Before the pseudo-time t, if loads get
- * there. */
-static status advance_under_loads(struct run *e, real *size, real from, real t)
+/* Makes the next crack increment at the load size at which it is due or, if it was due at smaller loads, at the load
+ * size of the previous increment, *size, which is updated. Contact forces there count for the largest forces of the
+ * rigid bodies. from, t: range of the pseudo-time [s]. Then determines the increment after it. */
+static status increment_under_loads(struct run *e, real *size, real from, real t)
 {
     struct statics *s = e->statics;
-    const bool follows = size_to_come(e->statics, e->diagnostics) <= *size;
-    *size = real_max(*size, size_to_come(e->statics, e->diagnostics));
+    const bool follows = increment_load(e->statics, e->diagnostics) <= *size;
+    *size = real_max(*size, increment_load(e->statics, e->diagnostics));
     const real loads = statics_load_size(e, t);
-    const bool pays = size_of_advance(&s->ahead) <= *size, within = *size < loads;
+    const bool pays = balanced_load_alone(&s->ahead) <= *size, within = *size < loads;
     if (within)
         TRY(go_to_size(e, *size, from, t));
     else if (s->t < t && loads >= *size * (1 - ROUND_OFF))
-        TRY(statics_go(e, t));
-    state_note(e);
+        TRY(equilibrium_at(e, t));
+    state_sample(e);
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
-        TRY(statics_release(e));
+        TRY(crack_increment_make_dynamic(e));
     else
-        TRY(pays ? statics_advance(e) : statics_advance_balanced(e));
-    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : statics_go(e, t));
-    return statics_look_ahead(e);
+        TRY(pays ? crack_increment_make(e) : crack_increment_make_balanced(e));
+    if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_at(e, t));
+    return crack_increment_find(e);
 }
 
-/* Pseudo-time grows to t; on the way the crack advances as long as that pays. Loads that fall have no way back. */
+/* Increases the pseudo-time to t [s] and makes all crack increments that are due until then. Loads never decrease. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
     const real from = s->t, loads = statics_load_size(e, t);
     real size = statics_load_size(e, from);
     for (;;) {
-        const bool due = s->next.n > 0 &&
-                         size_to_come(e->statics, e->diagnostics) <= real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
+        const bool due = s->next.n > 0 && increment_load(e->statics, e->diagnostics) <=
+                                              real_max(loads, s->t >= t ? 0 : size) * (1 + 1e-9);
         if (due)
-            TRY(advance_under_loads(e, &size, from, t));
+            TRY(increment_under_loads(e, &size, from, t));
         else if (s->t < t)
             TRY(approach_loads(e, t));
         else
@@ -122,42 +124,42 @@ static status step_by_load(struct run *e, real t)
     }
 }
 
-/* One advance of the crack, then the pseudo-time at which the next one is due; as long as none is, as much pseudo-time
- * as the duration has for a step. */
+/* Makes one crack increment, then goes to the pseudo-time at which the next one is due; if none is, at most by `most`
+ * [s], the step of the duration. */
 static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
-    if (s->advances) TRY(statics_advance_balanced(e));
-    TRY(statics_look_ahead(e));
+    if (s->increment_due) TRY(crack_increment_make_balanced(e));
+    TRY(crack_increment_find(e));
     if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
     if (s->severs) return OK;
-    s->advances = s->next.n > 0 && statics_load_size(e, t) >= s->due;
-    if (s->next.n > 0) TRY(statics_go(e, s->advances ? statics_time_of_size(e, s->due) : t));
+    s->increment_due = s->next.n > 0 && statics_load_size(e, t) >= s->due;
+    if (s->next.n > 0) TRY(equilibrium_at(e, s->increment_due ? statics_time_of_size(e, s->due) : t));
     s->record.load_most = real_max(s->record.load_most, statics_load_size(e, s->t));
-    s->severs = s->advances && s->due < THROUGH * s->record.load_most;
+    s->severs = s->increment_due && s->due < THROUGH * s->record.load_most;
     return OK;
 }
 
-/* How far the places of control opening have moved apart [m]. */
+/* Returns the opening: how far the two gauge particles have moved apart [m]. */
 static real opening_now(const struct particles *part, const struct statics *statics)
 {
-    real now = 0, was = 0;
+    real now = 0, initial = 0;
     for (int d = 0; d < part->dim; d++) {
-        const int64_t a = statics->opens[0], b = statics->opens[1];
+        const int64_t a = statics->gauge[0], b = statics->gauge[1];
         now += square(part->x[d][b] - part->x[d][a]);
-        was += square(part->X[d][b] - part->X[d][a]);
+        initial += square(part->X[d][b] - part->X[d][a]);
     }
-    return sqrt(now) - sqrt(was);
+    return sqrt(now) - sqrt(initial);
 }
 
-/* Goes to the pseudo-time at which the opening has this width [m], by secants from `t` [s] on. */
-static status open_to(struct run *e, real wanted, real t)
+/* Finds the equilibrium at which the opening equals `wanted` [m], by the secant method. t: first pseudo-time [s]. */
+static status go_to_opening(struct run *e, real wanted, real t)
 {
     real from = e->statics->t, at_from = opening_now(&e->part, e->statics);
     for (int k = 0; k < SECANTS_MOST; k++) {
-        TRY(statics_go(e, real_max(t, 0)));
+        TRY(equilibrium_at(e, real_max(t, 0)));
         const real at = opening_now(&e->part, e->statics), slope = (at - at_from) / (e->statics->t - from);
         if (fabs(at - wanted) <= OPENING_ERROR * fabs(wanted) || e->statics->t == from || !(slope != 0)) return OK;
         from = e->statics->t, at_from = at;
@@ -166,15 +168,16 @@ static status open_to(struct run *e, real wanted, real t)
     return OK;
 }
 
-/* Does the advance ahead come before the opening is as wide as wanted? Both grow with the loads. */
-static bool comes_before(const struct run *e, real wanted)
+/* Returns true if the next crack increment is due before the opening reaches `wanted` [m]; assumes that the opening
+ * grows in proportion to the loads. */
+static bool increment_before_opening(const struct run *e, real wanted)
 {
     const struct statics *s = e->statics;
     const real now = opening_now(&e->part, e->statics), size = statics_load_size(e, s->t);
-    return s->next.n > 0 && now > 0 && now / size * size_to_come(e->statics, e->diagnostics) < wanted;
+    return s->next.n > 0 && now > 0 && now / size * increment_load(e->statics, e->diagnostics) < wanted;
 }
 
-/* The opening grows by a step; pseudo-time follows, and on the way the crack advances as long as that pays. */
+/* Increases the opening by one step; makes all crack increments that are due until then. */
 static status step_by_opening(struct run *e)
 {
     const struct scene_steps *s = &e->scene->steps;
@@ -183,35 +186,35 @@ static status step_by_opening(struct run *e)
     const real first = e->statics->t + e->scene->duration / (real)s->number;
     bool open = false;
     if (e->statics->next.n == 0) TRY(approach_loads(e, now > 0 ? e->statics->t * wanted / now : first));
-    while (!open || comes_before(e, wanted)) {
-        open = !comes_before(e, wanted);
+    while (!open || increment_before_opening(e, wanted)) {
+        open = !increment_before_opening(e, wanted);
         if (open) {
-            TRY(open_to(e, wanted,
-                        opening_now(&e->part, e->statics) > 0
-                            ? e->statics->t * wanted / opening_now(&e->part, e->statics)
-                            : first));
-            TRY(statics_convert(e, 0));
+            TRY(go_to_opening(e, wanted,
+                              opening_now(&e->part, e->statics) > 0
+                                  ? e->statics->t * wanted / opening_now(&e->part, e->statics)
+                                  : first));
+            TRY(equilibrium_convert(e, 0));
         } else {
-            TRY(go_to_size(e, size_to_come(e->statics, e->diagnostics), 0, INFINITY));
-            state_note(e);
-            TRY(statics_advance_balanced(e));
+            TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
+            state_sample(e);
+            TRY(crack_increment_make_balanced(e));
         }
-        TRY(statics_look_ahead(e));
+        TRY(crack_increment_find(e));
     }
     return OK;
 }
 
 /* ---- the loop ---------------------------------------------------------------------------------------------------- */
 
-/* Makes the search for equilibria of a load step depend on what a checkpoint keeps alone, so that a resumed run gets to
- * the same bits. The motions of unconstrained pieces are those of where the pieces are now. The preconditioner stays
- * where a resumed run can rebuild it: not if bonds have broken since it was made, nor with springs of contact, which
- * depend on where particles were at that time. */
+/* Prepares a load step so that the search for equilibria depends only on data of the checkpoint: a resumed run must
+ * compute the same bits. Recomputes the free rigid motions of the unconstrained fragments from their present positions.
+ * Discards a preconditioner that a resumed run could not rebuild: one made before bonds broke, or one with the
+ * stiffness of contact, which depends on the positions at that time. */
 static void load_step_begin(struct run *e)
 {
     struct statics *s = e->statics;
-    statics_pieces_make(e);
-    if (s->stale || s->meets)
+    unconstrained_find(e);
+    if (s->precondition_stale || s->has_contact)
         statics_precondition_free(s);
     else if (s->kept && !s->precondition)
         statics_precondition_make(e);
@@ -235,7 +238,7 @@ static status load_step(struct run *e)
     return OK;
 }
 
-/* REFUSED where the opening is that of one place, or of none in the body. */
+/* Returns REFUSED if a gauge position is far from the body, or if both are at one particle. */
 static status check_opening(const struct scene *scene, const struct particles *part)
 {
     const struct scene_steps *s = &scene->steps;
@@ -257,8 +260,8 @@ static status check_opening(const struct scene *scene, const struct particles *p
         "steps.from and steps.to are at the same particle; two positions, on both sides of the crack, are expected");
 }
 
-/* REFUSED where loads and supports do not follow the pseudo-time: the crack would wait for others in vain. */
-static status check_growth(const struct run *e)
+/* Returns REFUSED if loads and supports do not depend on the pseudo-time, although the control scales them by it. */
+static status check_loads_grow(const struct run *e)
 {
     const real whole = e->scene->duration, size = statics_load_size(e, whole);
     const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
@@ -274,7 +277,7 @@ status statics_check(const struct run *e)
     const struct scene *s = e->scene;
     if (!scene_in_steps(s)) return OK;
     if (s->steps.control == CONTROL_OPENING) TRY(check_opening(e->scene, &e->part));
-    TRY(check_growth(e));
+    TRY(check_loads_grow(e));
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
@@ -285,8 +288,8 @@ status statics_check(const struct run *e)
     return OK;
 }
 
-/* Says that a crack has been pressed shut. */
-static void say_closed(struct warnings *to, real K_I, const struct contact *c)
+/* Warns that crack faces interpenetrate. K_I: of the tip with the largest growth [Pa m^(1/2)]. */
+static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
         warnings_say(to,
@@ -294,10 +297,11 @@ static void say_closed(struct warnings *to, real K_I, const struct contact *c)
                      "contact.between: all");
 }
 
-#define FLOW_LARGE 0.1 /* plastic strain beyond which strains are no small ones */
+#define FLOW_LARGE 0.1 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
 
-/* Says that points have flowed farther than strains that add up describe: without hardening, beyond a limit load. */
-static void say_flowed(struct warnings *to, const struct particles *p)
+/* Warns of plastic strains too large for additive small strains: without hardening, a sign of loads beyond the limit
+ * load. */
+static void warn_large_flow(struct warnings *to, const struct particles *p)
 {
     real most = 0;
     char text[200];
@@ -309,8 +313,9 @@ static void say_flowed(struct warnings *to, const struct particles *p)
     if (most > FLOW_LARGE) warnings_say(to, text);
 }
 
-/* Says that a rigid body has gone its way and pushed nothing: past the body, or a body that nothing holds before it. */
-static void say_missed(struct warnings *to, const struct rigid_body *body, int n, real largest)
+/* Warns of driven rigid bodies without contact force, which miss the body or push a body that nothing constrains.
+ * body[n]. largest: force norm of the solver [N]. */
+static void warn_missed_bodies(struct warnings *to, const struct rigid_body *body, int n, real largest)
 {
     for (int k = 0; k < n; k++) {
         const struct rigid_body *r = &body[k];
@@ -323,21 +328,21 @@ static void say_missed(struct warnings *to, const struct rigid_body *body, int n
     }
 }
 
-static void say_at_end(struct run *e)
+static void warn_at_end(struct run *e)
 {
     real K[MODES];
-    led_factors(&e->statics->led, &e->part, statics_faces_closed(e->contact), K);
-    say_closed(&e->warnings, K[MODE_I], e->contact);
-    say_flowed(&e->warnings, &e->part);
-    say_missed(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
+    sif_leading_factors(&e->statics->sif, &e->part, statics_faces_closed(e->contact), K);
+    warn_closed_faces(&e->warnings, K[MODE_I], e->contact);
+    warn_large_flow(&e->warnings, &e->part);
+    warn_missed_bodies(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
 }
 
-/* FAILED if loads carry a piece away. Where a crack goes through under control energy, they have gone back as far as
- * they can, and the curve is whole: *apart. */
-static status check_held(struct run *e, bool *apart)
+/* Returns FAILED if loads on an unconstrained fragment are not balanced. Under energy control a severed body ends the
+ * run instead: stores true in *apart, with a message. */
+static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = statics_unheld(e->statics, &e->part, e->clock.step + 1);
+    const status held = unconstrained_check(e->statics, &e->part, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         warnings_say(&e->warnings, "the crack goes through: after its next increment a fragment of the body would be "
@@ -349,27 +354,27 @@ status engine_steps(struct run *e)
 {
     TRY(report_start(e));
     timers_start(&e->timers);
-    if (!e->statics->node) statics_unknowns_make(e); /* a run that goes on has them */
-    statics_touch_start(e);
-    e->statics->opens[0] = particles_nearest(&e->part, e->scene->steps.from);
-    e->statics->opens[1] = particles_nearest(&e->part, e->scene->steps.to);
-    led_leads(e); /* of a run that goes on, too: finds the plane of its tips */
+    if (!e->statics->node) statics_unknowns_make(e); /* a resumed run has them */
+    statics_contact_start(e);
+    e->statics->gauge[0] = particles_nearest(&e->part, e->scene->steps.from);
+    e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
+    sif_cracks_start(e); /* for the plane of the tips, which a resumed run lacks */
     if (e->clock.step == 0) sample_rest(e);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
         TRY(load_step(e));
-        TRY(check_held(e, &apart));
-        statics_plastic_keep(e);
+        TRY(check_constrained(e, &apart));
+        plastic_state_save(e);
         e->clock.step++;
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
-        state_note(e);
+        state_sample(e);
         sample_rest(e);
         statics_record_keep(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
         timer_book(&e->timers, TIMER_BONDS);
-        if (e->clock.step == e->clock.steps) say_at_end(e);
+        if (e->clock.step == e->clock.steps) warn_at_end(e);
         snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
                  (long long)e->statics->solutions);
         TRY(report_step(e));

@@ -1,8 +1,8 @@
-/* Load steps: pieces of a body that nothing holds, and the rigid motions that they are free to make.
+/* Load steps: fragments of a body that are not fully constrained, and their free rigid motions.
  *
- * Such a piece has no equilibrium of its own under loads, and none that is unique without. It stays where it is: of the
- * forces on it, those that would only move it as a whole are left out (as inertia would take them), and so are such
- * motions of what the preconditioner proposes. What is left is how it deforms. */
+ * Such a fragment has no equilibrium under unbalanced loads and no unique one without. Its free rigid motions are
+ * kept constant: components of the forces along them are removed (as inertia would balance them), and so are those
+ * of the displacements that the preconditioner proposes. The deformation of the fragment remains. */
 #include <math.h>
 #include <string.h>
 
@@ -13,22 +13,25 @@
 #include "contact/contact.h"
 #include "mesh/mesh_part.h"
 
-enum { MODES_MOST = 6 };   /* rigid motions of a piece in space */
-#define HELD_LEAST 1e-9    /* resistance of a motion, over the largest, from which on it is held */
-#define RESISTS_LEAST 1e-8 /* rate of a gap under a motion of about 1, below which it is round-off [1] */
-#define UNHELD_MOST 0.05   /* share of loads on a free piece that need not cancel: faces of lattices are not even */
-#define UNHELD_SMALL 0.01  /* share of all loads that is too small to end a run */
-#define DROPPED 1e-6       /* what is left of a motion beside those before it, below which it is none of its own */
+enum { MODES_MOST = 6 };   /* rigid motions of a fragment in space */
+#define HELD_LEAST 1e-9    /* smallest resistance of a constrained motion, relative to the largest */
+#define RESISTS_LEAST 1e-8 /* smallest rate of a gap under a unit motion that is not round-off [1] */
+#define UNHELD_MOST                                                                                                    \
+    0.05 /* tolerated unbalanced share of the loads on a fragment; faces of lattices are uneven (empirical) */
+#define UNHELD_SMALL 0.01 /* share of all loads below which unbalanced loads do not end a run (empirical) */
+#define DROPPED 1e-6      /* relative norm of the rest of a motion below which it depends linearly on previous ones */
 
-/* ---- which nodes hang together ----------------------------------------------------------------------------------- */
+/* ---- connected components ---------------------------------------------------------------------------------------- */
 
+/* Returns the root of node k in the union-find forest parent[nodes], and shortens the path to it. */
 static int32_t root_node(int32_t *parent, int32_t k)
 {
     while (parent[k] != k) k = parent[k] = parent[parent[k]];
     return k;
 }
 
-/* The smaller number becomes the root: the same pieces whatever the order. */
+/* Joins the components of nodes a and b. The smaller root becomes the root of both, so that the result does not depend
+ * on the order of joins. */
 static void nodes_join(int32_t *parent, int32_t a, int32_t b)
 {
     const int32_t x = root_node(parent, a), y = root_node(parent, b);
@@ -36,19 +39,20 @@ static void nodes_join(int32_t *parent, int32_t a, int32_t b)
     if (y < x) parent[x] = y;
 }
 
-/* The search for pieces: what it reads (borrowed), and what it has found. */
+/* The search for unconstrained fragments: the parts of the run that it reads (borrowed), and its results. */
 struct search {
     const struct statics *statics;
     const struct particles *part;
     const struct mesh *mesh;
     const struct loads *loads;
-    int32_t *particle, *node; /* unknown of each particle and of each node of the mesh, -1: none */
-    struct field x;           /* [unknowns] present positions [m] */
-    int32_t *parent, *piece;  /* [unknowns] in the forest of joined unknowns; number of the piece */
-    int64_t n;                /* pieces */
-    struct candidate *of;     /* [n] */
+    int32_t *particle, *node;    /* unknown of each particle and of each node of the mesh, -1: none */
+    struct field x;              /* [unknowns] present positions [m] */
+    int32_t *parent, *fragment;  /* [unknowns] in the forest of joined unknowns; number of the piece */
+    int64_t n;                   /* pieces */
+    struct candidate *candidate; /* [n] */
 };
 
+/* Joins the nodes of each cell of the mesh. */
 static void cells_join(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -64,7 +68,7 @@ static void cells_join(const struct search *s)
     }
 }
 
-/* Returns the unknown of particle i, of a point of the mesh that of a corner of its cell; -1: none. */
+/* Returns the unknown of particle i, for a point of the mesh that of a corner of its cell; -1 if there is none. */
 static int32_t number_of(const struct search *s, int64_t i)
 {
     const struct mesh *mesh = s->mesh;
@@ -77,6 +81,7 @@ static int32_t number_of(const struct search *s, int64_t i)
     return -1;
 }
 
+/* Joins the nodes of bonded particles. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
@@ -89,6 +94,7 @@ static void bonded_join(const struct search *s, const struct bonds *bonds)
     }
 }
 
+/* Stores the unknown of each particle and mesh node; mirror nodes have that of their image. */
 static void unknowns_number(struct search *s)
 {
     const struct statics *statics = s->statics;
@@ -103,12 +109,13 @@ static void unknowns_number(struct search *s)
         s->node[mesh->grid.mirror_node[k].node] = s->node[mesh->grid.mirror_node[k].image];
 }
 
-static void pieces_search_begin(struct search *s)
+/* Allocates the storage of a search and stores the present positions of its nodes. */
+static void unconstrained_search_begin(struct search *s)
 {
     const int64_t n = s->statics->balance.n;
     unknowns_number(s);
     s->parent = BARE("pieces.parent", n, int32_t);
-    s->piece = BARE("pieces.piece", n, int32_t);
+    s->fragment = BARE("pieces.fragment", n, int32_t);
     for (int d = 0; d < s->part->dim; d++) s->x.of[d] = BARE("pieces.x", n, real);
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX];
@@ -118,28 +125,32 @@ static void pieces_search_begin(struct search *s)
     }
 }
 
-static void pieces_search_end(struct search *s)
+/* Frees the storage of a search. */
+static void unconstrained_search_end(struct search *s)
 {
     for (int d = 0; d < s->part->dim; d++) memory_free(s->x.of[d]);
-    memory_free(s->of);
+    memory_free(s->candidate);
     memory_free(s->parent);
-    memory_free(s->piece);
+    memory_free(s->fragment);
     memory_free(s->particle);
     memory_free(s->node);
 }
 
-/* ---- what holds a piece ------------------------------------------------------------------------------------------ */
+/* ---- constraints ------------------------------------------------------------------------------------------------- */
 
-/* A piece while its rigid motions are looked for. */
+/* A fragment during the search, and the constraints on its rigid motions. */
 struct candidate {
-    real centre[DIM_MAX], radius;            /* where its nodes are now [m]; root mean square from there [m] */
-    real resistance[MODES_MOST][MODES_MOST]; /* sum of what supports see of two motions [1] */
+    real centre[DIM_MAX];                    /* mean position of its nodes [m] */
+    real radius;                             /* root mean square distance of its nodes from the centre [m] */
+    real resistance[MODES_MOST][MODES_MOST]; /* sum over constraints of the product of two motions along them [1] */
     int64_t n;                               /* nodes */
 };
 
+/* Returns the number of rigid motions in a body of dimension dim. */
 static int motions(int dim) { return dim * (dim + 1) / 2; }
 
-/* Rigid motion k of a piece at x: translations, then rotations, which move its nodes by about one. */
+/* Computes rigid motion k of a fragment at the point x: first translations, then rotations, scaled so that the
+ * displacement of its nodes is about 1. u: displacement [dim]. */
 static void motion_at(const struct candidate *c, int dim, int k, const real *x, real *u)
 {
     for (int d = 0; d < dim; d++) u[d] = d == k;
@@ -149,25 +160,28 @@ static void motion_at(const struct candidate *c, int dim, int k, const real *x, 
     u[b] = (x[a] - c->centre[a]) / c->radius;
 }
 
+/* Stores the present position of node k in x [m]. */
 static void node_now(const struct search *s, int64_t k, real *x)
 {
     for (int d = 0; d < s->part->dim; d++) x[d] = s->x.of[d][k];
 }
 
-/* One direction n.u in which the motions of a piece are held: adds its share to their resistance. */
+/* Adds the constraint of one displacement component to the resistance of the m motions. along[m]: that component of
+ * each motion. */
 static void resist(struct candidate *c, int m, const real *along)
 {
     for (int a = 0; a < m; a++)
         for (int b = 0; b < m; b++) c->resistance[a][b] += along[a] * along[b];
 }
 
+/* Adds the constraints of supports and planes of symmetry on components of nodes. */
 static void supports_resist(const struct search *s)
 {
     const struct equilibrium *q = &s->statics->balance;
     const int dim = s->part->dim, m = motions(dim);
     for (int64_t k = 0; k < q->n; k++) {
         real x[DIM_MAX], u[MODES_MOST][DIM_MAX], along[MODES_MOST];
-        struct candidate *c = &s->of[s->piece[k]];
+        struct candidate *c = &s->candidate[s->fragment[k]];
         if (!q->held[k]) continue;
         node_now(s, k, x);
         for (int a = 0; a < m; a++) motion_at(c, dim, a, x, u[a]);
@@ -179,7 +193,7 @@ static void supports_resist(const struct search *s)
     }
 }
 
-/* A bond to an image resists what lengthens it. */
+/* Adds the constraint of a bond between particle i and an image: it resists a change of its length. */
 static void image_resists(const struct search *s, struct candidate *c, int64_t i, int64_t image)
 {
     const struct particles *p = s->part;
@@ -197,16 +211,19 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
     resist(c, m, along);
 }
 
+/* Adds the constraints of all bonds to images. */
 static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
         const int32_t i = bonds->particle[r], k = number_of(s, i);
         for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it) && k >= 0;)
-            if (it.bond.w != 0 && it.bond.nbr >= s->part->n) image_resists(s, &s->of[s->piece[k]], i, it.bond.nbr);
+            if (it.bond.w != 0 && it.bond.nbr >= s->part->n)
+                image_resists(s, &s->candidate[s->fragment[k]], i, it.bond.nbr);
     }
 }
 
-/* A node beyond a plane of symmetry moves as its image does, and with the cells that it is a corner of. */
+/* Adds the constraints of mirror nodes: such a node moves as the mirror image of a node and is a corner of cells of the
+ * body. */
 static void mirror_nodes_resist(const struct search *s)
 {
     const struct mesh *mesh = s->mesh;
@@ -222,22 +239,22 @@ static void mirror_nodes_resist(const struct search *s)
             y[d] = grid_position(&mesh->grid, d, node->image / stride % count) + mesh->displacement[d][node->image];
         }
         for (int a = 0; a < m; a++) {
-            motion_at(&s->of[s->piece[k]], dim, a, x, u);
-            motion_at(&s->of[s->piece[k]], dim, a, y, v);
+            motion_at(&s->candidate[s->fragment[k]], dim, a, x, u);
+            motion_at(&s->candidate[s->fragment[k]], dim, a, y, v);
             for (int d = 0; d < dim; d++) along[d][a] = u[d] - node->sign[d] * v[d];
         }
-        for (int d = 0; d < dim; d++) resist(&s->of[s->piece[k]], m, along[d]);
+        for (int d = 0; d < dim; d++) resist(&s->candidate[s->fragment[k]], m, along[d]);
     }
 }
 
-/* The piece of a particle or an image, -1: of none. */
-static int32_t piece_of(const struct search *s, int32_t particle)
+/* Returns the fragment of a particle or an image, -1: none. */
+static int32_t fragment_of(const struct search *s, int32_t particle)
 {
     const int32_t k = number_of(s, image_root(s->part, s->loads->image, particle));
-    return k < 0 ? -1 : s->piece[k];
+    return k < 0 ? -1 : s->fragment[k];
 }
 
-/* How motion a of a piece changes the gap of a contact: by those of its particles that belong to it. */
+/* Returns the rate of the gap of a contact under motion a of fragment `which` [1]. */
 static real gap_rate(const struct search *s, const struct contact_term *t, int32_t which, int a)
 {
     const struct particles *p = s->part;
@@ -245,16 +262,17 @@ static real gap_rate(const struct search *s, const struct contact_term *t, int32
     for (int q = 0; q < t->n; q++) {
         const int64_t i = image_root(p, s->loads->image, t->particle[q]);
         real sign[DIM_MAX], x[DIM_MAX], u[DIM_MAX];
-        if (piece_of(s, t->particle[q]) != which) continue;
+        if (fragment_of(s, t->particle[q]) != which) continue;
         for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
         image_signs(p, s->loads, t->particle[q], sign);
-        motion_at(&s->of[which], p->dim, a, x, u);
+        motion_at(&s->candidate[which], p->dim, a, x, u);
         for (int d = 0; d < p->dim; d++) rate += sign[d] * t->along[q][d] * u[d];
     }
     return rate;
 }
 
-/* A contact resists what changes its gap: each of the pieces that it is of as if the other were held. */
+/* Adds the constraint of a contact, which resists a change of its gap, to each fragment that it touches, as if the
+ * other one were fixed. context: a struct search. */
 static void contact_resists(void *context, const struct contact_term *t)
 {
     const struct search *s = context;
@@ -262,19 +280,20 @@ static void contact_resists(void *context, const struct contact_term *t)
     real length2 = 0, along[MODES_MOST];
     for (int q = 0; q < t->n; q++) length2 += dot(t->along[q], t->along[q], dim);
     for (int q = 0; q < t->n && length2 > 0; q++) {
-        const int32_t which = piece_of(s, t->particle[q]);
+        const int32_t which = fragment_of(s, t->particle[q]);
         bool seen = which < 0;
-        for (int b = 0; b < q && !seen; b++) seen = piece_of(s, t->particle[b]) == which;
+        for (int b = 0; b < q && !seen; b++) seen = fragment_of(s, t->particle[b]) == which;
         if (seen) continue;
         for (int a = 0; a < m; a++) {
             along[a] = gap_rate(s, t, which, a) / sqrt(length2);
-            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0; /* both faces are of the same piece */
+            if (fabs(along[a]) < RESISTS_LEAST) along[a] = 0; /* both faces belong to the same fragment */
         }
-        resist(&s->of[which], m, along);
+        resist(&s->candidate[which], m, along);
     }
 }
 
-/* Motions that nothing resists, as combinations of the m that there are, by elimination with full pivots. */
+/* Finds the motions without resistance as linear combinations of the m rigid motions, free[][m], by Gaussian
+ * elimination with full pivoting of the resistance. Returns their number. */
 static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][MODES_MOST])
 {
     real R[MODES_MOST][MODES_MOST], most = 0;
@@ -300,22 +319,23 @@ static int motions_free(const struct candidate *c, int m, real free[MODES_MOST][
     return m - held;
 }
 
-/* ---- free pieces ------------------------------------------------------------------------------------------------- */
+/* ---- free motions ------------------------------------------------------------------------------------------------ */
 
-/* Product of two motions of a piece's nodes. */
-static real motion_dot(const struct free_piece *f, int dim, int a, int b)
+/* Returns the scalar product of two motions over the nodes of a fragment. */
+static real motion_dot(const struct unconstrained_fragment *f, int dim, int a, int b)
 {
     real sum = 0;
     for (int64_t q = 0; q < f->n * dim; q++) sum += f->motion[q * MODES_MOST + a] * f->motion[q * MODES_MOST + b];
     return sum;
 }
 
-/* Makes the motions orthonormal over the nodes; those that are none of their own are dropped. */
-static void motions_orthonormal(struct free_piece *f, int dim)
+/* Orthonormalises the motions over the nodes of a fragment by the Gram-Schmidt method with reorthogonalisation. Drops
+ * linearly dependent ones. */
+static void motions_orthonormal(struct unconstrained_fragment *f, int dim)
 {
     int kept = 0;
     for (int a = 0; a < f->motions; a++) {
-        const real before = sqrt(motion_dot(f, dim, a, a));
+        const real norm = sqrt(motion_dot(f, dim, a, a));
         for (int twice = 0; twice < 2; twice++)
             for (int b = 0; b < kept; b++) {
                 const real share = motion_dot(f, dim, a, b);
@@ -323,7 +343,7 @@ static void motions_orthonormal(struct free_piece *f, int dim)
                     f->motion[q * MODES_MOST + a] -= share * f->motion[q * MODES_MOST + b];
             }
         const real left = sqrt(motion_dot(f, dim, a, a));
-        if (!(left > DROPPED * before)) continue;
+        if (!(left > DROPPED * norm)) continue;
         for (int64_t q = 0; q < f->n * dim; q++)
             f->motion[q * MODES_MOST + kept] = f->motion[q * MODES_MOST + a] / left;
         kept++;
@@ -331,18 +351,19 @@ static void motions_orthonormal(struct free_piece *f, int dim)
     f->motions = kept;
 }
 
-/* Motions of the nodes of a piece that nothing holds in `count` of them. */
-static void free_piece_make(const struct search *s, struct free_piece *f, int64_t which,
-                            real free[MODES_MOST][MODES_MOST], int count)
+/* Initialises fragment `which` as an unconstrained fragment with `count` free motions, whose combinations of rigid
+ * motions are free[count]. */
+static void fragment_motions(const struct search *s, struct unconstrained_fragment *f, int64_t which,
+                             real free[MODES_MOST][MODES_MOST], int count)
 {
-    const struct candidate *c = &s->of[which];
+    const struct candidate *c = &s->candidate[which];
     const int dim = s->part->dim, m = motions(dim);
-    *f = (struct free_piece){.n = 0, .motions = count};
+    *f = (struct unconstrained_fragment){.n = 0, .motions = count};
     f->node = BARE("pieces.node", c->n, int32_t);
     f->motion = NEW("pieces.motion", c->n * dim * MODES_MOST, real);
     for (int64_t k = 0; k < s->statics->balance.n; k++) {
         real x[DIM_MAX], u[DIM_MAX];
-        if (s->piece[k] != which) continue;
+        if (s->fragment[k] != which) continue;
         node_now(s, k, x);
         for (int a = 0; a < m; a++) {
             motion_at(c, dim, a, x, u);
@@ -357,67 +378,67 @@ static void free_piece_make(const struct search *s, struct free_piece *f, int64_
     unknown_position(s->statics, s->part, s->mesh, f->node[f->n / 2], f->middle);
 }
 
-/* Pieces in the order of their first nodes: their numbers by node, and where they are. */
-static void candidates_make(struct search *s)
+/* Numbers the fragments in the order of their first nodes, and computes their centres and radii. */
+static void fragment_candidates_find(struct search *s)
 {
     const int64_t nodes = s->statics->balance.n;
     const int dim = s->part->dim;
-    for (int64_t k = 0; k < nodes; k++) /* a root comes before what hangs on it */
-        s->piece[k] = s->parent[k] == k ? (int32_t)s->n++ : s->piece[root_node(s->parent, (int32_t)k)];
-    s->of = NEW("pieces.candidates", s->n, struct candidate);
+    for (int64_t k = 0; k < nodes; k++) /* a root has a smaller number than its nodes */
+        s->fragment[k] = s->parent[k] == k ? (int32_t)s->n++ : s->fragment[root_node(s->parent, (int32_t)k)];
+    s->candidate = NEW("pieces.candidates", s->n, struct candidate);
     for (int64_t k = 0; k < nodes; k++) {
-        struct candidate *c = &s->of[s->piece[k]];
+        struct candidate *c = &s->candidate[s->fragment[k]];
         c->n++;
         for (int d = 0; d < dim; d++) c->centre[d] += s->x.of[d][k];
     }
     for (int64_t q = 0; q < s->n; q++)
-        for (int d = 0; d < dim; d++) s->of[q].centre[d] /= (real)s->of[q].n;
+        for (int d = 0; d < dim; d++) s->candidate[q].centre[d] /= (real)s->candidate[q].n;
     for (int64_t k = 0; k < nodes; k++) {
-        struct candidate *c = &s->of[s->piece[k]];
+        struct candidate *c = &s->candidate[s->fragment[k]];
         for (int d = 0; d < dim; d++) c->radius += square(s->x.of[d][k] - c->centre[d]);
     }
-    for (int64_t q = 0; q < s->n; q++) s->of[q].radius = sqrt(s->of[q].radius / (real)s->of[q].n);
+    for (int64_t q = 0; q < s->n; q++) s->candidate[q].radius = sqrt(s->candidate[q].radius / (real)s->candidate[q].n);
 }
 
-void statics_pieces_make(struct run *e)
+void unconstrained_find(struct run *e)
 {
     struct statics *s = e->statics;
     const int m = motions(e->part.dim);
     struct search search = {.statics = s, .part = &e->part, .mesh = &e->frame->mesh, .loads = &e->loads};
     real free[MODES_MOST][MODES_MOST];
-    statics_pieces_free(s);
-    s->parted = false;
-    pieces_search_begin(&search);
+    unconstrained_free(s);
+    s->fragments_stale = false;
+    unconstrained_search_begin(&search);
     cells_join(&search);
     bonded_join(&search, &e->bonds);
-    candidates_make(&search);
+    fragment_candidates_find(&search);
     supports_resist(&search);
     images_resist(&search, &e->bonds);
     mirror_nodes_resist(&search);
     contact_terms(e->contact, &e->part, contact_resists, &search);
-    for (int64_t q = 0; q < search.n; q++) s->pieces += motions_free(&search.of[q], m, free) > 0;
-    s->piece = NEW("pieces.free", s->pieces, struct free_piece);
-    s->pieces = 0;
+    for (int64_t q = 0; q < search.n; q++) s->fragments += motions_free(&search.candidate[q], m, free) > 0;
+    s->fragment = NEW("pieces.free", s->fragments, struct unconstrained_fragment);
+    s->fragments = 0;
     for (int64_t q = 0; q < search.n; q++) {
-        const int count = motions_free(&search.of[q], m, free);
-        if (count > 0) free_piece_make(&search, &s->piece[s->pieces++], q, free, count);
+        const int count = motions_free(&search.candidate[q], m, free);
+        if (count > 0) fragment_motions(&search, &s->fragment[s->fragments++], q, free, count);
     }
-    pieces_search_end(&search);
+    unconstrained_search_end(&search);
 }
 
-void statics_pieces_free(struct statics *s)
+void unconstrained_free(struct statics *s)
 {
-    for (int64_t q = 0; q < s->pieces; q++) memory_free(s->piece[q].node), memory_free(s->piece[q].motion);
-    memory_free(s->piece);
-    s->piece = NULL, s->pieces = 0;
+    for (int64_t q = 0; q < s->fragments; q++) memory_free(s->fragment[q].node), memory_free(s->fragment[q].motion);
+    memory_free(s->fragment);
+    s->fragment = NULL, s->fragments = 0;
 }
 
-void statics_pieces_hold(const struct statics *s, struct field *v)
+void unconstrained_project(const struct statics *s, struct field *v)
 {
     const int dim = s->balance.dim;
 #pragma omp parallel for schedule(dynamic)
-    for (int64_t q = 0; q < s->pieces; q++) {
-        const struct free_piece *f = &s->piece[q];
+    for (int64_t q = 0; q < s->fragments; q++) {
+        const struct unconstrained_fragment *f = &s->fragment[q];
         for (int a = 0; a < f->motions; a++) {
             real sum = 0;
             for (int64_t k = 0; k < f->n; k++)
@@ -428,11 +449,13 @@ void statics_pieces_hold(const struct statics *s, struct field *v)
     }
 }
 
-/* ---- loads that nothing holds ------------------------------------------------------------------------------------ */
+/* ---- unbalanced loads -------------------------------------------------------------------------------------------- */
 
-/* Of the loads on a piece along its free motions: the largest share that does not cancel [1], that motion, and the sum
- * of their sizes there. */
-static real unheld_share(const struct statics *s, const struct particles *part, const struct free_piece *f, real *size)
+/* Returns the largest unbalanced share of the loads on a fragment along one of its free motions: the absolute value of
+ * their sum over the sum of their absolute values [1]; stores the latter in *size. Motions along which loads are much
+ * smaller than along another one are ignored. */
+static real unbalanced_share(const struct statics *s, const struct particles *part,
+                             const struct unconstrained_fragment *f, real *size)
 {
     real most = 0;
     *size = 0;
@@ -449,8 +472,8 @@ static real unheld_share(const struct statics *s, const struct particles *part, 
     return most;
 }
 
-/* Sum of all applied forces, each by its size, over the root of the number of nodes of a piece: as unheld_share adds.
- */
+/* Returns the sum of the absolute values of all applied forces over the root of the number of nodes of a fragment,
+ * comparable to *size of unbalanced_share. */
 static real applied_sum(const struct particles *part, const struct statics *statics, int64_t nodes)
 {
     real sum = 0;
@@ -459,12 +482,12 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-status statics_unheld(const struct statics *s, const struct particles *p, int64_t step)
+status unconstrained_check(const struct statics *s, const struct particles *p, int64_t step)
 {
-    for (int64_t q = 0; q < s->pieces && s->applied[0]; q++) {
-        const struct free_piece *f = &s->piece[q];
+    for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
+        const struct unconstrained_fragment *f = &s->fragment[q];
         real size;
-        const real share = unheld_share(s, p, f, &size);
+        const real share = unbalanced_share(s, p, f, &size);
         if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(p, s, f->n)) continue;
         return status_set(FAILED,
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "

@@ -1,5 +1,5 @@
-/* Equilibrium of bodies with material points: ordinary steps in time on the grid, with loads that grow and then stay,
- * and velocities damped near the critical damping of the slowest motion of the body. */
+/* Static solutions with material points: time steps on the grid with loads that grow and then stay constant, and
+ * velocities damped near the critical damping of the lowest mode of the body. */
 #include <math.h>
 
 #include "relaxation.h"
@@ -11,11 +11,11 @@
 #include "step/checks.h"
 
 #define ESTIMATE_STEPS 10 /* steps between estimates of damping and residual */
-#define MOTION_SMALL 1e-6 /* kinetic over strain energy of a body at rest */
+#define MOTION_SMALL 1e-6 /* ratio of kinetic to strain energy of a body at rest */
 
 real grid_relaxation_ramp(real length, real wave_speed, real dt) { return ceil(2 * length / (wave_speed * dt)) * dt; }
 
-/* sum m u^2 and sum m v^2. */
+/* Adds up sum m u^2 and sum m v^2 of particles first..end - 1, for team_sums. */
 static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -26,7 +26,7 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Squares of the forces that still accelerate nodes, and of those on particles that are not on the grid. */
+/* Adds up the squares of the forces that accelerate the grid nodes first..end - 1, for team_sums. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
@@ -35,6 +35,7 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
         for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
+/* Adds up the squares of the forces on particles first..end - 1 that are not on the grid, for team_sums. */
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -42,7 +43,7 @@ static void particle_block(const void *context, int64_t first, int64_t end, real
         for (int d = 0; d < p->dim && !particle_on_grid(p, i); d++) sum[0] += square(p->f[d][i]);
 }
 
-/* Norm of the reactions, each shared evenly by its particles [N]. */
+/* Returns the norm of the reactions, each divided evenly among its particles [N]. */
 static real reactions_norm(const struct loads *loads, int dim)
 {
     real sum = 0;
@@ -54,8 +55,9 @@ static real reactions_norm(const struct loads *loads, int dim)
     return sqrt(sum);
 }
 
-/* Updates damping and residual; *done at equilibrium. The slowest motion has nearly the form of the deflection, so its
- * frequency is omega^2 = 2 U/sum m u^2 (Rayleigh), with the strain energy U; critical damping is 2 omega. */
+/* Updates the damping and the residual; stores true in *done at equilibrium. The lowest mode resembles the
+ * displacement, so its frequency is omega^2 = 2 U/sum m u^2 (Rayleigh quotient) with the strain energy U; critical
+ * damping is 2 omega. */
 static void estimate(struct run *e, bool *done)
 {
     struct solver *s = e->solver;
@@ -72,8 +74,8 @@ static void estimate(struct run *e, bool *done)
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
 
-/* Damps the velocities, and their gradients (APIC), by one step. gradients: components of a gradient, 0 without.
- * damping: of a step [1]. */
+/* Damps the velocities and their gradients (APIC) over a step. gradients: number of components of a gradient, 0
+ * without. damping: of a step [1]. */
 static void damp_velocities(struct particles *p, const struct loads *loads, int gradients, real damping)
 {
     const real keep = (2 - damping) / (2 + damping);

@@ -1,6 +1,7 @@
-/* Unstable release in time (steps.then explicit): where an advance under fixed loads is followed by another, the body
- * is let go. It moves by its own inertia, with loads and supports as they are, until no bond has broken for as long as
- * waves need to cross it a few times; then its motion is damped, and equilibrium is found from where it has come. */
+/* Dynamic release of an unstable crack (`steps.then: explicit`). If a crack increment under fixed loads is followed by
+ * another one, the motion of the body is integrated in time. Loads and supports stay constant until no bond has broken
+ * for the time in which waves cross the body several times; then the motion is damped, and the equilibrium is found
+ * from there. */
 #include <math.h>
 #include <string.h>
 
@@ -18,16 +19,16 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-#define CROSSINGS_QUIET 3.0   /* crossings of the body by waves, without a bond that breaks, to be quiet */
-#define CROSSINGS_DAMPED 40.0 /* the same, that damping may take at the most */
-#define CROSSINGS_MOST 200.0  /* of all the release */
-#define MOTION_SMALL 1e-5     /* kinetic over strain energy of a body that is taken to be at rest */
-enum { LOOK_STEPS = 20 };     /* steps between looks at its energies */
-/* Steps of the clock of a release, which ends by itself: so many that no frame or sample is due [1]. */
+#define CROSSINGS_QUIET 3.0   /* time without breaking bonds before damping, in crossing times of waves */
+#define CROSSINGS_DAMPED 40.0 /* longest time of damping, in crossing times */
+#define CROSSINGS_MOST 200.0  /* longest time of a release, in crossing times */
+#define MOTION_SMALL 1e-5     /* ratio of kinetic to strain energy of a body at rest */
+enum { ENERGY_STEPS = 20 };   /* time steps between checks of the energies */
+/* Number of time steps of the clock of a release, so large that no frame or sample is due. */
 #define RELEASE_STEPS_MOST (INT64_MAX / 4)
 
-/* Loads and supports stay as they are at pseudo-time t. */
-static void boundaries_hold(const struct scene *scene, struct boundary *boundary, real t)
+/* Sets the boundaries to constant loads and supports at rest, at pseudo-time t [s]. boundary[boundaries]. */
+static void boundaries_freeze(const struct scene *scene, struct boundary *boundary, real t)
 {
     for (int b = 0; b < scene->boundaries; b++) {
         const struct boundary *from = &scene->boundary[b];
@@ -46,13 +47,14 @@ static void boundaries_hold(const struct scene *scene, struct boundary *boundary
     }
 }
 
-static void boundaries_follow(struct boundary *boundary, const struct scene *scene)
+/* Sets the boundaries to those of the scene, which depend on the pseudo-time. */
+static void boundaries_restore(struct boundary *boundary, const struct scene *scene)
 {
     array_copy(boundary, scene->boundary, scene->boundaries, sizeof *boundary);
 }
 
-/* Rigid bodies stay where they are; those that are driven go on. */
-static void rigids_hold(const struct scene *scene, struct rigid_set *rigid, bool hold)
+/* Fixes the rigid bodies (hold), or lets driven ones move again. */
+static void rigids_freeze(const struct scene *scene, struct rigid_set *rigid, bool hold)
 {
     for (int k = 0; k < scene->rigids; k++) {
         struct rigid_body *r = &rigid->body[k];
@@ -61,7 +63,7 @@ static void rigids_hold(const struct scene *scene, struct rigid_set *rigid, bool
     }
 }
 
-/* All that moves keeps this share of its velocity. */
+/* Scales the velocities of particles, mesh nodes and images by `share`. */
 static void velocities_scale(struct particles *p, struct mesh *mesh, const struct loads *loads, real share)
 {
     const struct grid *g = &mesh->grid;
@@ -72,15 +74,17 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
     loads_mirror(loads, p);
 }
 
-static real motion_now(const struct particles *part, const struct reference_frame *frame)
+/* Returns the kinetic energy of particles and mesh [J]. */
+static real kinetic_present(const struct particles *part, const struct reference_frame *frame)
 {
     return diagnostics_kinetic(part) + frame_kinetic(frame);
 }
 
-/* Steps in time until the body is at rest. Its clock is that of the release. */
+/* Makes time steps until the body is at rest. Stores the number of directed bonds that break in *broken. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
-    const real crossing = (particles_longest(&e->part) + e->scene->spacing) / e->tables.wave_speed; /* by waves [s] */
+    const real crossing = (particles_longest(&e->part) + e->scene->spacing) /
+                          e->tables.wave_speed; /* time in which a wave crosses the body [s] */
     const real quiet = CROSSINGS_QUIET * crossing, damping = 2 / crossing;
     const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / e->clock.dt);
     const int64_t damped_most = (int64_t)ceil(CROSSINGS_DAMPED * crossing / e->clock.dt);
@@ -94,28 +98,28 @@ static status steps_in_time(struct run *e, int64_t *broken)
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
         damped++;
-        if (k % LOOK_STEPS == 0 && motion_now(&e->part, e->frame) <= MOTION_SMALL * sample_strain(e)) break;
+        if (k % ENERGY_STEPS == 0 && kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_strain(e)) break;
     }
     return OK;
 }
 
-/* Energy that the body has and that bonds have taken, less the work of loads [J]. */
-static real energy_held(struct run *e)
+/* Returns the strain energy, contact energy and fracture energy minus the work of loads and supports [J]. */
+static real energy_budget(struct run *e)
 {
     const real held = sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
     return held - e->loads.work - e->loads.constraint_work;
 }
 
-status statics_release(struct run *e)
+status crack_increment_make_dynamic(struct run *e)
 {
     struct statics *s = e->statics;
     const struct run_clock clock = e->clock;
-    const real before = energy_held(e), damped = e->damped;
-    const int64_t broken = statics_advance_break(e);
+    const real before = energy_budget(e), damped = e->damped;
+    const int64_t broken = crack_increment_break(e);
     int64_t more;
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
-    boundaries_hold(e->scene, e->boundary, s->t);
-    rigids_hold(e->scene, e->rigid, true);
+    boundaries_freeze(e->scene, e->boundary, s->t);
+    rigids_freeze(e->scene, e->rigid, true);
     contact_unmark(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
@@ -123,15 +127,15 @@ status statics_release(struct run *e)
     const status moved = steps_in_time(e, &more);
     s->released_time += (real)(e->clock.step - 1) * dt;
     e->clock = clock;
-    boundaries_follow(e->boundary, e->scene);
-    rigids_hold(e->scene, e->rigid, false);
+    boundaries_restore(e->boundary, e->scene);
+    rigids_freeze(e->scene, e->rigid, false);
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     TRY(moved);
-    if (more > 0) led_lose(&s->led);
-    const real lost = before - energy_held(e);
+    if (more > 0) sif_tips_end(&s->sif);
+    const real lost = before - energy_budget(e);
     s->balance.lost += lost, e->damped = damped + lost;
     statics_precondition_free(s);
     statics_unknowns_free(s);
     statics_unknowns_make(e);
-    return statics_advance_settle(e, broken + more);
+    return crack_increment_settle(e, broken + more);
 }

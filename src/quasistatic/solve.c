@@ -1,4 +1,5 @@
-/* Static equilibrium of a scene: the loop round the solvers (solver/solver.h), and what is said of their result. */
+/* Static equilibrium of a scene: the loop over the iterations of the solvers (solver/solver.h), and warnings about
+ * their result. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,6 +13,7 @@
 #include "run/energies.h"
 #include "step/sample.h"
 
+/* Returns the parts of the run on which the solvers work (borrowed). */
 static struct static_body static_body_of(struct run *e)
 {
     return (struct static_body){&e->part,
@@ -36,13 +38,13 @@ status engine_solver_make(struct run *e)
     if (s->method == METHOD_PD)
         solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
     else
-        for (int b = 0; b < e->loads.n; b++) /* the steps on the grid add it up */
+        for (int b = 0; b < e->loads.n; b++) /* the time steps on the grid add it up */
             memset(e->loads.load[b].displacement, 0, sizeof e->loads.load[b].displacement);
     return OK;
 }
 
-/* Intact bonds beyond the stretch at which a run in time would break them. limit: of a run in time, not of a static
- * solution, in which no bond breaks. */
+/* Returns the number of intact bonds that exceed their critical stretch. limit: that of an explicit run; in a static
+ * solution no bond breaks. */
 static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     int64_t past = 0;
@@ -56,7 +58,8 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
     return past;
 }
 
-static void say_past_limit(struct warnings *to, int64_t past)
+/* Warns of bonds beyond their critical stretch. past: their number. */
+static void warn_past_limit(struct warnings *to, int64_t past)
 {
     char text[160];
     snprintf(text, sizeof text,
@@ -66,10 +69,12 @@ static void say_past_limit(struct warnings *to, int64_t past)
     if (past > 0) warnings_say(to, text);
 }
 
-#define STRAIN_LARGE 0.1 /* beyond it neither straight bonds nor Hooke's law describe a solid */
+#define STRAIN_LARGE                                                                                                   \
+    0.1 /* strain above which linear elasticity does not describe a solid [1]; a limit by judgement                    \
+         */
 
-/* Warns of stresses that no solid bears: Hooke's law has an equilibrium under any load. */
-static void say_large_strain(struct warnings *to, const struct particles *p, const struct material *material)
+/* Warns of stresses beyond the strength of any solid, since a linear elastic body has an equilibrium under any load. */
+static void warn_large_strain(struct warnings *to, const struct particles *p, const struct material *material)
 {
     real most = 0;
     char text[200];
@@ -83,7 +88,8 @@ static void say_large_strain(struct warnings *to, const struct particles *p, con
     if (!(most <= STRAIN_LARGE)) warnings_say(to, text);
 }
 
-/* Completes a solution: the body at rest at the end of the duration. */
+/* Completes a solution: sets velocities to 0 and the time to the end of the duration, and updates work, probes and
+ * warnings. */
 static void solver_finish(struct run *e)
 {
     struct particles *p = &e->part;
@@ -100,12 +106,13 @@ static void solver_finish(struct run *e)
     e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
     sample_probes(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
-    say_past_limit(&e->warnings, e->solver->past_limit);
+    warn_past_limit(&e->warnings, e->solver->past_limit);
     run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    say_large_strain(&e->warnings, p, e->scene->material);
+    warn_large_strain(&e->warnings, p, e->scene->material);
 }
 
-/* FAILED with the reason why no equilibrium was found. */
+/* Returns FAILED with the reason why no equilibrium was found. tolerance: of the residual [1]. step: number of the last
+ * iteration. */
 static status not_converged(const struct solver *s, real tolerance, int64_t step)
 {
     if (!(s->residual < INFINITY))
@@ -124,7 +131,8 @@ static status not_converged(const struct solver *s, real tolerance, int64_t step
                       (long long)step, s->residual, tolerance);
 }
 
-/* One step: of an iteration of bonds, or in time on the grid. */
+/* Makes one iteration of the solver for bonds, or one damped time step on the grid. Stores true in *done at
+ * equilibrium. */
 static status solve_step(struct run *e, bool *done)
 {
     const struct static_body body = static_body_of(e);
@@ -135,7 +143,7 @@ static status solve_step(struct run *e, bool *done)
     return OK;
 }
 
-/* The forces before the first step, from which relaxation takes differences. */
+/* Stores the forces before the first iteration, from which relaxation computes differences. */
 static void solve_start(struct solver *s, const struct particles *p)
 {
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));

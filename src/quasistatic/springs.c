@@ -1,6 +1,6 @@
-/* Springs of bonds and cells as a matrix of blocks, and the preconditioner of load steps that is made of it. Models
- * with states are stiffer than their springs; equilibrium asks for their own forces, and the matrix only for how fast.
- */
+/* The linear stiffness of bonds, cells and contact as a sparse block matrix, and the preconditioner that is made from
+ * it. State-based models are stiffer than the springs of their bonds; the equilibrium is that of their actual forces,
+ * and the matrix affects only the rate of convergence. */
 #include <math.h>
 #include <string.h>
 
@@ -13,15 +13,16 @@
 #include "mesh/mesh_part.h"
 #include "solver/multigrid.h"
 
-/* The matrix while it is made: entries are counted first, then filled in. */
+/* The matrix during assembly: a first pass counts the entries, a second one stores them. */
 struct springs {
     const struct run *e;
-    const int32_t *particle_at, *node_at; /* unknown of a particle, of a node; -1: none */
-    const int8_t (*sign)[DIM_MAX];        /* [nodes of the mesh] of nodes that follow their image; NULL: none do */
+    const int32_t *particle_at, *node_at; /* unknown of each particle and mesh node, -1: none */
+    const int8_t (*sign)[DIM_MAX];        /* [nodes of the mesh] signs of mirror nodes; NULL: there are none */
     struct block_matrix *a;
-    int64_t *next; /* [n] entry to be filled; NULL: they are counted */
+    int64_t *next; /* [n] next entry of each row to be stored; NULL in the first pass */
 };
 
+/* Counts or stores the block K as an entry of the matrix. */
 static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
 {
     const int dim = s->a->dim;
@@ -37,13 +38,15 @@ static void entry_add(struct springs *s, int64_t row, int64_t column, const real
 
 /* ---- bonds ------------------------------------------------------------------------------------------------------- */
 
-/* What moves a particle: itself, or the corners of its cell. */
+/* The nodes that determine the displacement of a particle, with their weights: the particle itself, or the corners of
+ * its cell. */
 struct movers {
     int n;
-    int64_t node[CORNERS_MAX];
-    real share[CORNERS_MAX];
+    int64_t node[CORNERS_MAX]; /* [n] unknowns */
+    real share[CORNERS_MAX];   /* [n] weights [1] */
 };
 
+/* Returns the nodes of particle i of the body. */
 static struct movers movers_list(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
@@ -58,14 +61,14 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* What moves a particle or an image, and the signs of its components against theirs. */
+/* Returns the nodes of particle or image i, and stores the signs of its components relative to theirs. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
     image_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_root(&s->e->part, s->e->loads.image, i));
 }
 
-/* The spring of a bond from particle i: what it adds to the rows of i. */
+/* Adds the stiffness of a bond of particle i to the rows of its nodes. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
@@ -85,6 +88,7 @@ static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
     }
 }
 
+/* Adds the stiffness of the intact bonds of row r. */
 static void springs_row_add(struct springs *s, int64_t r)
 {
     for (struct bond_iterator it = bonds_of_row(&s->e->bonds, r); bond_next(&it);)
@@ -93,7 +97,8 @@ static void springs_row_add(struct springs *s, int64_t r)
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
-/* What touches: stiffness times both derivatives of its gap. */
+/* Adds the stiffness of a contact: its stiffness times the product of the derivatives of its gap. context: a struct
+ * springs. */
 static void contact_add_spring(void *context, const struct contact_term *t)
 {
     struct springs *s = context;
@@ -117,6 +122,7 @@ static void contact_add_spring(void *context, const struct contact_term *t)
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
+/* Adds the stiffness of cell I of the mesh. */
 static void cell_add(struct springs *s, int64_t I)
 {
     const struct mesh *mesh = &s->e->frame->mesh;
@@ -139,7 +145,8 @@ static void cell_add(struct springs *s, int64_t I)
 
 /* ---- the matrix -------------------------------------------------------------------------------------------------- */
 
-/* Rows of peridynamic particles in parallel: each belongs to one row of bonds. Those of nodes in order. */
+/* Visits all bonds, cells and contacts. Rows of peridynamic particles are visited in parallel, as each one belongs to
+ * one row of bonds; rows of mesh nodes in sequence. */
 static void springs_visit(struct springs *s)
 {
     const struct bonds *b = &s->e->bonds;
@@ -154,7 +161,7 @@ static void springs_visit(struct springs *s)
     contact_terms(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
-/* Sorts the entries of a row by column and adds up those of one column; returns how many are left. */
+/* Sorts the entries of a row by column and adds up those of one column. Returns the number of entries that remain. */
 static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
 {
     const int size = a->dim * a->dim;
@@ -178,7 +185,7 @@ static int64_t row_sort(struct block_matrix *a, int64_t first, int64_t end)
     return kept - first;
 }
 
-/* Closes the gaps that sorting has left. */
+/* Moves the rows together after entries have been added up. kept[rows]: number of entries of each row. */
 static void rows_close(struct block_matrix *a, const int64_t *kept)
 {
     const int size = a->dim * a->dim;
@@ -193,12 +200,13 @@ static void rows_close(struct block_matrix *a, const int64_t *kept)
     a->first[a->n] = to;
 }
 
+/* Assembles the matrix in two passes. */
 static void matrix_fill(struct springs *s)
 {
     struct block_matrix *a = s->a;
     const real none[DIM_MAX][DIM_MAX] = {{0}};
     a->first = NEW("springs.first", a->n + 1, int64_t);
-    for (int64_t k = 0; k < a->n; k++) entry_add(s, k, k, none); /* nodes that nothing holds, too */
+    for (int64_t k = 0; k < a->n; k++) entry_add(s, k, k, none); /* a diagonal entry also for unconstrained nodes */
     springs_visit(s);
     for (int64_t k = 0; k < a->n; k++) a->first[k + 1] += a->first[k];
     a->column = BARE("springs.column", a->first[a->n], int32_t);
@@ -213,8 +221,8 @@ static void matrix_fill(struct springs *s)
     memory_free(s->next);
 }
 
-/* Makes the largest entry 1: floats do not bear products of stiffnesses of thick bodies, and conjugate gradients do not
- * ask for the scale of their preconditioner. */
+/* Scales the largest entry to 1, since single precision overflows with products of large stiffnesses. The conjugate
+ * gradient method does not depend on the scale of its preconditioner. */
 static void matrix_scale(struct block_matrix *a)
 {
     const int64_t n = a->first[a->n] * a->dim * a->dim;
@@ -223,6 +231,7 @@ static void matrix_scale(struct block_matrix *a)
     for (int64_t k = 0; k < n && most > 0; k++) a->block[k] /= most;
 }
 
+/* Returns the stiffness matrix of the present bonds, cells and contacts. */
 static struct block_matrix *matrix_make(const struct run *e)
 {
     const struct statics *s = e->statics;
@@ -279,7 +288,7 @@ void statics_precondition_make(struct run *e)
     }
     multigrid_make(&s->precondition, s->matrix, place, s->balance.held);
     for (int d = 0; d < e->part.dim; d++) memory_free(place[d]);
-    s->directions = 0, s->stale = false;
+    s->directions = 0, s->precondition_stale = false;
 }
 
 void statics_precondition(void *engine, const struct field *r, struct field *z)
@@ -287,11 +296,10 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
     struct run *e = engine;
     if (!e->statics->precondition) statics_precondition_make(e);
     multigrid_apply(e->statics->precondition, r->of, z->of);
-    statics_pieces_hold(e->statics, z);
+    unconstrained_project(e->statics, z);
 }
 
-/* Bonds that have broken since are in it still: it is made anew once a solution takes half as many directions again as
- * the first one with it, and eight more. */
+/* The preconditioner still contains bonds that have broken. */
 void statics_precondition_watch(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;

@@ -1,4 +1,4 @@
-/* Load steps: their state in checkpoints. */
+/* The state of load steps in checkpoints and trials. */
 #include <stdio.h>
 
 #include "system.h"
@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* Finds the bonds of a list by their particles: rows have been made anew. */
+/* Finds row and entry of the bonds of a list by their particles, since rows have been rebuilt. */
 static void list_find(const struct bonds *bonds, struct break_list *l)
 {
     for (int64_t k = 0; k < l->n; k++) {
@@ -17,6 +17,7 @@ static void list_find(const struct bonds *bonds, struct break_list *l)
     }
 }
 
+/* Saves or restores the bonds of the next crack increment. */
 static status statics_list_archive(struct break_list *l, const struct bonds *bonds, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/next", l->n);
@@ -26,40 +27,41 @@ static status statics_list_archive(struct break_list *l, const struct bonds *bon
     return OK;
 }
 
-static status led_archive(struct led *l, struct archive *a)
+/* Saves or restores the SIF-driven tips and their path. */
+static status sif_archive(struct sif_cracks *l, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/led", l->known);
     ARCHIVE_VALUE(a, "statics/led_n", l->n);
     ARCHIVE_VALUE(a, "statics/led_tips", l->tip);
     ARCHIVE_VALUE(a, "statics/led_tried", l->tried);
-    ARCHIVE_VALUE(a, "statics/led_stretches", l->stretches);
-    if (!a->saving && l->stretches > 0) {
+    ARCHIVE_VALUE(a, "statics/led_stretches", l->segments);
+    if (!a->saving && l->segments > 0) {
         memory_free(l->path);
-        l->path = NEW("led.path", l->stretches, struct led_stretch);
+        l->path = NEW("led.path", l->segments, struct path_segment);
     }
-    return l->stretches > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->stretches * sizeof *l->path) : OK;
+    return l->segments > 0 ? a->exchange(a, "statics/led_path", l->path, (size_t)l->segments * sizeof *l->path) : OK;
 }
 
-/* The next crack increment, and the tips. */
+/* Saves or restores the next crack increment and the SIF-driven tips. */
 static status increment_archive(struct statics *s, struct bonds *b, struct archive *a)
 {
     ARCHIVE_VALUE(a, "statics/released_time", s->released_time);
     ARCHIVE_VALUE(a, "statics/due", s->due);
-    ARCHIVE_VALUE(a, "statics/advances", s->advances);
+    ARCHIVE_VALUE(a, "statics/advances", s->increment_due);
     ARCHIVE_VALUE(a, "statics/ahead", s->ahead);
     ARCHIVE_VALUE(a, "statics/behind", s->behind);
     TRY(statics_list_archive(&s->next, b, a));
-    return led_archive(&s->led, a);
+    return sif_archive(&s->sif, a);
 }
 
-/* What the solver has found out about the body, counters, and what the next record goes on from. */
+/* Saves or restores what the solver has learnt about the body, its counters, and the last record of the history. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct equilibrium *q = &s->balance;
     ARCHIVE_VALUE(a, "statics/largest", q->largest);
     ARCHIVE_VALUE(a, "statics/strain_ratio", q->strain_ratio);
     ARCHIVE_VALUE(a, "statics/noise", q->noise);
-    s->kept = s->precondition && !s->stale;
+    s->kept = s->precondition && !s->precondition_stale;
     ARCHIVE_VALUE(a, "statics/kept", s->kept);
     ARCHIVE_VALUE(a, "statics/forces", q->forces);
     ARCHIVE_VALUE(a, "statics/directions", q->directions);
@@ -84,12 +86,12 @@ status statics_archive(struct run *e, struct archive *a)
         TRY(a->exchange(a, name, q->f.of[d], (size_t)q->n * sizeof(real)));
     }
     ARCHIVE_VALUE(a, "statics/t", s->t);
-    ARCHIVE_VALUE(a, "statics/touches", s->touches);
-    ARCHIVE_VALUE(a, "statics/overload", s->overload);
+    ARCHIVE_VALUE(a, "statics/touches", s->in_contact);
+    ARCHIVE_VALUE(a, "statics/overload", s->stretch_ratio);
     if (whole) TRY(increment_archive(s, &e->bonds, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
     if (whole) TRY(search_archive(s, &e->clock, a));
     if (!a->saving) applied_forces_make(s, &e->part, &e->loads, s->t);
-    if (!a->saving && whole) statics_plastic_keep(e);
+    if (!a->saving && whole) plastic_state_save(e);
     return OK;
 }

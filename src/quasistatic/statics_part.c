@@ -1,4 +1,4 @@
-/* Load steps, as a part of a run. */
+/* Load steps as a part of a run: the row of the table of parts. */
 #include <math.h>
 
 #include "led.h"
@@ -10,8 +10,11 @@
 #include "probes/diagnostics.h"
 #include "solver/solver.h"
 
-static void statics_free_all(struct run *e) { statics_free(e->statics), led_free(&e->statics->led); }
+/* Frees the state of load steps (`free` of struct part). */
+static void statics_free_all(struct run *e) { statics_free(e->statics), sif_cracks_free(&e->statics->sif); }
 
+/* Adds warnings about parts of the scene that a static solution ignores or treats in another way (`warn` of struct
+ * part). */
 static void warn_of_solver(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
@@ -40,7 +43,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
                      s->duration);
 }
 
-/* Load steps, what they took and what they released. */
+/* Writes the summary of load steps: steps, equilibria, energy released (`summary` of struct part). */
 static void put_load_steps(const struct run *e, struct json *j)
 {
     static const char *const control[] = {
@@ -53,7 +56,7 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_real(j, "load_time", s->t);
     json_count(j, "equilibria", s->solutions);
     json_count(j, "directions", s->balance.directions);
-    json_real(j, "overload", s->overload);
+    json_real(j, "overload", s->stretch_ratio);
     json_count(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
     json_real(j, "released", s->record.released);
     json_real(j, "crack_area", s->record.area);

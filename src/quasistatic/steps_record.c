@@ -1,4 +1,4 @@
-/* Columns of history.csv that load steps have beside those of all runs; what is asked of them before they begin. */
+/* The columns that load steps add to history.csv. */
 #include <math.h>
 #include <string.h>
 
@@ -10,9 +10,11 @@
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
 
-#define GROWTH 4 /* spacings of growth over which a release rate is taken: a length comes in steps of one */
+#define GROWTH                                                                                                         \
+    4 /* growth over which a release rate is computed [spacings]: lengths by damage change in steps of one             \
+       */
 
-enum { STATICS_COLUMNS = 13 }; /* in the plane one less */
+enum { STATICS_COLUMNS = 13 }; /* one less for a plane body */
 
 int statics_columns(const struct run *e, struct column *column)
 {
@@ -26,8 +28,8 @@ int statics_columns(const struct run *e, struct column *column)
     return n;
 }
 
-/* Area by which the cracks grow over a spacing: as wide as all fronts of pre-cracks, else as one spacing [m^2]; in line
- * the section. */
+/* Returns the area by which the cracks grow per spacing [m^2]: spacing times the sum of the fronts of all pre-cracks,
+ * or of one spacing without pre-cracks; for a bar its section. section: thickness or section of the body. */
 static real growth_by_spacing(const struct tips *t, real section)
 {
     real wide = 0;
@@ -38,7 +40,8 @@ static real growth_by_spacing(const struct tips *t, real section)
     return t->spacing * wide;
 }
 
-/* Damage of particles of a lattice beside a cut between two of its planes: half of their bonds but those along it. */
+/* Returns the damage of the particles of a lattice beside a cut between two of its planes: half of their bonds except
+ * those parallel to it [1]. */
 static real damage_beside_cut(const struct scene *s)
 {
     const int reach = (int)s->horizon, wide = s->dim > 1 ? reach : 0, deep = s->dim > 2 ? reach : 0;
@@ -52,30 +55,32 @@ static real damage_beside_cut(const struct scene *s)
     return 0.5 * (real)(all - along) / (real)all;
 }
 
-/* Area of the paths of tips that are led [m^2]. */
-static real led_paths_area(const struct led *l, const struct particles *p)
+/* Returns the area of the path of the SIF-driven tips [m^2]. */
+static real sif_paths_area(const struct sif_cracks *l, const struct particles *p)
 {
     real area = 0;
-    for (int64_t k = 0; k < l->stretches; k++) area += led_face_area(&l->plane, p, l->path[k].at[0], l->path[k].at[1]);
+    for (int64_t k = 0; k < l->segments; k++)
+        area += sif_plane_crack_area(&l->plane, p, l->path[k].at[0], l->path[k].at[1]);
     return area;
 }
 
-/* Area so far, of what tips have been led along, or where damaged particles say that more than another spacing has
- * come, of these; in space, where no front is led, of the bonds that have broken, each by its share of the area that it
- * crosses; and the release rate over the last two growths. Of damaged particles, whose lengths come in steps of a
- * spacing, a growth is some spacings. A load step without growth changes no rate. */
+/* Updates the crack area, the energy released and the release rate over the last two growths. The crack area is that of
+ * the path of SIF-driven tips, unless damaged particles indicate more than another spacing of growth; else that of the
+ * damaged particles, or in space without SIF-driven tips that of the broken bonds. A length by damaged particles
+ * changes in steps of one spacing, so its growth counts only after several spacings. A load step without growth leaves
+ * the rate unchanged. */
 static void measure(struct run *e)
 {
     const struct statics *s = e->statics;
     struct steps_record *r = &e->statics->record;
     const struct tip_surroundings around = {e->source.mirror, e->source.mirrors, scene_section(e->scene),
                                             0.5 * damage_beside_cut(e->scene)};
-    const real led = led_paths_area(&s->led, &e->part),
+    const real path = sif_paths_area(&s->sif, &e->part),
                spacing = growth_by_spacing(&e->fracture->tips, scene_section(e->scene));
-    const bool solid = e->part.dim == 3 && led == 0;
+    const bool solid = e->part.dim == 3 && path == 0;
     const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
-    const bool by_paths = led > 0 && damaged <= led + 1.5 * spacing;
-    const real area = by_paths ? led : damaged, growth = by_paths || solid ? 0 : GROWTH * spacing;
+    const bool by_path = path > 0 && damaged <= path + 1.5 * spacing;
+    const real area = by_path ? path : damaged, growth = by_path || solid ? 0 : GROWTH * spacing;
     r->released = statics_released(s, &e->bonds);
     if (!(area > r->area)) return;
     r->area = area;
@@ -93,7 +98,7 @@ void statics_record(struct run *e, real *record)
     measure(e);
     const real rate = s->record.area > 0 ? s->record.rate : NAN, bonds = 0.5 * (real)e->diagnostics->bonds_broken;
     const real own[STATICS_COLUMNS - MODES - DIM_MAX] = {s->t,
-                                                         s->overload,
+                                                         s->stretch_ratio,
                                                          s->record.released,
                                                          s->record.area,
                                                          rate,
@@ -101,8 +106,8 @@ void statics_record(struct run *e, real *record)
                                                          (real)(s->balance.directions - s->record.directions),
                                                          (real)(s->solutions - s->record.solutions)};
     memcpy(record, own, sizeof own);
-    led_factors(&s->led, &e->part, statics_faces_closed(e->contact), record + COUNT_OF(own));
-    led_place(&s->led, place);
+    sif_leading_factors(&s->sif, &e->part, statics_faces_closed(e->contact), record + COUNT_OF(own));
+    sif_leading_position(&s->sif, place);
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 

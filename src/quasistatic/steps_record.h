@@ -6,13 +6,13 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Describes the columns (column NULL: none is stored). Returns their number. */
+/* Stores names and units of the columns in column[] (not if `column` is NULL). Returns the number of columns. */
 int statics_columns(const struct run *e, struct column *column);
 
-/* Stores the values of the columns after a load step. */
+/* Stores the values of the columns in record[] after a load step. */
 void statics_record(struct run *e, real *record);
 
-/* Sets the counters from which the next record counts. */
+/* Stores the present counters of the solver (search directions, equilibria), from which the next record counts. */
 void statics_record_keep(struct statics *s);
 
 #endif

@@ -1,4 +1,4 @@
-/* Load steps: the system of equations: unknowns, the forces on them, what contact does between solutions, and the
+/* The system of equations of load steps: its unknowns, the forces on them, contact between solutions, and the
  * preconditioner. */
 #include "system.h"
 #include "pieces.h"
@@ -19,7 +19,7 @@ status plastic_archive(struct bonds *b, struct particles *p, int optional, struc
     return particles_archive(p, optional, a);
 }
 
-void statics_plastic_keep(struct run *e)
+void plastic_state_save(struct run *e)
 {
     struct memory_archive *m = &e->statics->plastic;
     memory_archive_free(m);
@@ -28,7 +28,7 @@ void statics_plastic_keep(struct run *e)
     INVARIANT(kept == OK);
 }
 
-void statics_plastic_restore(struct run *e)
+void plastic_state_restore(struct run *e)
 {
     struct memory_archive *m = &e->statics->plastic;
     if (m->n == 0) return;
@@ -39,8 +39,8 @@ void statics_plastic_restore(struct run *e)
 
 /* ---- forces ------------------------------------------------------------------------------------------------------ */
 
-/* Forces of nodes beyond planes of symmetry belong to their images. */
-static void mirror_nodes_give(struct mesh *mesh)
+/* Adds the forces of mirror nodes to those of their images. */
+static void mirror_forces_add(struct mesh *mesh)
 {
     for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) {
         const struct mirror_node *m = &mesh->grid.mirror_node[k];
@@ -49,6 +49,7 @@ static void mirror_nodes_give(struct mesh *mesh)
     }
 }
 
+/* Adds the applied forces to the forces of the loaded particles. */
 static void applied_add(const struct statics *s, const struct loads *loads, struct particles *p)
 {
     for (int b = 0; b < loads->n && s->applied[0]; b++) {
@@ -59,8 +60,9 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
     }
 }
 
-/* The forces of a step (step.c) without motion: of bonds, contact, loads and cells. */
-static void forces_here(struct run *e)
+/* Computes the forces on particles and mesh nodes at their present positions: of bonds, contact, loads and cells, as in
+ * a time step (step.c) without motion. */
+static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
     if (has_mesh) {
@@ -69,37 +71,38 @@ static void forces_here(struct run *e)
     }
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
-    statics_plastic_restore(e); /* whatever has been tried since the last equilibrium */
+    plastic_state_restore(e); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
-    if (has_mesh) frame_force(e->frame, &e->part, e->clock.step), mirror_nodes_give(&e->frame->mesh);
+    if (has_mesh) frame_force(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
+/* Computes the forces f at the displacements u (`force` of solver/equilibrium.h). context: a struct run. */
 static void statics_forces(void *context, const struct field *u, struct field *f)
 {
     struct run *e = context;
     const struct statics *s = e->statics;
     unknowns_move(s, &e->part, &e->frame->mesh, u);
-    forces_here(e);
+    forces_present(e);
     for (int d = 0; d < e->part.dim; d++) {
         const real *part = e->part.f[d], *node = e->frame->mesh.grid.force[d];
 #pragma omp parallel for schedule(static)
         for (int64_t k = 0; k < s->balance.n; k++)
             f->of[d][k] = k < s->particles ? s->weight[k] * part[s->node[k]] : node[s->node[k]];
     }
-    statics_pieces_hold(s, f);
+    unconstrained_project(s, f);
 }
 
-void statics_flow(struct run *e)
+void plastic_update(struct run *e)
 {
     unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    if (e->statics->plastic.n > 0) forces_here(e);
+    if (e->statics->plastic.n > 0) forces_present(e);
 }
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Stiffness of the body at unit strain: sum E V [J]. */
+/* Returns the strain energy scale of the body at unit strain: sum E V [J]. */
 static real energy_at_unit_strain(const struct particles *p, const struct material *material)
 {
     real sum = 0;
@@ -110,11 +113,11 @@ static real energy_at_unit_strain(const struct particles *p, const struct materi
 void statics_unknowns_make(struct run *e)
 {
     struct statics *s = e->statics;
-    const struct equilibrium kept = s->balance; /* its accounts go on */
+    const struct equilibrium kept = s->balance; /* its counters and losses are kept */
     s->balance = (struct equilibrium){.force = statics_forces,
                                       .precondition = statics_precondition,
-                                      .settle = statics_touch_settle,
-                                      .laws = statics_touch_laws,
+                                      .settle = statics_contact_settle,
+                                      .laws = statics_contact_laws,
                                       .context = e,
                                       .tolerance = e->scene->solver_tolerance,
                                       .length = e->scene->spacing,
@@ -124,16 +127,16 @@ void statics_unknowns_make(struct run *e)
                                       .directions = kept.directions,
                                       .lost = kept.lost,
                                       .largest = kept.largest};
-    s->meets = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
+    s->has_contact = e->contact->law.between != CONTACT_NONE || e->scene->rigids > 0;
     unknowns_list(s, &e->part, &e->frame->mesh, &e->loads);
-    statics_pieces_make(e);
-    statics_plastic_keep(e);
+    unconstrained_find(e);
+    plastic_state_save(e);
 }
 
 void statics_unknowns_free(struct statics *s)
 {
     const struct equilibrium kept = s->balance;
-    statics_pieces_free(s);
+    unconstrained_free(s);
     unknowns_unlist(s);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
     s->balance.largest = kept.largest;

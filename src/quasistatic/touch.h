@@ -1,4 +1,4 @@
-/* Contact and rigid bodies in equilibria. */
+/* Contact and rigid bodies in equilibrium states. */
 #ifndef CLEAVE_TOUCH
 #define CLEAVE_TOUCH
 
@@ -8,32 +8,35 @@
 struct contact;
 struct rigid_set;
 
-/* Returns true if faces of cracks can be in contact, and something is. */
+/* Returns true if contact acts between the faces of cracks and anything is in contact. */
 bool statics_faces_closed(const struct contact *c);
 
-/* Returns true if anything was in contact at the beginning of the solution, or is now. */
-bool statics_touched(const struct statics *s, const struct contact *c);
+/* Returns true if anything was in contact before the present solution, or is now. */
+bool statics_in_contact(const struct statics *s, const struct contact *c);
 
-/* Searches for contact before the first solution. */
-void statics_touch_start(struct run *e);
+/* Searches for contact pairs before the first solution. Does nothing without contact and rigid bodies. */
+void statics_contact_start(struct run *e);
 
-/* Returns the number of solutions into which the increment to pseudo-time t [s] is divided, so that no rigid body moves
- * too far in one. */
-int statics_strides(const struct scene *s, const struct rigid_set *rigid, real t);
+/* Returns the number of substeps into which the load increment to pseudo-time t [s] is divided, so that no rigid body
+ * moves by more than 0.2 spacings in a substep. */
+int statics_substeps(const struct scene *s, const struct rigid_set *rigid, real t);
 
-/* Before a solution: moves rigid bodies to pseudo-time t [s] and marks what is in contact there. */
-void statics_touch_begin(struct run *e, real t);
+/* Prepares a solution: moves rigid bodies to pseudo-time t [s], finds what is in contact there, and computes the stored
+ * energy. */
+void statics_contact_begin(struct run *e, real t);
 
-/* Updates the marks of contact at an equilibrium; returns true if none has changed (`settle` of
- * solver/equilibrium.h). `engine`: struct run. */
-bool statics_touch_settle(void *engine);
+/* Updates the set of active contacts at an equilibrium. Returns true if the set has not changed (`settle` of
+ * solver/equilibrium.h). engine: a struct run. */
+bool statics_contact_settle(void *engine);
 
-/* Selects the law by marks, or by overlaps (`laws` of solver/equilibrium.h). `engine`: struct run. */
-void statics_touch_laws(void *engine, bool settled);
+/* Selects whether contact forces act on the fixed set of active contacts (settled) or on all that overlap (`laws` of
+ * solver/equilibrium.h). engine: a struct run. */
+void statics_contact_laws(void *engine, bool settled);
 
-/* After a solution: books the work of rigid bodies and, if anything was in contact, the energy that the solution has
- * lost. work: of loads and supports in the solution [J]; lost: the sum of losses before it [J]. Returns how far the
- * work of rigid bodies is from that by the force of one end alone [J]. */
-real statics_touch_end(struct run *e, real work, real lost);
+/* Completes a solution: adds the work of rigid bodies to their accounts and, if anything is or was in contact, computes
+ * the energy that the solution has lost. work: of loads and supports in the solution [J]. lost: losses of the solver
+ * before the solution [J]. Returns the uncertainty of the work of the rigid bodies: the difference between the work
+ * with the mean of the initial and final force and the work with one of these forces [J]. */
+real statics_contact_end(struct run *e, real work, real lost);
 
 #endif

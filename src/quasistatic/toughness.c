@@ -1,4 +1,4 @@
-/* What a crack takes per area: energy of the bonds across it at their limits, or G_c as given. */
+/* Crack energy per area: of the bonds that cross a crack at their critical stretch, or G_c as given. */
 #include <math.h>
 
 #include "toughness.h"
@@ -9,8 +9,6 @@ real stretch_work(real elastic, real yield, real hardening)
     return 0.5 * square(elastic - beyond) + (beyond > 0 ? beyond * (yield + 0.5 * slope * beyond) : 0);
 }
 
-/* Energy per area that the bonds across a plane of the lattice take to their limits; of state-based models, whose bonds
- * have no energy of their own, G_c as given [J/m^2]. */
 real toughness_of(const struct family *family, enum model model, const struct material *m)
 {
     const bool given = model != MODEL_BOND && !isnan(m->energy_release_rate);
@@ -21,8 +19,8 @@ real toughness_of(const struct family *family, enum model model, const struct ma
     return elastic * taken / (0.5 * square(limit));
 }
 
-/* Of bonds between materials a and b: of an interface as given, in state-based models of the weaker material; of bonds
- * with energies of their own, these at their limit. */
+/* Returns the crack energy per area between materials a and b [J/m^2]: of an interface as given; else of the weaker
+ * material, but for elastic bonds with energies of their own the energy at their critical stretch. */
 static real toughness_of_pair(const struct scene *s, const struct bond_source *source, int a, int b)
 {
     const struct family *family = &source->family;

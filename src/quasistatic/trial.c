@@ -1,4 +1,4 @@
-/* Load steps: trial equilibria, and the way back from them. */
+/* Trial equilibria of load steps, and the restoration of the previous state. */
 #include "trial.h"
 #include "overload.h"
 #include "system.h"
@@ -9,7 +9,7 @@
 #include "quasistatic/load_steps.h"
 #include "rigid/rigid_part.h"
 
-/* What a trial changes. */
+/* Saves or restores all data that a trial changes, except the positions of images and mesh points, which follow. */
 static status trial_archive(struct run *e, struct archive *a)
 {
     for (int k = 0; k < e->scene->rigids; k++) TRY(rigid_archive(&e->rigid->body[k], k, a));
@@ -23,7 +23,7 @@ static status trial_archive(struct run *e, struct archive *a)
 
 void trial_begin(struct run *e, struct memory_archive *m)
 {
-    statics_plastic_keep(e);
+    plastic_state_save(e);
     memory_archive_make(m, ARCHIVE_TRIAL);
     const status saved = trial_archive(e, &m->archive);
     INVARIANT(saved == OK);
@@ -31,14 +31,14 @@ void trial_begin(struct run *e, struct memory_archive *m)
 
 void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
 {
-    if (broken) statics_mend(e->statics, &e->bonds, &e->part, broken);
+    if (broken) bonds_mend(e->statics, &e->bonds, &e->part, broken);
     memory_archive_rewind(m);
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
-    statics_plastic_keep(e); /* as the start of the next solutions: a trial within may have kept its own */
+    plastic_state_save(e); /* a nested trial may have saved a different one */
     unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
     frame_sync(e->frame, &e->part, &e->loads);
-    loads_mirror(&e->loads, &e->part); /* bonds to images break by where these are */
+    loads_mirror(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
     reactions_store(e->statics, &e->part, &e->loads);
 }

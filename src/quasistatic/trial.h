@@ -1,4 +1,4 @@
-/* Trial equilibria: bonds break or loads change, and then all is as before. */
+/* Trial equilibria: bonds break or loads change, then the previous state is restored. */
 #ifndef CLEAVE_TRIAL
 #define CLEAVE_TRIAL
 
@@ -6,12 +6,12 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Saves the present equilibrium in m, and the plastic state as the start of solutions. A trial that is kept ends with
- * memory_archive_free. */
+/* Saves the present equilibrium in *m, and the plastic state as the start of the next solutions. End the trial with
+ * trial_undo, or keep its result and call memory_archive_free. */
 void trial_begin(struct run *e, struct memory_archive *m);
 
-/* Restores the equilibrium saved in m, the plastic state saved last, and the bonds of the list `broken` (NULL: none);
- * frees m. The unknowns must be those of trial_begin. */
+/* Restores the equilibrium saved in *m, the plastic state saved last, and the bonds of the list `broken` (NULL: none);
+ * frees *m. The system of equations must have the same unknowns as at trial_begin. */
 void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken);
 
 #endif

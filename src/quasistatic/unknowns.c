@@ -1,4 +1,4 @@
-/* Load steps: the unknowns of a body, and what loads and supports do to them. */
+/* The unknowns of load steps, and the effect of loads and supports on them. */
 #include <math.h>
 #include <string.h>
 
@@ -9,17 +9,20 @@
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-static bool node_moves(const struct mesh *mesh, int64_t I) { return mesh->points > 0 && mesh->grid.mass[I] > 0; }
+/* Returns true if there is a mesh whose node I has mass. */
+static bool node_has_mass(const struct mesh *mesh, int64_t I) { return mesh->points > 0 && mesh->grid.mass[I] > 0; }
 
-/* Nodes beyond planes of symmetry follow their images: they are no unknowns. */
-static uint8_t *nodes_that_follow(const struct mesh *mesh)
+/* Returns flags [mesh->grid.n] that are 1 for mirror nodes, which follow their images and are no unknowns. The caller
+ * frees them. */
+static uint8_t *mirror_node_flags(const struct mesh *mesh)
 {
     uint8_t *follows = NEW("statics.follows", mesh->grid.n, uint8_t);
     for (int64_t k = 0; k < mesh->grid.mirror_nodes; k++) follows[mesh->grid.mirror_node[k].node] = 1;
     return follows;
 }
 
-/* Counts the unknowns, or lists them where there is room. */
+/* Lists the unknowns: peridynamic particles, then mesh nodes. Stores the number of the particles in *particles. node:
+ * receives the indices, or NULL if they are only to be counted. Returns the number of unknowns. */
 static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, int32_t *node, int64_t *particles)
 {
     int64_t n = 0;
@@ -27,9 +30,9 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
         if (node) node[n] = p->list[KIND_PD][k];
     *particles = n;
     if (mesh->points == 0) return n;
-    uint8_t *follows = nodes_that_follow(mesh);
+    uint8_t *follows = mirror_node_flags(mesh);
     for (int64_t I = 0; I < mesh->grid.n; I++)
-        if (node_moves(mesh, I) && !follows[I]) {
+        if (node_has_mass(mesh, I) && !follows[I]) {
             if (node) node[n] = (int32_t)I;
             n++;
         }
@@ -37,14 +40,15 @@ static int64_t nodes_list(const struct particles *p, const struct mesh *mesh, in
     return n;
 }
 
-static void statics_hold(struct statics *s, int64_t k, int d, int load)
+/* Marks component d of node k as prescribed by boundary `load` (-1: by a mirror). */
+static void component_hold(struct statics *s, int64_t k, int d, int load)
 {
     s->balance.held[k] |= (uint8_t)(1 << d);
     s->load[k * DIM_MAX + d] = (int16_t)load;
 }
 
-/* Particles on planes of symmetry: no force takes them off the plane, and half of each belongs to the body. */
-static void particles_on_mirrors(struct statics *s, const struct particles *p, const struct loads *loads)
+/* Marks the particles on planes of symmetry: their normal displacement is 0, and half of each belongs to the body. */
+static void mirror_particles_mark(struct statics *s, const struct particles *p, const struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
         const struct boundary *m = loads->load[b].boundary;
@@ -54,13 +58,14 @@ static void particles_on_mirrors(struct statics *s, const struct particles *p, c
             if (m->body >= 0 && p->body[i] != m->body) continue;
             s->weight[k] *= 0.5;
             for (int d = 0; d < p->dim; d++)
-                if (d == m->axis || m->hold_tangential) statics_hold(s, k, d, -1);
+                if (d == m->axis || m->hold_tangential) component_hold(s, k, d, -1);
         }
     }
 }
 
-/* Components that supports hold, of particles and of nodes; of two that overlap the later one holds. */
-static void supports_hold(struct statics *s, const struct loads *loads, const struct mesh *mesh,
+/* Marks the components of particles and mesh nodes that supports prescribe; where two supports overlap, the later one
+ * prescribes. particle_at, node_of_mesh: unknown of each particle and mesh node, -1: none. */
+static void supports_mark(struct statics *s, const struct loads *loads, const struct mesh *mesh,
                           const int32_t *particle_at, const int32_t *node_of_mesh)
 {
     const struct constrained_set *walls = &loads->constrained_mesh;
@@ -69,17 +74,17 @@ static void supports_hold(struct statics *s, const struct loads *loads, const st
         for (int64_t q = 0; load->boundary->kind == BOUNDARY_VELOCITY && q < load->n; q++)
             for (int d = 0; d < s->balance.dim; d++)
                 if (particle_at[load->particle[q]] >= 0 && load->boundary->components >> d & 1)
-                    statics_hold(s, particle_at[load->particle[q]], d, b);
+                    component_hold(s, particle_at[load->particle[q]], d, b);
     }
     for (int64_t q = 0; mesh->points > 0 && q < walls->n; q++) {
         const struct held *h = &walls->held[q];
         const bool drives = loads->load[h->load].boundary->kind == BOUNDARY_VELOCITY;
-        if (node_of_mesh[h->node] >= 0) statics_hold(s, node_of_mesh[h->node], h->component, drives ? h->load : -1);
+        if (node_of_mesh[h->node] >= 0) component_hold(s, node_of_mesh[h->node], h->component, drives ? h->load : -1);
     }
 }
 
-/* Displacements where particles and nodes are now. */
-static void displacements_take(struct statics *s, const struct particles *p, const struct mesh *mesh)
+/* Stores the present displacements of the nodes in the balance. */
+static void displacements_read(struct statics *s, const struct particles *p, const struct mesh *mesh)
 {
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < s->balance.n; k++)
@@ -97,7 +102,7 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
     s->load = NEW("statics.load", n * DIM_MAX, int16_t);
     nodes_list(p, mesh, s->node, &s->particles);
     equilibrium_make(&s->balance, p->dim, n);
-    for (int d = 0; d < p->dim; d++) s->way.of[d] = NEW("statics.way", n, real);
+    for (int d = 0; d < p->dim; d++) s->increment.of[d] = NEW("statics.increment", n, real);
     array_fill_bytes(particle_at, -1, p->n, sizeof *particle_at);
     array_fill_bytes(node_at, -1, places, sizeof *node_at);
     for (int64_t k = 0; k < n; k++) {
@@ -105,9 +110,9 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
         s->weight[k] = 1;
         for (int d = 0; d < DIM_MAX; d++) s->load[k * DIM_MAX + d] = -1;
     }
-    particles_on_mirrors(s, p, loads);
-    supports_hold(s, loads, mesh, particle_at, node_at);
-    displacements_take(s, p, mesh);
+    mirror_particles_mark(s, p, loads);
+    supports_mark(s, loads, mesh, particle_at, node_at);
+    displacements_read(s, p, mesh);
     memory_free(particle_at);
     memory_free(node_at);
 }
@@ -118,12 +123,12 @@ void unknowns_unlist(struct statics *s)
     memory_free(s->node);
     memory_free(s->weight);
     memory_free(s->load);
-    for (int d = 0; d < DIM_MAX; d++) memory_free(s->way.of[d]);
+    for (int d = 0; d < DIM_MAX; d++) memory_free(s->increment.of[d]);
     s->node = NULL, s->weight = NULL, s->load = NULL;
-    s->way = (struct field){{0}};
+    s->increment = (struct field){{0}};
 }
 
-/* ---- where nodes are --------------------------------------------------------------------------------------------- */
+/* ---- positions --------------------------------------------------------------------------------------------------- */
 
 void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X)
 {

@@ -1,4 +1,5 @@
-/* The unknowns of load steps (struct statics): peridynamic particles, then nodes of the mesh that move. */
+/* The unknowns of load steps (struct statics): displacements of the peridynamic particles, then of the mesh nodes that
+ * have mass. */
 #ifndef CLEAVE_UNKNOWNS
 #define CLEAVE_UNKNOWNS
 
@@ -8,21 +9,22 @@
 
 struct contact;
 
-/* Lists the unknowns with their weights, the boundaries that hold components of them, and their present displacements.
- * Allocates the fields of the balance, whose `length` is set. Release with unknowns_unlist. */
+/* Lists the unknowns with their weights, the boundaries that prescribe their components, and their present
+ * displacements; allocates the fields of the balance, whose member `length` the caller has set. Release with
+ * unknowns_unlist. */
 void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads);
 
-/* Frees what unknowns_list has allocated. */
+/* Frees the lists and fields that unknowns_list has allocated. */
 void unknowns_unlist(struct statics *s);
 
 /* Stores the reference position of unknown k in X [m]. */
 void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X);
 
-/* Moves particles, nodes and the mirror images of nodes to the displacements u [unknowns, m]. */
+/* Moves particles, nodes and the mirror images of nodes to the displacements u[unknowns] [m]. */
 void unknowns_move(const struct statics *s, struct particles *p, struct mesh *mesh, const struct field *u);
 
-/* Stores the signs by which the components of an image's motion follow those of its source particle (image_root); +1
- * for a particle that is no image. */
+/* Stores the signs with which the displacement components of image i follow those of its source particle (image_root);
+ * +1 for a particle of the body. */
 void image_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX]);
 
 /* Stores the applied forces at pseudo-time t [s] in `applied` [dim][particles of the body, N]. */

@@ -22,14 +22,14 @@ struct solution {
 };
 
 /* Creates the run of a scene and finds its only crack tip. */
-static const struct led_tip *solution_begin(struct solution *a, const char *text)
+static const struct sif_crack_tip *solution_begin(struct solution *a, const char *text)
 {
     memset(a, 0, sizeof *a);
     if (scene_read_text(&a->s, text, strlen(text), "test.yaml", NULL, 0) != OK) fail_msg("%s", status_message());
     if (engine_make(&a->e, &a->s, NULL) != OK) fail_msg("%s", status_message());
-    assert_true(led_leads(&a->e));
-    assert_int_equal(a->e.statics->led.n, 1);
-    return &a->e.statics->led.tip[0];
+    assert_true(sif_cracks_start(&a->e));
+    assert_int_equal(a->e.statics->sif.n, 1);
+    return &a->e.statics->sif.tip[0];
 }
 
 static void solution_free(struct solution *a)
@@ -40,7 +40,7 @@ static void solution_free(struct solution *a)
 
 /* Sets the displacements of all particles to the crack-tip field with factors K [Pa m^(1/2)] around the tip, for the
  * plane state `space`. */
-static void field_set(struct run *e, const struct led_tip *tip, enum space space, const real K[MODES])
+static void field_set(struct run *e, const struct sif_crack_tip *tip, enum space space, const real K[MODES])
 {
     struct particles *p = &e->part;
     struct material m = e->scene->material[0];
@@ -49,8 +49,8 @@ static void field_set(struct run *e, const struct led_tip *tip, enum space space
     const real *a = tip->along;
     for (int64_t i = 0; i < p->n; i++) {
         real X[2], u[2] = {0, 0};
-        led_project_particle(&e->statics->led.plane, &e->part, i, X);
-        for (int d = 0; d < 2; d++) X[d] -= tip->place[d];
+        sif_plane_project_particle(&e->statics->sif.plane, &e->part, i, X);
+        for (int d = 0; d < 2; d++) X[d] -= tip->position[d];
         for (int mode = 0; mode < MODES; mode++) {
             struct crack_field f;
             crack_field_at_rest(&medium, mode, (real[]){a[0] * X[0] + a[1] * X[1], a[0] * X[1] - a[1] * X[0]}, &f);
@@ -58,7 +58,7 @@ static void field_set(struct run *e, const struct led_tip *tip, enum space space
             u[1] += K[mode] * (a[1] * f.displacement[0] + a[0] * f.displacement[1]);
         }
         for (int d = 0; d < 3; d++)
-            p->x[d][i] = p->X[d][i] + u[0] * e->statics->led.plane.axis[0][d] + u[1] * e->statics->led.plane.axis[1][d];
+            p->x[d][i] = p->X[d][i] + u[0] * e->statics->sif.plane.axis[0][d] + u[1] * e->statics->sif.plane.axis[1][d];
     }
 }
 
@@ -83,9 +83,9 @@ static void test_plane_state(void **state)
                  "boundary:\n  - {displacement: [0, 0.1 mm, 0], face: y+, time: {ramp: {until: 1 s}}}\n"
                  "  - {fixed: all, face: y-}\n",
                  thickness[k], thickness[k] + 1, thickness[k] + 1);
-        const struct led_tip *tip = solution_begin(&a, text);
+        const struct sif_crack_tip *tip = solution_begin(&a, text);
         field_set(&a.e, tip, k == 0 ? SPACE_PLANE_STRESS : SPACE_PLANE_STRAIN, K);
-        assert_true(led_measure(&a.e.statics->led, &a.e.part, tip, false, found));
+        assert_true(sif_tip_measure(&a.e.statics->sif, &a.e.part, tip, false, found));
         for (int mode = 0; mode < MODES; mode++) /* round-off, and equations of nine terms */
             if (!(fabs(found[mode] / K[mode] - 1) < 1e-4)) fail_msg("%d mm: K %g", thickness[k], found[mode]);
         solution_free(&a);
@@ -109,9 +109,9 @@ static void test_face_area(void **state)
         struct solution a;
         real ahead[2];
         snprintf(text, sizeof text, half, k ? 4.0 : 0.0, k ? 4.0 : 0.0);
-        const struct led_tip *tip = solution_begin(&a, text);
-        led_ahead(tip->place, 2.3e-3, tip->last, ahead);
-        const real area = led_face_area(&a.e.statics->led.plane, &a.e.part, tip->place, ahead),
+        const struct sif_crack_tip *tip = solution_begin(&a, text);
+        sif_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead),
                    whole = 2.3e-3 * 0.37e-3;
         if (!(fabs(area / (k ? whole : 0.5 * whole) - 1) < 1e-9)) fail_msg("crack %d: %g of its area", k, area / whole);
         solution_free(&a);
@@ -137,9 +137,9 @@ static void test_width(void **state)
         real ahead[2];
         const real from = k ? 0 : -0.5, wide = k ? 4e-3 : 3.5e-3;
         snprintf(text, sizeof text, block, from, from + 4);
-        const struct led_tip *tip = solution_begin(&a, text);
-        led_ahead(tip->place, 2.3e-3, tip->last, ahead);
-        const real area = led_face_area(&a.e.statics->led.plane, &a.e.part, tip->place, ahead);
+        const struct sif_crack_tip *tip = solution_begin(&a, text);
+        sif_point_ahead(tip->position, 2.3e-3, tip->last, ahead);
+        const real area = sif_plane_crack_area(&a.e.statics->sif.plane, &a.e.part, tip->position, ahead);
         if (!(fabs(area / (2.3e-3 * wide) - 1) < 1e-9)) fail_msg("from %g mm: %g m wide", from, area / 2.3e-3);
         solution_free(&a);
     }
@@ -161,11 +161,11 @@ static void test_release_rate(void **state)
     (void)state;
     struct solution a;
     solution_begin(&a, plate);
-    struct led *led = &a.e.statics->led;
-    led->path = NEW("test.path", 3, struct led_stretch);
+    struct sif_cracks *led = &a.e.statics->sif;
+    led->path = NEW("test.path", 3, struct path_segment);
     for (int k = 0; k < 4; k++) {
         real record[20];
-        if (k > 0) led->path[led->stretches++] = (struct led_stretch){{{grown[k - 1]}, {grown[k]}}, 0};
+        if (k > 0) led->path[led->segments++] = (struct path_segment){{{grown[k - 1]}, {grown[k]}}, 0};
         a.e.statics->balance.lost = released[k];
         statics_record(&a.e, record);
         assert_true(fabs(record[2] - released[k]) <= 1e-12 * released[k]);

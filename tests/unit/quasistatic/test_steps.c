@@ -183,8 +183,8 @@ static void test_motions(void **state)
         solution_make(&a, body[k].scene, STATIC, body[k].method, body[k].frame, NULL);
         solution_done(&a);
         statics_unknowns_make(&a.e);
-        assert_int_equal(a.e.statics->pieces, body[k].pieces);
-        if (body[k].pieces > 0) assert_int_equal(a.e.statics->piece[0].motions, body[k].motions);
+        assert_int_equal(a.e.statics->fragments, body[k].pieces);
+        if (body[k].pieces > 0) assert_int_equal(a.e.statics->fragment[0].motions, body[k].motions);
         statics_free(a.e.statics);
         solution_free(&a);
     }
@@ -221,7 +221,7 @@ static void trace_take(struct trace *t, const struct run *e)
                            e->statics->balance.lost,
                            e->damped,
                            e->loads.load[0].reaction[1],
-                           e->statics->overload};
+                           e->statics->stretch_ratio};
     *t = (struct trace){0};
     trace_add(t, energy, sizeof energy);
     trace_add(t, b->broken_volume, (size_t)b->rows * sizeof *b->broken_volume);
@@ -248,13 +248,13 @@ static void test_trial(void **state)
         solution_make(&a, YIELDS, variant[k][0], variant[k][1], k == 3 ? "steps.path=bonds" : "name=same", NULL);
         solution_done(&a);
         statics_unknowns_make(&a.e);
-        assert_int_equal(statics_go(&a.e, 0.25), OK);
-        assert_int_equal(statics_go(&a.e, 0.9), OK);
-        assert_int_equal(statics_convert(&a.e, 0), OK);
+        assert_int_equal(equilibrium_at(&a.e, 0.25), OK);
+        assert_int_equal(equilibrium_at(&a.e, 0.9), OK);
+        assert_int_equal(equilibrium_convert(&a.e, 0), OK);
         if (k == 0) assert_true(bond_plastic_work(&a.e.bonds) > 0);
         trace_take(&before, &a.e);
-        assert_int_equal(statics_look_ahead(&a.e), OK);
-        assert_true(a.e.statics->next.n > 0 || a.e.statics->led.n > 0);
+        assert_int_equal(crack_increment_find(&a.e), OK);
+        assert_true(a.e.statics->next.n > 0 || a.e.statics->sif.n > 0);
         trace_take(&after, &a.e);
         assert_int_equal(before.size, after.size);
         assert_memory_equal(before.data, after.data, before.size);
@@ -286,13 +286,13 @@ static void test_let_go(void **state)
     solution_done(&a);
     struct particles *p = &a.e.part;
     statics_unknowns_make(&a.e);
-    assert_int_equal(statics_go(&a.e, 0.6), OK);
+    assert_int_equal(equilibrium_at(&a.e, 0.6), OK);
     const real rests = contact_energy(a.e.contact, p), lost = a.e.statics->balance.lost, damped = a.e.damped;
     for (int64_t i = 0; i < p->n; i++)
         if (p->X[1][i] > 4e-3) p->x[1][i] -= push;
     const real pushed = contact_energy(a.e.contact, p);
     assert_true(rests > 0 && pushed > 100 * rests);
-    assert_int_equal(statics_release(&a.e), OK);
+    assert_int_equal(crack_increment_make_dynamic(&a.e), OK);
     /* The tolerance of equilibria is 1e-5. */
     near_to("contact", contact_energy(a.e.contact, p), rests, 1e-4);
     near_to("lost", a.e.statics->balance.lost - lost, pushed - rests - force * push, 1e-5);
