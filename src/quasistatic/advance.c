@@ -176,8 +176,9 @@ static status increment_find_at_due(struct run *e)
     return found == OK ? equilibrium_at(e, from) : found;
 }
 
-/* The energy release is proportional to the square of the load size only if the strain is proportional to it: not if
- * supports or rigid bodies move some distance before contact, or crack faces close. */
+/* Evaluates the increment again at the load at which it is due if anything is in contact: the energy release is then
+ * not proportional to the square of the load size, as supports or rigid bodies move some distance before contact, or
+ * crack faces close. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e));

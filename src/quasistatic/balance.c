@@ -82,6 +82,7 @@ struct account {
     real *applied[DIM_MAX]; /* [particles of the body] applied forces [N] */
 };
 
+/* Copies the present displacements and forces into *a. account_end frees the storage. */
 static void account_start(struct account *a, const struct statics *s, const struct particles *part)
 {
     for (int d = 0; d < part->dim; d++) {
@@ -236,7 +237,7 @@ static status solve_whole(struct run *e, real t)
                       (long long)e->clock.step + 1, t);
 }
 
-/* An interrupted step leaves the checkpoint of the previous step valid. */
+/* Checks for an interruption before the solution, so that the checkpoint of the previous load step stays valid. */
 status equilibrium_at(struct run *e, real t)
 {
     if (e->report->stop && *e->report->stop)

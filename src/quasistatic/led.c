@@ -67,6 +67,7 @@ static struct crack *crack_segments(const struct sif_cracks *l, int *n)
     return crack;
 }
 
+/* Frees a list of crack_segments. n: number of segments. */
 static void crack_segments_free(struct crack *crack, int n)
 {
     memory_free(crack[n].corner);

@@ -100,7 +100,7 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* The direction of the segment is such that its normal lies on the side of the normal of the polygon. */
+/* Orients the segment such that its normal lies on the side of the normal of the polygon. */
 bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;

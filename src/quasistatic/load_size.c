@@ -15,7 +15,7 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* The load size is that of the applied forces if supports and rigid bodies do not move. */
+/* Returns the norm of the applied forces only if supports and rigid bodies do not move. */
 real statics_load_size(const struct run *e, real t)
 {
     real sum = 0, forces = 0;

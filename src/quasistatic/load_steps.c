@@ -106,7 +106,8 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
     return crack_increment_find(e);
 }
 
-/* Increases the pseudo-time to t [s] and makes all crack increments that are due until then. Loads never decrease. */
+/* Increases the pseudo-time to t [s] and makes all crack increments that are due until then. The pseudo-time never
+ * decreases. */
 static status step_by_load(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -222,6 +223,7 @@ static void load_step_begin(struct run *e)
     s->directions = 0;
 }
 
+/* Makes the next load step under the control of the scene. */
 static status load_step(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -328,6 +330,7 @@ static void warn_missed_bodies(struct warnings *to, const struct rigid_body *bod
     }
 }
 
+/* Adds the warnings about the final state of the run. */
 static void warn_at_end(struct run *e)
 {
     real K[MODES];

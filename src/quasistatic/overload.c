@@ -160,8 +160,8 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* State-based bonds have no energy of their own. Their cost follows from the energy lost as they break: in a linear
- * body that is the energy at the critical stretch times the square of the stretch ratio. */
+/* Computes the cost of state-based bonds, which have no energy of their own, from the energy lost as they break: in
+ * a linear body the energy at the critical stretch times the square of the stretch ratio. */
 int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -188,8 +188,8 @@ int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real 
     return l->n - had;
 }
 
-/* All bonds break at once, though the last ones reach their critical stretch only after the first have broken; the cost
- * of each is therefore the stored one (`held`), not its present energy. */
+/* Breaks all bonds at once, although the last ones reach their critical stretch only after the first have broken.
+ * The cost of each bond is therefore the stored one (`held`), not its present energy. */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

@@ -68,8 +68,9 @@ static void cells_join(const struct search *s)
     }
 }
 
-/* Returns the unknown of particle i, for a point of the mesh that of a corner of its cell; -1 if there is none. */
-static int32_t number_of(const struct search *s, int64_t i)
+/* Returns the unknown of particle i, or for a point of the mesh the unknown of a corner of its cell; -1 if there is
+ * none. */
+static int32_t unknown_of(const struct search *s, int64_t i)
 {
     const struct mesh *mesh = s->mesh;
     const int dim = s->part->dim;
@@ -85,16 +86,16 @@ static int32_t number_of(const struct search *s, int64_t i)
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {
-        const int32_t a = number_of(s, bonds->particle[r]);
+        const int32_t a = unknown_of(s, bonds->particle[r]);
         for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it);) {
             if (it.bond.w == 0 || it.bond.nbr >= s->part->n || it.bond.nbr < bonds->particle[r]) continue;
-            const int32_t b = number_of(s, it.bond.nbr);
+            const int32_t b = unknown_of(s, it.bond.nbr);
             if (a >= 0 && b >= 0) nodes_join(s->parent, a, b);
         }
     }
 }
 
-/* Stores the unknown of each particle and mesh node; mirror nodes have that of their image. */
+/* Stores the unknown of each particle and mesh node; a mirror node gets the unknown of its image. */
 static void unknowns_number(struct search *s)
 {
     const struct statics *statics = s->statics;
@@ -215,7 +216,7 @@ static void image_resists(const struct search *s, struct candidate *c, int64_t i
 static void images_resist(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows && s->loads->images > 0; r++) {
-        const int32_t i = bonds->particle[r], k = number_of(s, i);
+        const int32_t i = bonds->particle[r], k = unknown_of(s, i);
         for (struct bond_iterator it = bonds_of_row(bonds, r); bond_next(&it) && k >= 0;)
             if (it.bond.w != 0 && it.bond.nbr >= s->part->n)
                 image_resists(s, &s->candidate[s->fragment[k]], i, it.bond.nbr);
@@ -250,7 +251,7 @@ static void mirror_nodes_resist(const struct search *s)
 /* Returns the fragment of a particle or an image, -1: none. */
 static int32_t fragment_of(const struct search *s, int32_t particle)
 {
-    const int32_t k = number_of(s, image_root(s->part, s->loads->image, particle));
+    const int32_t k = unknown_of(s, image_root(s->part, s->loads->image, particle));
     return k < 0 ? -1 : s->fragment[k];
 }
 

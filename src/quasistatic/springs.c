@@ -299,7 +299,7 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
     unconstrained_project(e->statics, z);
 }
 
-/* The preconditioner still contains bonds that have broken. */
+/* Tolerates bonds in the preconditioner that have broken since it was made. */
 void statics_precondition_watch(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;

@@ -102,7 +102,7 @@ void plastic_update(struct run *e)
 
 /* ---- unknowns ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the strain energy scale of the body at unit strain: sum E V [J]. */
+/* Returns the energy scale of the body at unit strain, sum E V over the particles [J]. */
 static real energy_at_unit_strain(const struct particles *p, const struct material *material)
 {
     real sum = 0;

@@ -76,8 +76,8 @@ static real energy_present(struct run *e)
 
 bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
 
-/* The energy before the solution includes that of contact only if anything was in contact. Without contact no fragment
- * is constrained by it either. */
+/* Includes the contact energy in the energy before the solution only if anything was in contact. Without contact no
+ * fragment is constrained by contact either. */
 void statics_contact_begin(struct run *e, real t)
 {
     struct statics *s = e->statics;
@@ -97,7 +97,7 @@ void statics_contact_begin(struct run *e, real t)
     q->reach = contact_sight(e->contact);
 }
 
-/* The norm of the loads is that of the final contact forces, not of forces in intermediate states. */
+/* Computes the norm of the loads from the final contact forces, not from forces in intermediate states. */
 bool statics_contact_settle(void *engine)
 {
     struct run *e = engine;

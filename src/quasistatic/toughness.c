@@ -19,8 +19,9 @@ real toughness_of(const struct family *family, enum model model, const struct ma
     return elastic * taken / (0.5 * square(limit));
 }
 
-/* Returns the crack energy per area between materials a and b [J/m^2]: of an interface as given; else of the weaker
- * material, but for elastic bonds with energies of their own the energy at their critical stretch. */
+/* Returns the crack energy per area between materials a and b [J/m^2]: the given one of their interface (state-based
+ * models), else the smaller one of both materials; for two different elastic materials with bond-based models, the
+ * energy of the bonds at the critical stretch of the pair. */
 static real toughness_of_pair(const struct scene *s, const struct bond_source *source, int a, int b)
 {
     const struct family *family = &source->family;
