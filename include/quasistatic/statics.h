@@ -21,10 +21,10 @@ struct broken_bond {
     real damage;        /* damage of the particle with the bond intact [1] */
     real plastic;       /* plastic work of the broken bonds of the row, with the bond intact [J] */
     float volume;       /* volume of the broken bonds of the row, with the bond intact [m^3] */
-    uint32_t gap;       /* 0: padding, since checkpoints hold the record byte by byte */
+    uint32_t gap;       /* padding, always 0, since checkpoints store the record byte by byte */
     real held;          /* half of the energy that stretches the bond from zero force to its critical stretch [J] */
     uint8_t flag;       /* flags of the particle with the bond intact */
-    uint8_t gaps[7];    /* 0: padding */
+    uint8_t gaps[7];    /* padding, always 0 */
 };
 _Static_assert(sizeof(struct broken_bond) == 80, "a record without bytes that no member sets");
 
@@ -144,7 +144,7 @@ struct statics {
     int64_t fragments;      /* number of unconstrained fragments */
     struct unconstrained_fragment *fragment; /* [fragments] */
     struct block_matrix *matrix;             /* stiffness of bonds, cells and contact, for the preconditioner */
-    struct multigrid *precondition;          /* NULL: to be made before the next use */
+    struct multigrid *precondition;          /* preconditioner; NULL until its next use makes it */
     int64_t directions;                      /* search directions of the first solution with it; 0: none yet */
     struct memory_archive plastic;           /* plastic state at the start of the next solutions (system.c) */
     real t;                                  /* present pseudo-time [s] */
