@@ -58,7 +58,7 @@ real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const voi
 void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                const void *context, real *sum);
 
-/* Timed sections of a step (timers of a stop watch). */
+/* Timed sections of a step. */
 enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
 extern const char *const timer_name[TIMERS];
 
