@@ -180,7 +180,7 @@ done <<'END'
 20|probes: [growth: {experiment: 200}]|20:19|out of range
 20|probes: [rigid: {region: here}]|20:18|region
 20|probes: [tip, tip]|20:15|name of another probe
-20|probes: [exact: step bar]|20:10|space line is expected
+20|probes: [exact: step bar]|20:10|space: line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
 19|output: {times: [2 us, 1 us]}|19:24|they ascend
 19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
@@ -320,8 +320,8 @@ run|no scene given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
 run good.yaml good.yaml|one scene at a time|
-run good.yaml -o|-o wants a value|
-run good.yaml -s|-s wants a value|
+run good.yaml -o|-o needs a value|
+run good.yaml -s|-s needs a value|
 run good.yaml -s duration|-s duration|particles.spacing=0.5mm
 run good.yaml -s =3|-s =3|
 run good.yaml -s duraton=1us|-s duraton=1us|nearest is duration
@@ -337,7 +337,7 @@ run good.yaml -t 0|-t 0|from 1 to 4096
 run good.yaml -t two|-t two|from 1 to 4096
 run good.yaml -t 1e3|-t 1e3|from 1 to 4096
 run good.yaml -t 99999999999999999999|-t|from 1 to 4096
-run good.yaml -t|-t wants a value|
+run good.yaml -t|-t needs a value|
 check|no scene given|usage
 check missing.yaml|missing.yaml|
 plot|plot:|usage
