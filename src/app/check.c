@@ -74,7 +74,7 @@ static void say_contact_of_bonds(const struct scene *s)
     putchar('\n');
 }
 
-/* What contact costs: its share of a step, and steps that are shorter for it. */
+/* Prints the share of contact in a step, and by how much it shortens the time step. */
 static void say_contact_cost(const struct run *e, const struct cost *c)
 {
     const struct run_clock *clock = &e->clock;
@@ -106,7 +106,7 @@ static void say_contact(const struct run *e)
     }
 }
 
-/* What stands for the first few pre-cracks. */
+/* Prints how the first few pre-cracks are represented: slits of the mesh or cut bonds. */
 static void say_notches(const struct run *e)
 {
     enum { SAID = 6 };

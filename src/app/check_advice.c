@@ -81,7 +81,7 @@ int stiffness_error(const struct scene *s, enum surface_rule surface, double lay
     return off[s->dim > 2];
 }
 
-/* What a part of so many layers does as it is. */
+/* Writes the error of the stiffness of a part of some layers of particles. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {

@@ -25,7 +25,8 @@ static int64_t layer_site(const struct layer_map *m, const struct particles *p, 
     return site;
 }
 
-/* False, with nothing to free: too many sites. */
+/* Marks the lattice sites that the particles of a body fill. Returns false, with nothing to free, if there are too many
+ * sites. */
 static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
 {
     const struct particles *p = &e->part;

@@ -1,4 +1,4 @@
-/* What `cleave check` says of coarse cells: how large, why, and what they save. */
+/* Lines of `cleave check` about coarse cells: their size, why they are used, and what they save. */
 #include <math.h>
 #include <stdio.h>
 

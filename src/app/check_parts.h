@@ -20,16 +20,17 @@ struct quartiles {
 };
 
 struct cost {
-    double make;                /* from the scene to step 0; by the caller [s] */
-    double step;                /* a first step, samples included, whole body active; static: an iteration;
-                                   load steps: an equilibrium [s] */
-    double spread;              /* of windows of such steps: largest ratio of a quartile to the median [1] */
-    double contact;             /* share of contact in such a step, whatever touches then */
-    double output;              /* frames and checkpoints, on an idle disk [s] */
-    double run;                 /* whole run [s] */
-    double least, most;         /* between which it is; most INFINITY: not known [s] */
-    double equilibria;          /* load steps: how many at the most */
-    real overload, overload_at; /* ... of bonds at the worst load time, were none broken; that time [s] */
+    double make;        /* from the scene to step 0; by the caller [s] */
+    double step;        /* a first step, samples included, whole body active; static: an iteration;
+                           load steps: an equilibrium [s] */
+    double spread;      /* of windows of such steps: largest ratio of a quartile to the median [1] */
+    double contact;     /* share of contact in such a step, whatever touches then */
+    double output;      /* frames and checkpoints, on an idle disk [s] */
+    double run;         /* whole run [s] */
+    double least, most; /* between which it is; most INFINITY: not known [s] */
+    double equilibria;  /* load steps: largest number of equilibria */
+    real overload,
+        overload_at; /* largest ratio of stretch to critical stretch of the intact body [1]; its pseudo-time [s] */
     enum cost_basis basis;
     double coarser, growth; /* SCALED: factor on the spacing; all steps over first ones [1] */
     double all_peridynamic; /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
@@ -37,48 +38,59 @@ struct cost {
     struct warnings found;  /* by the trial steps of this scene, of all of them if they were taken */
 };
 
-/* Takes steps and times them, with the current team; the engine cannot be used afterwards. `a`: the arguments of its
- * scene. FAILED if one of the first steps fails. */
+/* Estimates the cost of a run by trial steps with the current team. a: arguments of the scene, by which other scenes
+ * are made for comparison. The run cannot be used afterwards. Returns FAILED if one of the first steps fails. */
 status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
-/* Load steps: the solver and what leads cracks; advice; the cost, by the first equilibrium: FAILED where there is none;
- * the line about it. */
+/* Prints the solver of load steps and the rule by which cracks grow. */
 void say_load_steps(const struct run *e);
+
+/* Writes a line for each loss of accuracy of load steps: loads, supports, lengths of cracks. */
 void advise_load_steps(const struct run *e, FILE *out);
+
+/* Estimates the cost of load steps by the first equilibrium. Returns FAILED if none is found. */
 status cost_load_steps(struct cost *c, struct run *e);
+
+/* Prints the run time of load steps, and a line if nothing will break. */
 void say_load_steps_cost(const struct run *e, const struct cost *c, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
-/* Files that solids are made of: closed or open, what they enclose. */
+/* Prints for each file of a solid whether its surface is closed, and the volume that it encloses. */
 void say_shapes(const struct run *e);
 
-/* Bodies in several pieces that no bond joins (check_pieces.c). */
+/* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
 void say_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
-/* Smallest edge, mirror images included, diameter or wall of a solid [m]; INFINITY: it has none (check_advice.c). */
+/* Returns the smallest edge (mirror images included), diameter or wall of a solid [m]; INFINITY if it has none
+ * (check_advice.c). */
 real solid_size(const struct run *e, const struct solid *a);
-/* Layers of particles across the thin parts of a body and those joined to it; INFINITY: less than half of it is
- * thinner than `most` layers, or the body is joined to another, which is asked in its place. */
+
+/* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. Returns INFINITY
+ * if less than half of it is thinner than `most` layers, or if the body is joined to one of a lower number. */
 double check_layers(const struct run *e, int body, double most);
-/* Bodies that nearly keep their volume, whose families or cells are too stiff. */
+
+/* Writes a line for each nearly incompressible body whose particles or cells are too stiff. */
 void advise_incompressible(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
-/* Coarse cells: how large, how many and why; what they save. */
+/* Prints size and number of coarse cells, and why they are used or not. */
 void say_levels(const struct run *e);
+
+/* Prints the memory and time that coarse cells save. */
 void say_levels_saving(const struct run *e, const struct cost *c);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
 void advise_sections(const struct run *e, FILE *out);
-/* Writes a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
+
+/* Formats a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
 struct length_text {
     char text[32];
 };
@@ -86,14 +98,15 @@ struct length_text length_in_words(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
-/* Loads and supports: particles, areas, forces and moments. */
+/* Prints a line for each load and support: particles, area, force and moment. */
 void say_loads(const struct run *e);
 
-/* Share of the area of a load's or support's face that looks elsewhere than along its axis, by which angle, and the
- * region that leaves it out (check_faces.c). */
+/* Prints the share of the face of a load or support whose normals differ from its axis, the mean angle, and a region
+ * without that share (check_faces.c). */
 void say_elsewhere(const struct run *e, const struct boundary *b);
 
-/* Volume of the particles of bodies that are not boxes, beside that of their shapes (check_filled.c). */
+/* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
+ * (check_filled.c). */
 void say_filled(const struct run *e);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
@@ -106,12 +119,15 @@ void advise(const struct run *e, FILE *out);
  * run has taken no step. */
 void hints_find(const struct run *e, struct warnings *to);
 
-/* How far the stiffness of a part of so many layers is off, with a rule for families near faces [%]. */
+/* Returns the error of the stiffness of a part of some layers of particles in bending, twisting and tension [%].
+ * surface: correction of bonds near faces. */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
-/* Thin parts of bodies from lists that are no lattice (check_lists.c). */
+
+/* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */
 void advise_lists(const struct run *e, FILE *out);
-/* True if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at *at [m]
- * (check_symmetry.c). */
+
+/* Returns true if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at
+ * *at [m] (check_symmetry.c). */
 bool scene_is_mirrored(const struct run *e, int axis, real *at);
 
 #endif

@@ -1,5 +1,5 @@
-/* What `cleave check` says of bodies whose particles no bond joins into one: islands of lists and images, parts that
- * pre-cracks cut off. */
+/* Lines of `cleave check` about bodies in several pieces: islands of lists and images, parts that pre-cracks cut off.
+ */
 #include <stdio.h>
 
 #include "base/memory.h"

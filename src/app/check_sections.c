@@ -15,7 +15,7 @@
 #define COVERED 0.02      /* share of a cell that counts */
 enum { SLICES = 8, SLICES_LEAST = 3, SLICES_SLANTING = 32 }; /* of a part that are taken together */
 
-/* What hangs together in a slice of cells across an axis. */
+/* A connected set of cells in a slice across an axis. */
 struct section {
     int64_t slice, cell, n; /* one of its cells, how many */
     real area, filled;      /* of the shape, of particles [cells] */

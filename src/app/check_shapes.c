@@ -1,4 +1,4 @@
-/* What `cleave check` says of bodies from files: whether a surface is closed, and what it encloses. */
+/* Lines of `cleave check` about bodies from files: whether a surface is closed, and the volume that it encloses. */
 #include <math.h>
 
 #include "base/memory.h"

@@ -1,4 +1,4 @@
-/* What `cleave check` says of load steps: what leads them, how well the crack is resolved, what they take. */
+/* Lines of `cleave check` about load steps: how cracks grow, how well they are resolved, and the run time. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

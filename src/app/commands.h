@@ -66,12 +66,17 @@ static inline bool wants_help(const char *word)
     return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
 }
 
-/* Pages of `cleave help`: the guarantees of a run and the tests that check them; the equations; options, files and
- * exit statuses of a run; and the manual page cleave.1 (troff), of which the last is a part. FAILED if the page cannot
- * be written. */
+/* Prints the page `cleave help trust`: guarantees of a run, and the tests that check them. Returns FAILED if it cannot
+ * be written, as do the pages below. */
 status trust_print(FILE *out);
+
+/* Prints the page `cleave help theory`: the equations with their sources. */
 status theory_print(FILE *out);
+
+/* Prints the page `cleave help run`: options, files and exit statuses of a run. */
 status manual_run_print(FILE *out);
+
+/* Prints the manual page cleave.1 (troff). */
 status manual_print(FILE *out);
 
 /* The schema of scenes beside the program, installed or built; false: it is not there (schema_path.c). */

@@ -153,7 +153,7 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
 
 static double frame_step_length(const struct frame *f) { return f->step > 0 ? f->t / (double)f->step : INFINITY; }
 
-/* What lies between fields of frames that count as taken at one time. */
+/* Prints the time between two frames that are compared, if it is not negligible. */
 static void print_time_apart(const struct pair *p, const struct frame *a, const struct frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));

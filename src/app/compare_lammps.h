@@ -6,10 +6,14 @@
 
 /* Does the folder hold a run of LAMMPS, as `cleave export lammps` writes it? */
 bool lammps_run_holds(const char *folder);
-/* Its frames, as frames_list and run_frame give those of a run here; without stress. */
+
+/* Lists the frames of a run of LAMMPS, as frames_list does. */
 status lammps_frames_list(const char *folder, int *n, struct listed_frame **list);
+
+/* Reads a frame of a run of LAMMPS, as run_frame does, without stress. */
 status lammps_run_frame(struct frame *f, const char *folder, int number);
-/* Prints how far it is from where check.csv says that Cleave was; nothing where it has no check. */
+
+/* Prints the differences from the state of Cleave in check.csv; nothing if the folder has no check.csv. */
 status lammps_check_print(const char *folder);
 
 #endif

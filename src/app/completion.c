@@ -19,7 +19,7 @@ static void options_of(FILE *out, const struct command *c)
     fputs(" --help", out);
 }
 
-/* What every command takes, as a case of the shell. */
+/* Prints the options and arguments of each command as a case of the shell. */
 static void cases_print(FILE *out)
 {
     fputs("    case \"$command\" in\n", out);

@@ -9,7 +9,7 @@
 enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
 #define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
-/* What is looked at, in the order of ACCEPT_WORDS. */
+/* Figures that have limits, in the order of ACCEPT_WORDS. */
 enum rule { RULE_WAVES, RULE_STRETCH, RULE_STRESS, RULE_STRAIN, RULE_STEPS, RULE_REACH, RULE_PARTICLES, RULES };
 
 /* Limits of a figure, least to most, and what to look at where it is beyond. Waves: 18 km/s in diamond, 20 m/s in gels

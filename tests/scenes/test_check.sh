@@ -353,8 +353,8 @@ says "side by side on the grid" '(left with right) and are not joined' "$two"
 says "side by side on one grid" '(left with right) and are not joined: .* they stick until' "$two" -s contact.between=none
 silent "side by side, about to hit" 'touch at the start' "$two" -s bodies.left.velocity=[1,0]
 silent "two spacings apart" 'touch at the start' "$two" -s bodies.right.shape.box.from=[7mm,0]
-warned "a published coupling" 'coupling pgg .* no energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us
-silent "one that is not used" 'no energy' plate_crack -s coupling=pgg -s method=pd
+warned "a published coupling" 'coupling pgg, .* no potential energy' inputs/plate_crack.yaml -s coupling=pgg -s duration=1us
+silent "one that is not used" 'no potential energy' plate_crack -s coupling=pgg -s method=pd
 "$cleave" run "$two" -q -o "$work/warned" $apart
 is "nothing to warn of: an empty list" "$(grep -c '"warnings": \[\]' "$work/warned/summary.json")" 1
 # Weights of bonds near faces require a single lattice, also beyond mirrors and interfaces: a refusal states where it ends.
