@@ -6,6 +6,7 @@ cd "$work" || exit 1
 
 cat >bar.yaml <<'END'
 space: plane stress
+accept: [stress, steps]
 thickness: 1 mm
 duration: 8 us
 method: pd
