@@ -1,4 +1,4 @@
-/* The particles of a scene, before anything is known of bonds, grids or loads. */
+/* Creates the particles of a scene: positions, volumes, masses, materials; bonds, grids and loads follow later. */
 #ifndef CLEAVE_FILL
 #define CLEAVE_FILL
 
@@ -10,19 +10,25 @@
  * spacing there, which is 1e-5 of a strain of 1e-4. At ten thousand times this distance stresses are 3 % off. */
 #define FILL_FARTHEST 1e7
 
-/* Positions, volumes, masses and the initial state, from lattices and lists; `optional` is a sum of WITH_*. REFUSED:
- * empty bodies, unreadable lists, lists in another unit than the spacing, two particles in one place; nothing is
- * left to free then. Those of cells that are absent in `hollow` (NULL: none) are not made, but have their ids. */
+/* Creates the particles of all bodies of s, from lattices and particle lists, and sets their positions, volumes, masses
+ * and initial state. optional: sum of WITH_*, the optional arrays of p. hollow: cells without particles, NULL if there
+ * are none; the ids of their particles stay unused. The caller owns p. REFUSED for an empty body, an unreadable list,
+ * a list in another length unit than the spacing, and two particles at one position; p is empty in these cases. */
 status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional);
-/* A place of the lattice of a body that is no list [m]. */
+
+/* Writes the position of one lattice site of a body to X [dim, m]. The body must not come from a particle list. */
 status fill_place(const struct scene *s, int body, real *X);
-/* Finds the cells of a box that lie wholly in a body: places are those of its lattice. `hollow` has its box; the caller
- * frees `whole`. */
+
+/* Marks in hollow->whole [cells of hollow->box] the cells all of whose lattice sites are inside the body. The caller
+ * sets hollow->box and frees hollow->whole. */
 void fill_whole(struct hollow *hollow, const struct scene *s, int body);
-/* Part of it (fill_lists.c): REFUSED where particles of a list are so far apart, or so close, that its unit is not
- * that of the spacing, or so many bonds would come of it that no memory holds them. */
+
+/* Compares the distances between particles of each list with the spacing (fill_lists.c). REFUSED if they differ so much
+ * that the list must be in another length unit, or if the bonds would exceed any memory. */
 status fill_check_lists(const struct particles *p, const struct scene *s);
-/* Part of it (fill_strength.c): factors of materials whose strength scatters, 1 elsewhere. */
+
+/* Sets the strength factor of each particle [1] (fill_strength.c): random where the strength of its material scatters,
+ * else 1. Does nothing if p->strength is NULL. */
 void fill_strength(struct particles *p, const struct scene *s);
 
 #endif

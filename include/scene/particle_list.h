@@ -1,57 +1,64 @@
-/* Lists of particles from files. Only output*.c, checkpoint.c and particle_list*.c know HDF5.
+/* Reads lists of particles from files. Only output*.c, checkpoint.c and particle_list*.c use HDF5.
  *
- * CSV: a header line that names the columns, in any order, with units in brackets or in SI; then one line per particle.
- * Commas, semicolons, tabs or blanks stand between them; empty lines and lines that begin with # are skipped.
+ * CSV: a header line names the columns, in any order, with units in brackets (SI if there are none). Each further line
+ * is one particle. Fields are separated by commas, semicolons, tabs or blanks. Empty lines and lines that begin with #
+ * are skipped. Columns:
  *
- *     x, y, z               as many as the space has
- *     volume                default: that of a particle of the lattice
- *     mass, or density      default: the density of the material
- *     weight                a mass or a volume, as its unit says
- *     vx, vy, vz            default: the velocity of the body
- *     material              number from 0 in the order of the scene, or name; default: that of the body
- *     block_id, block       the material, as Peridigm and PeriLab count it: from 1
- *     body                  number from 0
+ *     x, y, z               position, one column per dimension
+ *     volume                default: volume of a lattice cell
+ *     mass, or density      default: density of the material
+ *     weight                mass or volume, depending on the unit of the column
+ *     vx, vy, vz            default: velocity of the body
+ *     material              index from 0 in the order of the scene, or name; default: material of the body
+ *     block_id, block       material, counted from 1 as in Peridigm and PeriLab
+ *     body                  index from 0
  *
- * What else there is is not read, and said. Points:0 .. Points:2 of ParaView are x, y, z. Names may stand in quotes,
- * behind `header:` (PeriLab), or in a comment (Peridigm, whose five columns need none).
+ * Other columns are not read, and a note names them. Points:0 .. Points:2 of ParaView are x, y, z. Column names may be
+ * quoted, preceded by `header:` (PeriLab), or written in a comment (Peridigm; its five columns need no names).
  *
  * HDF5: datasets positions (n x dim; in 1D also n), volumes, mass, density (n), velocities (n x dim), material, body
- * (n), of which positions must be there, with attributes `unit`. */
+ * (n), each with an attribute `unit`. Only positions is required. */
 #ifndef CLEAVE_PARTICLE_LIST
 #define CLEAVE_PARTICLE_LIST
 
 #include "base/base.h"
 
-/* What is known of a list from its columns. */
+/* Properties of a particle list that follow from its columns. */
 struct particle_list_head {
-    bool material, mass, volumes; /* it says the material, the mass or density, the volume of particles */
-    bool lattice;                 /* its places and volumes are those of a lattice (list_lattice.h) */
-    bool block;                   /* its material is the block of Peridigm, counted from 1 */
-    bool unnamed;                 /* its columns have no names: they are those of Peridigm's text mesh */
-    char note[256];               /* what is not read, or missing and has a default; "": nothing */
+    bool material, mass, volumes; /* the list has a column of materials, of masses or densities, of volumes */
+    bool lattice;                 /* positions and volumes form a lattice (list_lattice.h) */
+    bool block;                   /* the material column is a block of Peridigm, counted from 1 */
+    bool unnamed;                 /* the columns have no names: five columns of a Peridigm text mesh */
+    char note[256];               /* columns that are not read, and defaults of missing ones; "": none */
 };
 
+/* Particles read from a file. Arrays have n entries; an array is NULL if the file has no such column. */
 struct particle_list {
     struct particle_list_head head;
     int64_t n;
     int dim;
     real *X[DIM_MAX];              /* [m] */
-    real *v[DIM_MAX];              /* [m/s]; NULL where the file has none, as what follows */
+    real *v[DIM_MAX];              /* [m/s] */
     real *volume, *mass, *density; /* > 0 [m^3], [kg], [kg/m^3] */
-    real *material, *body;         /* whole numbers 0..255; of a material by name -1 - its number in `name` */
+    real *material, *body;         /* indices 0..255; a material given by name is -1 - (its index in `name`) */
     int names;
-    char (*name)[NAME_MAX_LENGTH];
-    int64_t *line;        /* where an entry stands in a CSV; NULL for HDF5 */
-    int16_t *material_at; /* where its material stands in the line; NULL as before */
+    char (*name)[NAME_MAX_LENGTH]; /* [names] material names in the file */
+    int64_t *line;                 /* line number of each entry in a CSV file; NULL for HDF5 */
+    int16_t *material_at;          /* column number of the material in this line; NULL for HDF5 */
 };
 
-/* Reads a file by its ending: .csv, .tsv, .txt, .dat, or .h5, .hdf5, .hdf. REFUSED names file and line, or file and
- * entry; nothing is left to free then. An empty list is no error here. */
+/* Reads a particle list in `dim` dimensions, in the format that the file name extension implies: .csv, .tsv, .txt,
+ * .dat, or .h5, .hdf5, .hdf. Release l with particle_list_free. REFUSED for an invalid value, with file and line or
+ * file and entry in the message; nothing has to be released then. An empty list is no error here. */
 status particle_list_read(struct particle_list *l, const char *path, int dim);
-/* The same for the names of columns alone. */
+
+/* Reads only the column names of a particle list, and fails as particle_list_read does. */
 status particle_list_look(struct particle_list_head *head, const char *path, int dim);
-/* Is it the name of a list, by its ending? */
+
+/* Returns true if the file name extension is one of a particle list. */
 bool particle_list_named(const char *path);
+
+/* Releases the arrays of a list. */
 void particle_list_free(struct particle_list *l);
 
 #endif

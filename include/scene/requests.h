@@ -1,5 +1,5 @@
-/* What a scene asks of the parts of a run: contact of its bodies, coupling, conversion, cracks that grow, probes. The
- * parts themselves, which lie above the scene, read these. */
+/* Defines the settings that a scene passes to the parts of a run: contact, coupling, conversion, growing cracks and
+ * probes. These parts are in rooms above the scene. */
 #ifndef CLEAVE_REQUESTS
 #define CLEAVE_REQUESTS
 
@@ -8,19 +8,19 @@
 #include "base/base.h"
 #include "data/region.h"
 
-/* ---- figures that a scene means, however unlikely -----------------------------------------------------------------
- */
+/* ---- unlikely values that are intended --------------------------------------------------------------------------- */
 
-/* Words of the key `accept`, a bit each: rules of src/engine/warn_units.c that the scene breaks on purpose. */
+/* Words of the key `accept`, one bit each: plausibility rules (src/engine/warn_units.c) that the scene breaks on
+ * purpose. */
 #define ACCEPT_WORDS "waves|stretch|stress|strain|steps|reach|particles"
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 
 enum contact_between { CONTACT_NONE, CONTACT_BODIES, CONTACT_ALL };
 enum contact_form { CONTACT_SURFACE, CONTACT_PAIR };
-/* Of pairs: one spacing and the stiffness of contact/contact.h; or the rule of LAMMPS' peri/pmb, for comparison: the
- * least of 0.9 of the distance in the reference state and 1.35 spacings, also between particles that a bond joins, with
- * the stiffness 15 c V_i V_j/delta of the scene's own horizon. */
+/* Contact distance of particle pairs. SPACING: one spacing, with the stiffness of contact/contact.h. LAMMPS: the rule
+ * of the LAMMPS style peri/pmb, for comparison: the smaller of 0.9 times the reference distance and 1.35 spacings, also
+ * for bonded pairs, with the stiffness 15 c V_i V_j/delta, where delta is the horizon of the scene. */
 enum contact_distance { DISTANCE_SPACING, DISTANCE_LAMMPS };
 
 /* ---- coupling and conversion ------------------------------------------------------------------------------------- */
@@ -29,52 +29,63 @@ enum coupling {
     COUPLING_PARTIAL_STRESS,
     COUPLING_HANDSHAKE, /* Zeng et al. 2022                                                     */
     COUPLING_PM,
-    COUPLING_PG, /* Zeng et al. 2021: hand-shake, and the grid moves what lies in the cells at
-                    the interface; with linear and with GIMP shapes                     */
+    COUPLING_PG, /* Zeng et al. 2021: hand-shake, and the grid moves the particles in the
+                    cells at the interface; PM with linear, PG with GIMP shapes         */
     COUPLING_PMG,
-    COUPLING_PGG /* the same on one unified grid, which moves everything                 */
+    COUPLING_PGG /* PM and PG on one unified grid, which moves all particles            */
 };
-/* Does the grid move peridynamic particles with this coupling, and all of them? */
+
+/* Returns true if the grid moves peridynamic particles, at least near the interface. */
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
+
+/* Returns true if one unified grid moves all peridynamic particles. */
 static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
-/* What stands for pre-cracks in the reference frame (notch.h). */
+/* Representation of pre-cracks in the reference frame (notch.h): a slit in the mesh, cut bonds, or a choice by rule. */
 enum notch_rule { NOTCH_AUTO, NOTCH_SLIT, NOTCH_BONDS };
-/* Radius of the zone round the end of a slit where bonds are cut: that of conversion.tips, but no less; where it names
- * none [spacings]. The first bond of kalthoff_winkler then breaks when it does with bonds cut all along, to 0.6 %. */
+
+/* Radius of the zone around the end of a slit in which bonds are cut [spacings]. NOTCH_ZONE applies if conversion.tips
+ * gives no radius, NOTCH_ZONE_LEAST bounds the given radius from below. Both are empirical: the first bond of the
+ * example kalthoff_winkler then breaks within 0.6 % of the time that it takes with bonds cut along the whole pre-crack.
+ */
 #define NOTCH_ZONE_LEAST 6.0
 #define NOTCH_ZONE 8.0
+
 enum { CONVERT_ON_BREAK = 1, CONVERT_ON_STRESS = 2 };
 
+/* Criteria by which material points convert to peridynamic particles, and back. */
 struct conversion_rule {
     unsigned criteria; /* sum of CONVERT_ON_* */
     real stress;       /* sigma_max [Pa]; NAN: E s_c */
-    real alpha;        /* share of it that triggers */
-    bool block;        /* the triggered particle takes its horizon neighbours along */
-    real tips;         /* peridynamic from the start round ends of pre-cracks [horizons] */
+    real alpha;        /* conversion starts at alpha sigma_max [1] */
+    bool block;        /* the neighbours within the horizon of the triggering particle convert, too */
+    real tips;         /* radius around ends of pre-cracks that is peridynamic from the start [horizons] */
     enum notch_rule notch;
     bool reverts;    /* particles revert to material points (reversion.h) */
-    real hold_time;  /* after a stress that was low for so long [horizon/c] */
-    real low_stress; /* low: share of the stress that converts */
+    real hold_time;  /* time for which the stress must be low before a particle reverts [horizon/c] */
+    real low_stress; /* upper bound of a low stress, as a share of the stress that converts [1] */
 };
 
 /* ---- cracks that grow -------------------------------------------------------------------------------------------- */
 
+/* Settings of a crack whose tip moves at a given speed, or at a speed controlled by its stress-intensity factors. */
 struct growth_rule {
     char name[NAME_MAX_LENGTH];
-    real at[DIM_MAX];            /* where the tip starts [m] */
-    real direction[DIM_MAX];     /* unit vector */
-    real speed;                  /* of the tip; NAN: such that K_eq stays at the toughness [m/s] */
-    real fastest;                /* bound of that; NAN: 0.9 of the Rayleigh speed [m/s] */
-    real start;                  /* it does not move before [s] */
-    real length;                 /* it stops there; INFINITY: never [m] */
-    real damping, exponent;      /* damping NAN: half a horizon [m] [1] */
-    real smoothing;              /* with a probe, NAN: a quarter of a horizon [m] */
-    char probe[NAME_MAX_LENGTH]; /* sif probe that controls it; "": none */
-    real toughness;              /* K_Ic: it grows while K_eq is at least this [Pa m^(1/2)] */
+    real at[DIM_MAX];            /* initial crack-tip position [m] */
+    real direction[DIM_MAX];     /* initial growth direction, unit vector */
+    real speed;                  /* crack-tip speed [m/s]; NAN: controlled so that K_eq stays at the toughness */
+    real fastest;                /* upper bound of the controlled speed [m/s]; NAN: 0.9 of the Rayleigh speed */
+    real start;                  /* time at which growth begins [s] */
+    real length;                 /* length at which growth ends [m]; INFINITY: never */
+    real damping, exponent;      /* a crossed bond fades as (1 - growth/damping)^exponent [m] [1];
+                                    damping NAN: half a horizon */
+    real smoothing;              /* growth over which the direction is averaged, with a probe [m];
+                                    NAN: a quarter of a horizon */
+    char probe[NAME_MAX_LENGTH]; /* sif probe that controls growth; "": none */
+    real toughness;              /* K_Ic: the crack grows while K_eq is at least K_Ic [Pa m^(1/2)] */
 };
 
-/* Does the speed of this crack follow the toughness? */
+/* Returns true if the crack-tip speed is controlled so that K_eq stays at the toughness. */
 static inline bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */
@@ -89,47 +100,53 @@ enum probe_kind {
     PROBE_LINE,     /* profile from `from` to `to` in `points` stations, at the end and per frame */
     PROBE_ENERGY,   /* energies of the particles of a region                                      */
     PROBE_MOMENTUM, /* momentum of the particles of a region                                      */
-    PROBE_PULSE,    /* wave packet at an interface: what came back, what went on                  */
-    PROBE_EXACT,    /* a bar against a closed form                                                */
+    PROBE_PULSE,    /* wave packet at an interface: its reflected and its transmitted part        */
+    PROBE_EXACT,    /* difference from the closed-form solution of a bar                          */
     PROBE_SIF,      /* stress-intensity factors of a crack tip                                    */
     PROBE_GROWTH,   /* a crack with prescribed or SIF-controlled growth: its tip, its path        */
-    PROBE_RIGID,    /* a body that turns as a whole (plane)                                       */
+    PROBE_RIGID,    /* rotation of a body as a whole (plane)                                      */
     PROBES
 };
 
 enum exact_form { EXACT_STEP_BAR, EXACT_PLASTIC_BAR, EXACT_PULSE, EXACT_MANUFACTURED, EXACT_FORMS };
 
-/* MLS: moving least squares with a complete quadratic, exact for it; where fewer than six particles are visible, or on
- * a line, linear. PDDO: the first-order peridynamic differential operator, weight delta/r, exact for linear fields. */
+/* Method for displacement gradients. MLS: moving least squares with a complete quadratic polynomial, exact for
+ * quadratic fields; linear if fewer than six particles are visible or all of them are on one line. PDDO: the
+ * first-order peridynamic differential operator with weight delta/r, exact for linear fields. */
 enum gradient_method { GRADIENT_MLS, GRADIENT_PDDO };
 
-/* Weight q of an interaction integral (fracture/sif.h) between its contours,
- * q over z = (r - inner)/(outer - inner): 1 - 10 z^3 + 15 z^4 - 6 z^5; 1 - 3 z^2 + 2 z^3; 1 - z. The smoother, the more
- * accurate is the sum over particles: with exact gradients and outer = 10 spacings 0.07 %, 0.6 % and some per cent. */
+/* Weight q of an interaction integral (fracture/sif.h) as a function of z = (r - inner)/(outer - inner).
+ * QUINTIC: 1 - 10 z^3 + 15 z^4 - 6 z^5. CUBIC: 1 - 3 z^2 + 2 z^3. LINEAR: 1 - z. The sum over particles is the more
+ * accurate the smoother q is: its measured error with exact gradients and outer = 10 spacings is 0.07 %, 0.6 % and some
+ * per cent. */
 enum sif_weight { SIF_QUINTIC, SIF_CUBIC, SIF_LINEAR };
+
+/* Stress in an interaction integral: by Hooke's law from the displacement gradient, or the stress of the particles. */
 enum sif_stress { SIF_HOOKE, SIF_PARTICLE };
 
+/* Settings of a probe. Members whose comment begins with kinds of probes are used by these kinds alone. */
 struct probe_request {
-    char name[NAME_MAX_LENGTH]; /* default: its kind */
-    char place[PLACE_LENGTH];   /* in the scene */
+    char name[NAME_MAX_LENGTH]; /* default: the word of its kind */
+    char place[PLACE_LENGTH];   /* location in the scene file, for messages */
     enum probe_kind kind;
-    struct region region; /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID; empty: everywhere */
+    struct region region; /* BREAK, PATCH, ENERGY, MOMENTUM, RIGID: particles; empty: all */
     bool has_at;
-    real at[DIM_MAX];                /* TIP, POINT, SIF; PULSE: a point of the interface [m] */
+    real at[DIM_MAX];                /* TIP, POINT, SIF: position; PULSE: a point of the interface [m] */
     bool has_direction;              /* SIF */
-    real direction[DIM_MAX];         /* PULSE: its normal, along which the packet comes; SIF: ahead of the tip */
-    real from[DIM_MAX], to[DIM_MAX]; /* LINE [m] */
-    int points;                      /* LINE */
+    real direction[DIM_MAX];         /* PULSE: normal of the interface, in the direction of the incident packet;
+                                        SIF: direction ahead of the tip */
+    real from[DIM_MAX], to[DIM_MAX]; /* LINE: its ends [m] */
+    int points;                      /* LINE: number of stations */
     char boundary[NAME_MAX_LENGTH];  /* REACTION: name of the boundary condition */
     char of[NAME_MAX_LENGTH];        /* GROWTH: name of the crack; "": the first */
-    real experiment;                 /* GROWTH: angle in an experiment, for pictures; NAN: none [degree] */
-    enum exact_form form;            /* EXACT; and for a manufactured solution [m] [s] [m] [m]: */
-    real amplitude, period, wavelength, origin;
-    struct number_list contours; /* SIF: outer radii to compare; none: 0.6, 0.8 and 1 times `outer` [m] */
-    real inner, outer, core;     /* SIF; NAN or 0: half of outer; 20 spacings; 1.5 horizons [m] */
-    real reach;                  /* SIF: rho_m in spacings; 0: 1.5 [1] */
-    real speed;                  /* SIF: of a moving tip; NAN: measured [m/s] */
-    int diffraction;             /* SIF */
+    real experiment;                 /* GROWTH: measured crack angle, drawn in plots [degree]; NAN: none */
+    enum exact_form form;            /* EXACT: closed-form solution */
+    real amplitude, period, wavelength, origin; /* EXACT: of a manufactured solution [m] [s] [m] [m] */
+    struct number_list contours; /* SIF: outer radii to compare [m]; none: 0.6, 0.8 and 1 times `outer` */
+    real inner, outer, core;     /* SIF: radii [m]; NAN or 0: outer/2, 20 spacings, 1.5 horizons */
+    real reach;                  /* SIF: rho_m [spacings]; 0: 1.5 */
+    real speed;                  /* SIF: speed of a moving tip [m/s]; NAN: measured */
+    int diffraction;             /* SIF: exponent of the distance factor for points behind the crack (sif.h) */
     enum sif_weight weight;
     enum gradient_method gradient;
     enum sif_stress stress;

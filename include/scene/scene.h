@@ -1,9 +1,8 @@
-/* Room `scene`: what a user asks for, read and checked, and the particles that follow from it. It knows materials,
- * regions and loads, and what it asks of the parts of a run (requests.h); the parts, the engine, commands and benches
- * call it.
+/* Room `scene`: reads and checks the input of a run, and creates its particles. Uses materials, regions and loads, and
+ * defines the settings of the parts of a run (requests.h). These parts, the engine, commands and benches call it.
  *
- * A scene: everything a run needs, as read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads
- * its version). */
+ * A scene holds all input of a run, read and checked, in SI units. Only scene_yaml.c uses libyaml (info.c reads its
+ * version). */
 #ifndef CLEAVE_SCENE
 #define CLEAVE_SCENE
 
@@ -17,164 +16,175 @@
 #include "particle_list.h"
 #include "requests.h"
 
-/* FRAME_AUTO is a request that reading a scene resolves. METHOD_AUTO is a word of scene files alone: pilot runs replace
- * it (scene_read.h). SOLVER_STATIC is that of load steps. */
+/* Words of keys. FRAME_AUTO is resolved when a scene is read. METHOD_AUTO occurs in scene files alone: pilot runs
+ * replace it (scene_read.h). SOLVER_STATIC solves load steps. */
 enum method { METHOD_PD, METHOD_MPM, METHOD_ADAPTIVE, METHOD_AUTO };
-enum { FILL_AUTO, FILL_ALL, FILL_NEEDED }; /* mpm.fill */
+enum { FILL_AUTO, FILL_ALL, FILL_NEEDED }; /* mpm.fill: which particles are created */
 enum { LEVELS_AUTO = 5 };                  /* mpm.levels: auto */
-enum { FRAMES_MOST = 100000 };             /* of a run */
+enum { FRAMES_MOST = 100000 };             /* largest number of frames of a run */
 enum grid_frame { FRAME_CURRENT, FRAME_REFERENCE, FRAME_AUTO };
 enum model { MODEL_BOND, MODEL_OSPD, MODEL_MOSPD };
 
 enum solver_kind { SOLVER_EXPLICIT, SOLVER_RELAXATION, SOLVER_CG, SOLVER_STATIC };
 
-/* Part of a body that is of another material. */
+/* Part of a body that consists of another material. */
 struct scene_part {
     struct region region;
     int material; /* index into scene.material */
 };
 
+/* A deformable or rigid body. */
 struct scene_body {
     char name[NAME_MAX_LENGTH];
     int material; /* index into scene.material */
     int parts;
-    struct scene_part *part;        /* later ones overwrite earlier ones, and `material` */
-    struct region shape;            /* filled with a lattice ... */
-    char *file;                     /* ... or a particle list (.csv, .h5), as to be opened; or NULL */
-    uint64_t contents;              /* hash of that file; 0: not read */
-    struct particle_list_head list; /* its columns */
-    char place[PLACE_LENGTH];       /* in the scene, of its list if it has one */
-    real velocity[DIM_MAX];         /* [m/s] */
-    int joined;                     /* lowest number of the bodies that are one with it by interfaces */
-    bool rigid;                     /* no particles: it has a shape that keeps its form ... */
-    real mass, ramp;                /* ... flies with a mass [kg]; or is driven, fully from `ramp` on [s] */
-    real force[DIM_MAX];            /* on one that flies [N] */
-    enum grid_frame frame; /* mpm.frame unless it has its own; AUTO only where the scene allows the reference frame */
-    const char *frame_reason; /* why AUTO became CURRENT; NULL: it did not */
+    struct scene_part *part;        /* [parts] a later part overwrites earlier ones, and `material` */
+    struct region shape;            /* region that is filled with a lattice, unless `file` is given */
+    char *file;                     /* path of a particle list (.csv, .h5); NULL: none */
+    uint64_t contents;              /* hash of this file; 0: not read */
+    struct particle_list_head list; /* columns of this file */
+    char place[PLACE_LENGTH];       /* location in the scene file, of the list if there is one, for messages */
+    real velocity[DIM_MAX];         /* initial velocity [m/s] */
+    int joined;                     /* lowest index of the bodies to which interfaces join this body */
+    bool rigid;                     /* rigid body without particles */
+    real mass, ramp;                /* rigid: mass of a free body [kg]; time until a driven one has full speed [s] */
+    real force[DIM_MAX];            /* rigid: force on a free body [N] */
+    enum grid_frame frame;          /* default: mpm.frame; AUTO only where the scene allows the reference frame */
+    const char *frame_reason;       /* reason why AUTO became CURRENT; NULL: the frame was not AUTO, or still is */
 };
 
-/* What lies between two bodies. */
+/* Interface between two bodies. */
 struct scene_interface {
-    int body[2];
-    bool joined;
-    real energy_release_rate; /* 0: that of the weaker material [J/m^2] */
-    real critical_stretch;    /* of it; 0: none [1] */
+    int body[2];              /* indices into scene.body */
+    bool joined;              /* bonds across the interface join the bodies */
+    real energy_release_rate; /* of the bonds across it [J/m^2]; 0: as in the weaker of both materials */
+    real critical_stretch;    /* that follows from energy_release_rate [1]; 0: none */
 };
 
-/* A region that the scene calls by name; where it is called it stands as a copy. */
+/* A region with a name; solids that refer to the name get a copy of the region. */
 struct named_region {
     char name[NAME_MAX_LENGTH];
     struct region region;
 };
 
-/* Initial state of the particles in a region; later entries overwrite earlier ones. */
+/* Initial state of the particles in a region; a later entry overwrites earlier ones. */
 struct scene_initial {
-    char place[PLACE_LENGTH]; /* in the scene */
+    char place[PLACE_LENGTH]; /* location in the scene file, for messages */
     struct region region;
-    int body; /* -1: any */
+    int body; /* index of the body; -1: any */
     bool sets_velocity, sets_strain;
-    real velocity[DIM_MAX];                        /* 1 beside a formula [m/s] */
-    struct expression formula[DIM_MAX];            /* of a component of it in X; none: velocity */
-    real velocity_gradient[DIM_MAX * DIM_MAX];     /* v += G (X - centre), row major dim x dim [1/s] */
-    real displacement_gradient[DIM_MAX * DIM_MAX]; /* x = X + H (X - centre), stress = C : sym H [1] */
+    real velocity[DIM_MAX];                        /* [m/s]; 1 for a component given by a formula */
+    struct expression formula[DIM_MAX];            /* velocity component as a function of X; may be empty */
+    real velocity_gradient[DIM_MAX * DIM_MAX];     /* G in v += G (X - centre), row major dim x dim [1/s] */
+    real displacement_gradient[DIM_MAX * DIM_MAX]; /* H in x = X + H (X - centre), stress = C : sym H [1] */
     real centre[DIM_MAX];                          /* [m] */
-    bool sets_pulse;                               /* a plane longitudinal wave, added to what is there */
+    bool sets_pulse;                               /* adds a plane longitudinal wave to the state */
     struct wave_pulse pulse;
 };
 
-/* Frames of a region at a rate of their own. */
+/* Series of frames of a region, with a time interval of its own. */
 struct scene_series {
     char name[NAME_MAX_LENGTH];
     struct region region;
-    real every;      /* time from frame to frame [s] */
-    unsigned fields; /* bits of FRAME_FIELD_WORDS; 0: those of the scene */
+    real every;      /* time between frames [s] */
+    unsigned fields; /* bits of FRAME_FIELD_WORDS; 0: the fields of the scene's frames */
 };
 
-/* Load steps of solver static (load_steps.c). */
+/* Quantity that controls a load step: pseudo-time, released energy, or an opening. */
 enum steps_control { CONTROL_LOAD, CONTROL_ENERGY, CONTROL_OPENING };
+
+/* Continuation after unstable crack growth: the next equilibrium, or explicit integration in time. */
 enum steps_then { THEN_EQUILIBRIUM, THEN_EXPLICIT };
+
+/* Criterion of the crack path: bonds with the largest ratio of stretch to critical stretch, or the largest hoop stress.
+ */
 enum steps_path { PATH_AUTO, PATH_BONDS, PATH_HOOP };
+
+/* Settings of load steps, solver static (load_steps.c). */
 struct scene_steps {
-    int number;                 /* of steps: of the duration, or at the most */
-    enum steps_control control; /* what a step goes by: pseudo-time, energy released, an opening */
-    enum steps_path path;       /* what leads a crack: its most overloaded bonds, or its largest hoop stress */
-    real energy;                /* of the bonds of an advance; 0: by toughness and spacing [J] */
-    real from[DIM_MAX], to[DIM_MAX], opening; /* places whose distance is the opening, and how far it grows [m] */
+    int number; /* number of steps: with control load equal parts of the duration, else the largest number */
+    enum steps_control control;
+    enum steps_path path;
+    real energy;                              /* energy of the bonds of a crack increment [J];
+                                                 0: it follows from toughness and spacing */
+    real from[DIM_MAX], to[DIM_MAX], opening; /* points whose distance is the opening; growth in all steps [m] */
     bool has_from, has_to;
-    enum steps_then then; /* what follows an advance that another one follows at once */
-    int breaks;           /* most pairs of bonds that break between two equilibria */
-    real within;          /* those that break are overloaded like the first, up to this share [1] */
+    enum steps_then then;
+    int breaks;  /* largest number of pairs of bonds that break between two equilibria */
+    real within; /* bonds break together if their ratios of stretch to critical stretch differ from the largest one
+                    by no more than this share [1] */
 };
 
+/* The input of a run. Arrays are owned by the scene and have as many entries as the count above them says. */
 struct scene {
-    char *path;                 /* file it came from, as given on the command line */
-    char name[NAME_MAX_LENGTH]; /* default: the file's name without folder and ending */
+    char *path;                 /* path of the scene file, as given on the command line */
+    char name[NAME_MAX_LENGTH]; /* default: file name without folder and extension */
     enum space space;
     int dim;
     real thickness;        /* 2D [m]; 1 in 3D */
     real section;          /* 1D: cross-section A [m^2]; key `section`, default 1 */
     real duration;         /* [s] */
-    real gravity[DIM_MAX]; /* of particles and of rigid bodies that fly [m/s^2] */
-    real damping;          /* of particles: force over momentum [1/s] */
+    real gravity[DIM_MAX]; /* acceleration of particles and of free rigid bodies [m/s^2] */
+    real damping;          /* damping force of a particle over its momentum [1/s] */
     enum method method;
     enum model model;
     enum solver_kind solver;  /* other than explicit: static equilibrium (solver.h) */
     real solver_tolerance;    /* relative residual [1] */
-    int solver_steps;         /* at the most */
+    int solver_steps;         /* largest number of iterations */
     struct scene_steps steps; /* of solver static */
 
     int materials;
     struct material *material;
     int bodies;
-    struct scene_body *body; /* deformable ones; behind them `rigids` rigid ones */
+    struct scene_body *body; /* [bodies + rigids] deformable bodies, then rigid ones */
     int rigids;
     int interfaces;
     struct scene_interface *interface;
 
     int regions;
     struct named_region *named;
-    struct shape_file *shapes; /* files that solids are made of (shape_file.h) */
+    struct shape_file *shapes; /* list of files from which solids are read (shape_file.h) */
 
-    real spacing, horizon, irregularity; /* [m], in spacings, [1] */
-    uint64_t seed;
+    real spacing, horizon, irregularity; /* [m], [spacings], [1] */
+    uint64_t seed;                       /* of the irregularity and of scattered strength */
 
     enum volume_rule volume;
     enum calibration calibration;
     enum surface_rule surface; /* resolved: never "auto" here */
     enum shell_rule shells;
-    enum influence influence;   /* resolved */
-    bool bulk;                  /* state-based: normalised as full families are */
-    enum last_force last_force; /* of a bond in the step in which it breaks */
+    enum influence influence;   /* resolved: never "auto" here */
+    bool bulk;                  /* state-based: weights are normalised by those of a full family */
+    enum last_force last_force; /* force of a bond in the step in which it breaks */
     enum contact_between contact_between;
     enum contact_form contact_form;
     enum contact_distance contact_distance;
     bool contact_convert;
     real contact_friction;  /* coefficient [1] */
-    real contact_stiffness; /* in units of that of a cell [1] */
+    real contact_stiffness; /* over the stiffness of a cell [1] */
     bool has_pd_region;
-    struct region pd_region; /* peridynamic from the start (adaptive) */
+    struct region pd_region; /* region that is peridynamic from the start (adaptive) */
 
-    real cell; /* grid node distance, in spacings */
+    real cell; /* distance of grid nodes [spacings] */
     enum shape shape;
     enum transfer transfer;
-    bool has_shape, has_transfer; /* to be written out: given, or the choice of frame does not depend on it */
-    enum grid_frame frame;        /* of the grid, of bodies that do not say theirs */
-    bool small_strain;            /* of a mesh in the reference frame */
-    int levels;                   /* of its coarse cells; LEVELS_AUTO: as many as pay */
-    int fill;                     /* which particles are made: FILL_AUTO .. */
-    bool lattice_constants;       /* its elastic constants are those of the bonds' lattice */
+    bool has_shape, has_transfer; /* the echo writes the key: it is given, or does not decide the frame */
+    enum grid_frame frame;        /* frame of the grid; default of the bodies */
+    bool small_strain;            /* small strains in a mesh in the reference frame */
+    int levels;                   /* number of levels of coarse cells in it; LEVELS_AUTO: chosen by cost */
+    int fill;                     /* which particles are created: FILL_AUTO, FILL_ALL or FILL_NEEDED */
+    bool lattice_constants;       /* elastic constants of the grid are those of the lattice of bonds */
     bool has_grid_origin;
-    real grid_origin[DIM_MAX]; /* a node of the grid [m] */
+    real grid_origin[DIM_MAX]; /* position of a grid node [m] */
 
     enum coupling coupling;
-    real interface_damping;        /* of the interface zone (interface_zone.h), in c/h */
-    bool has_interface_damping;    /* as has_shape */
-    const char *current_frame_key; /* what the scene says that has a meaning in the current frame only; NULL: nothing */
+    real interface_damping;        /* damping in the interface zone (interface_zone.h) [c/h] */
+    bool has_interface_damping;    /* the echo writes the key, as with has_shape */
+    const char *current_frame_key; /* reason why keys of the scene require the current frame; NULL: none */
     struct conversion_rule conversion;
 
     int cracks;
-    struct crack *crack;
-    int cracks_given; /* of these, which the file names; behind them slits of meshes */
+    struct crack *crack; /* pre-cracks: those of the file, then slits of meshes */
+    int cracks_given;    /* number of pre-cracks of the file */
     int growths;
     struct growth_rule *growth; /* cracks with prescribed or SIF-controlled growth */
     int initials;
@@ -185,40 +195,45 @@ struct scene {
     struct probe_request *probe;
 
     real time_step;           /* [s]; 0: automatic */
-    bool active_set;          /* what nothing has reached is skipped (active_set.h) */
-    real safety;              /* of the automatic step */
-    int frames;               /* frames after the one at t = 0 */
-    bool has_frames;          /* the scene says how many */
-    struct number_list times; /* of these frames, ascending [s]; none: evenly spread */
-    real every;               /* time from frame to frame [s]; 0: not given */
-    unsigned fields;          /* that they are asked for: bits of FRAME_FIELD_WORDS */
+    bool active_set;          /* regions still at rest are skipped (active_set.h) */
+    real safety;              /* factor on the critical time step, if it is automatic [1] */
+    int frames;               /* number of frames after the one at t = 0 */
+    bool has_frames;          /* the scene gives the number of frames */
+    struct number_list times; /* times of these frames, ascending [s]; empty: evenly spaced */
+    real every;               /* time between frames [s]; 0: not given */
+    unsigned fields;          /* requested fields of frames: bits of FRAME_FIELD_WORDS */
     int n_series;
     struct scene_series *series;
-    int samples;              /* samples of history.csv after the one at t = 0 */
-    real wall;                /* wall clock after which a process ends with a checkpoint; INFINITY [s] */
-    real checkpoint_interval; /* wall clock between checkpoints [s] */
-    bool compress;            /* gzip the frames */
-    real speed_window;        /* of the crack tip's speed [s] */
+    int samples;              /* number of samples of history.csv after the one at t = 0 */
+    real wall;                /* wall-clock time after which a process ends with a checkpoint [s]; INFINITY: none */
+    real checkpoint_interval; /* wall-clock time between checkpoints [s] */
+    bool compress;            /* frames are compressed with gzip */
+    real speed_window;        /* time over which the crack-tip speed is averaged [s] */
 
-    unsigned accept;   /* bits of ACCEPT_WORDS: unlikely figures that are meant */
-    bool has_accept;   /* given */
-    char renamed[400]; /* keys given by an earlier name; "" : none */
-    char *text;        /* the scene as run: every key, defaults written out, YAML */
+    unsigned accept;   /* bits of ACCEPT_WORDS: unlikely values that are intended */
+    bool has_accept;   /* the scene has the key `accept` */
+    char renamed[400]; /* keys that the scene gives by an earlier name; "": none */
+    char *text;        /* the scene as run, in YAML: every key with its value or default */
 };
 
+/* An option `-s key=value` of the command line. */
 struct scene_override {
     const char *key, *value;
-}; /* of `-s key=value` */
+};
 
-/* Does a run move in time? Else: one equilibrium, or load steps. */
+/* Returns true if the run integrates in time, false if it solves one equilibrium or load steps. */
 static inline bool scene_moves(const struct scene *s) { return s->solver == SOLVER_EXPLICIT; }
+
+/* Returns true if the run solves one static equilibrium. */
 static inline bool scene_at_rest(const struct scene *s)
 {
     return s->solver == SOLVER_RELAXATION || s->solver == SOLVER_CG;
 }
+
+/* Returns true if the run solves a sequence of load steps. */
 static inline bool scene_in_steps(const struct scene *s) { return s->solver == SOLVER_STATIC; }
 
-/* Has a material, or an interface, a limit of its bonds? */
+/* Returns true if the bonds of a material or of an interface have a critical stretch. */
 static inline bool scene_bonds_break(const struct scene *s)
 {
     bool breaks = false;
@@ -227,7 +242,7 @@ static inline bool scene_bonds_break(const struct scene *s)
     return breaks;
 }
 
-/* Has a material bulk viscosity? */
+/* Returns true if a material has bulk viscosity. */
 static inline bool scene_viscous(const struct scene *s)
 {
     bool viscous = false;
@@ -235,7 +250,7 @@ static inline bool scene_viscous(const struct scene *s)
     return viscous;
 }
 
-/* Does the strength of a material scatter from place to place? */
+/* Returns true if the strength of a material scatters in space. */
 static inline bool scene_scatters(const struct scene *s)
 {
     bool scatters = false;
@@ -243,7 +258,7 @@ static inline bool scene_scatters(const struct scene *s)
     return scatters;
 }
 
-/* Does a probe look at bonds that break? */
+/* Returns true if a probe evaluates broken bonds. */
 static inline bool scene_watches_bonds(const struct scene *s)
 {
     static const bool watches[PROBES] = {
@@ -253,13 +268,13 @@ static inline bool scene_watches_bonds(const struct scene *s)
     return any;
 }
 
-/* Can faces come about: by cracks of the scene, their growth, bonds that break? */
+/* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
 static inline bool scene_cracks(const struct scene *s)
 {
     return s->cracks > 0 || s->growths > 0 || scene_bonds_break(s);
 }
 
-/* Are there several bodies, those that are joined counted as one, or rigid ones? */
+/* Returns true if there are rigid bodies, or several deformable ones that interfaces do not join to one. */
 static inline bool scene_bodies_meet(const struct scene *s)
 {
     bool several = s->rigids > 0;
@@ -267,42 +282,55 @@ static inline bool scene_bodies_meet(const struct scene *s)
     return several;
 }
 
-/* What a length (line), an area (plane) or a volume (solid) is multiplied with to be a volume: [m^2], [m], [1]. */
+/* Returns the factor from the measure of a region to its volume: the cross-section in 1D [m^2], the thickness in 2D
+ * [m], 1 in 3D. */
 static inline real scene_section(const struct scene *s)
 {
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
-/* Material of the particle of a body at X [m], which the body or its list says is of `material`. */
+/* Returns the index of the material at X [dim, m] in body b: of the last part that contains X, else `material`, the
+ * material of the body or of its list. */
 int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material);
-/* Can a particle of the body be of this material? */
+
+/* Returns true if particles of the body can consist of this material, an index into scene.material. */
 bool scene_body_has(const struct scene_body *b, int material);
 
-/* Frees what a scene holds; a scene is read by scene_read.h. */
+/* Releases the members of a scene; scene_read.h reads one. */
 void scene_free(struct scene *s);
 
-/* Why a body cannot be in the reference frame whatever it does, and why `mpm.frame: auto` would not put it there of
- * its own; NULL: it can, it would. */
+/* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
+ * scene; NULL if it can. The text is static. */
 const char *scene_frame_unsupported(const struct scene *s, int body);
+
+/* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
+ * static. */
 const char *scene_frame_not_default(const struct scene *s, int body);
 
-/* Prints the table of keys: all of them (key NULL), those below a prefix, or one; REFUSED names the nearest key. */
+/* Prints the table of keys: all keys (key NULL), the keys below a prefix, or one key. REFUSED for an unknown key; the
+ * message names the nearest one. */
 status scene_help(FILE *out, const char *key);
-/* Is it a key, or what several begin with? */
+
+/* Returns true for a key of scenes and for a prefix of several keys. */
 bool scene_has_key(const char *key);
 
-/* Prints the units that numbers may carry. */
+/* Prints the units of numbers. */
 void scene_help_units(FILE *out);
+
 /* Prints a JSON schema of scenes, for editors. */
 status scene_schema(FILE *out);
-/* Prints what expressions are made of. */
+
+/* Prints the functions, operators and variables of expressions. */
 void scene_help_expressions(FILE *out);
-/* Writes the keys for the manual page (troff); and, one a line, those that `-s` sets, 0 for the number of an item. */
+
+/* Writes the keys for the manual page (troff). */
 void scene_manual_keys(FILE *out);
+
+/* Writes the keys that `-s` can set, one per line, with 0 as the index of a list item. */
 void scene_override_keys(FILE *out);
 
-/* Writes the reference of all keys as a page of Markdown (inputs/keys.md): a table for each key of the scene that has
- * keys of its own, after one for those that have none. */
+/* Writes the reference of all keys as Markdown (inputs/keys.md): first a table of the keys without subkeys, then a
+ * table for each key with subkeys. */
 void scene_reference(FILE *out);
 
 #endif

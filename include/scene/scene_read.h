@@ -4,28 +4,31 @@
 
 #include "scene/scene.h"
 
-/* Reads and checks a file. On REFUSED the message is `file:line:column: what; what would be right`, and nothing is
- * left to free. A scene with `method: auto` is REFUSED: pilot runs choose its method (study/pilot.h). */
+/* Reads a scene file, applies override[overrides] and checks the scene. The caller releases s with scene_free. REFUSED
+ * for an invalid scene, with a message `file:line:column: fault; expected value`, and nothing to release; also for
+ * `method: auto`, which pilot runs resolve (study/pilot.h). */
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
+
 /* Reads and checks a scene from memory as scene_read does from a file. Opens no file, not even to see whether particle
  * lists exist. `name` is the file name in messages. */
 status scene_read_text(struct scene *s, const char *text, size_t length, const char *name,
                        const struct scene_override *override, int overrides);
 
-/* What a scene with `method: auto` requires of the pilot runs that choose its method and spacing (study/pilot.h). */
+/* Requirements of a scene with `method: auto` on the pilot runs that choose its method and spacing (study/pilot.h). */
 struct pilot_wish {
     bool wanted;           /* the scene has `method: auto` */
-    char figure[128];      /* figure of summary.json to be accurate; "": not given */
-    double within, budget; /* its largest error [1]; time for the runs [s] */
+    char figure[128];      /* figure of summary.json whose error is bounded; "": not given */
+    double within, budget; /* largest relative error of this figure [1]; time for the runs [s] */
     double spacing;        /* given by the scene [m]; 0: not given */
     char model[16];        /* given by the scene; "": not given */
-    bool at_rest;          /* its solver is not explicit */
-    bool has_accuracy;     /* it has the key `accuracy` */
+    bool at_rest;          /* the solver is not explicit */
+    bool has_accuracy;     /* the scene has the key `accuracy` */
     /* The scene with a provisional method (adaptive or pd) and, where none is given, the spacing of spacing_coarse
      * (1 m if there is none); release it with scene_free. */
     struct scene provisional;
 };
-/* Reads a scene as scene_read does, but one with `method: auto` into w: then w->wanted is true and s is empty. */
+
+/* Reads a scene as scene_read does, but accepts `method: auto`: then w->wanted is true, w is filled and s is empty. */
 status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *path,
                           const struct scene_override *override, int overrides);
 

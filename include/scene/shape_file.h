@@ -1,4 +1,4 @@
-/* Files that solids of a scene are made of. A file is read once for all solids with the same words. */
+/* Defines a file from which solids of a scene are read. All solids with equal settings share one reading of a file. */
 #ifndef CLEAVE_SHAPE_FILE
 #define CLEAVE_SHAPE_FILE
 
@@ -7,21 +7,23 @@
 
 enum shape_kind { SHAPE_STL, SHAPE_MESH, SHAPE_IMAGE };
 
+/* An item of a linked list of files. */
 struct shape_file {
     struct shape_file *next;
     enum shape_kind kind;
-    int dim; /* of what it holds: 2 also in an extrusion */
+    int dim; /* dimensions of the contents: 2 also for the section of an extrusion */
     int files;
-    char **path;                       /* as to be opened; of slices from below */
-    uint64_t contents;                 /* hash of all */
-    real scale;                        /* what the number 1 in it is [m] */
-    real size[DIM_MAX], from[DIM_MAX]; /* of a voxel; lower corner of an image [m] */
-    struct geometry geometry;
-    struct voxels voxels;
+    char **path;                       /* [files] paths; slices of an image in ascending z */
+    uint64_t contents;                 /* hash of the contents of all files */
+    real scale;                        /* length unit of the coordinates in the file [m] */
+    real size[DIM_MAX], from[DIM_MAX]; /* edges of a voxel; lower corner of an image [m] */
+    struct geometry geometry;          /* STL and MESH: surface or mesh */
+    struct voxels voxels;              /* IMAGE: grey values */
     int parts;
-    struct voxel_part **part; /* the grey values that solids have asked for */
+    struct voxel_part **part; /* [parts] ranges of grey values that solids use */
 };
 
+/* Releases all items of the list. */
 void shape_files_free(struct shape_file *first);
 
 #endif

@@ -1,4 +1,4 @@
-/* Spacings that suit the lengths of a scene. */
+/* Chooses spacings from the lengths of a scene. */
 #ifndef CLEAVE_SPACINGS
 #define CLEAVE_SPACINGS
 

@@ -1,4 +1,4 @@
-/* Numbers with units. */
+/* Reads numbers with units. */
 #ifndef CLEAVE_UNITS
 #define CLEAVE_UNITS
 
@@ -24,14 +24,17 @@ enum unit {
     UNIT_ANGLE,
     UNITS
 };
+
+/* A kind of unit: its name in messages, its SI symbol, an example, and twice the exponents of m, kg and s. */
 struct unit_row {
     const char *name, *symbol, *example;
     signed char twice[3];
-}; /* twice the powers of m, kg, s */
+};
 extern const struct unit_row unit_rows[UNITS];
 
-/* Reads `number [/ number] [unit]`, exactly rounded: units are powers of ten (but for min and h). On failure writes to
- * `what` the rest of a sentence that begins with the text: the fault and what is expected. */
+/* Reads `number [/ number] [unit]` as a number in SI units, correctly rounded: units are powers of ten (except min and
+ * h). unit: expected kind. infinite: true if inf is allowed. Returns false on failure and writes to what[room] the rest
+ * of a sentence that begins with the text: the fault and the expected form. */
 bool number_read(real *value, const char *text, enum unit unit, bool infinite, char *what, size_t room);
 
 #endif

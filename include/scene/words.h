@@ -1,15 +1,17 @@
-/* Words of command lines, read as scenes read theirs. */
+/* Reads words of command lines with the functions that read scenes. */
 #ifndef CLEAVE_WORDS
 #define CLEAVE_WORDS
 
 #include "base/base.h"
 
-/* A length [m] or a time [s] with its unit: `4mm`. False: `what` is the rest of a sentence that begins with the
- * text. */
+/* Reads a length with its unit, such as `4mm`, as a number in metres. Returns false on failure and writes to what[room]
+ * the rest of a sentence that begins with the text. */
 bool word_length(real *value, const char *text, char *what, size_t room);
+
+/* Reads a time with its unit, such as `4us`, as a number in seconds; fails as word_length does. */
 bool word_time(real *value, const char *text, char *what, size_t room);
 
-/* The one of n names that is written most like `word`. */
+/* Returns the one of n names with the smallest edit distance to `word`. */
 const char *word_nearest(const char *word, const char *const *name, int n);
 
 #endif

@@ -1,27 +1,30 @@
-/* Particles while they are collected: of lattices (fill.c) and of lists (fill_list.c). */
+/* Collects particles from lattices (fill.c) and from lists (fill_list.c). */
 #ifndef CLEAVE_FILL_DRAFT
 #define CLEAVE_FILL_DRAFT
 
 #include "data/hollow.h"
 #include "scene/scene.h"
 
-/* Particles in the order in which the scene makes them, collected before their number is known. */
+/* Particles in the order of the bodies of the scene, collected before their number is known. Arrays have n entries. */
 struct draft {
     const struct scene *scene;
-    const struct hollow *hollow; /* cells whose particles are not made; NULL: none */
-    int64_t n, room;
-    int64_t skipped;                  /* that are not made */
-    real low[DIM_MAX], high[DIM_MAX]; /* of those [m] */
+    const struct hollow *hollow;      /* cells whose particles are not created; NULL: none */
+    int64_t n, room;                  /* number of particles, and for how many the arrays have memory */
+    int64_t skipped;                  /* number of particles that are not created */
+    real low[DIM_MAX], high[DIM_MAX]; /* bounding box of the skipped particles [m] */
     real *X[DIM_MAX], *volume;        /* [m], [m^3] */
-    real *v[DIM_MAX], *mass;          /* as lists say; NAN: as the body and its material say [m/s], [kg] */
+    real *v[DIM_MAX], *mass;          /* from a list [m/s], [kg]; NAN: from the body and its material */
     uint8_t *material, *body;
     int32_t *id;
 };
 
-/* Appends a particle at X [m], [dim]; volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
+/* Appends a particle at X [dim, m] with a volume [m^3]. REFUSED beyond PARTICLES_MAX particles. */
 status draft_add(struct draft *d, const real *X, real volume, int material, int body);
+
+/* Returns REFUSED with a message that names the body and ends with `why`. */
 status draft_refuse(const struct draft *d, int body, const char *why);
-/* Adds the particles of a body from its list. */
+
+/* Appends the particles of a body from its list. REFUSED if the list cannot be read or is invalid. */
 status fill_list(struct draft *d, int body);
 
 #endif

@@ -1,6 +1,6 @@
-/* Lists of particles that are lattices: all places of a body whole spacings apart, as far as they are written in
- * decimals, all volumes those of the spacing. They are treated like what fills a shape, to the last bit of their
- * distances. */
+/* Recognises particle lists whose positions form a lattice: the positions of a body are whole spacings apart within the
+ * rounding of their decimals, and all volumes equal the volume of a cell. The coordinates are then rounded so that all
+ * distances equal those of a lattice that fills a shape, bit for bit. */
 #include "list_lattice.h"
 
 #include <math.h>
@@ -8,15 +8,13 @@
 #include "base/memory.h"
 #include "data/particles.h"
 
-#define DECIMALS 1e-3 /* a place that is written in decimals may be that far from its site [spacings] */
-#define EVEN 1e-3     /* likewise of volumes [1] */
-#define NEIGHBOURS_LEAST                                                                                               \
-    0.5              /* share of particles with another one spacing away along x: sparse ones are no lattice           \
-                      */
-#define FARTHEST 1e6 /* [spacings] */
+#define DECIMALS 1e-3        /* largest distance of a position, rounded to decimals, from its site [spacings] */
+#define EVEN 1e-3            /* largest relative difference of a volume from the volume of a cell [1] */
+#define NEIGHBOURS_LEAST 0.5 /* least share of particles with a neighbour one spacing away along x */
+#define FARTHEST 1e6         /* largest distance of a site from the first [spacings] */
 enum { BODIES = 256 };
 
-/* A place of a lattice and the body that it belongs to; in the order of x last. */
+/* A lattice site and its body. Sites are sorted by body, then by the last axis first and x last. */
 struct site {
     int32_t body, at[DIM_MAX];
 };
@@ -32,7 +30,7 @@ static int site_order(const void *a, const void *b)
 
 static int list_body(const struct particle_list *l, int64_t i) { return l->body ? (int)l->body[i] : 0; }
 
-/* Do enough sites have the next one along x? Sorts them. */
+/* Sorts the sites and returns true if enough of them have a neighbour along x (NEIGHBOURS_LEAST). */
 static bool sites_dense(struct site *site, int64_t n)
 {
     int64_t beside = 0;

@@ -1,14 +1,16 @@
-/* Lists of particles that are lattices (list_lattice.c). */
+/* Recognises particle lists whose positions form a lattice (list_lattice.c). */
 #ifndef CLEAVE_LIST_LATTICE
 #define CLEAVE_LIST_LATTICE
 
 #include "scene/particle_list.h"
 
-/* Are the places of each body of a list whole spacings apart, to a thousandth of one, and all volumes those of the
- * spacing, to a thousandth? volume: of a particle of the lattice [m^3]. */
+/* Returns true if the positions of each body of a list are whole spacings apart, to a thousandth of a spacing, and all
+ * volumes equal `volume`, the volume of a lattice cell [m^3], to a thousandth. */
 bool list_is_lattice(const struct particle_list *l, real spacing, real volume);
-/* Puts n coordinates of a body on one axis, which are whole spacings apart to a thousandth, exactly so, unless they are
- * that to all digits. anchor: place from which they are whole or half spacings away, if they nearly are [m]. */
+
+/* Rounds the n coordinates X of a body along one axis to exact multiples of the spacing, unless they are exact already.
+ * Coordinates must be whole spacings apart to a thousandth of one. anchor: coordinate from which the sites are whole or
+ * half spacings away, used only if they nearly are [m]. */
 void list_to_lattice(real *X, int64_t n, real spacing, real anchor);
 
 #endif

@@ -1,4 +1,4 @@
-/* What the readers of particle lists have in common: columns, units, notes on what is not read. */
+/* Declares columns, units and notes that the readers of particle lists (CSV, HDF5) share. */
 #ifndef CLEAVE_PARTICLE_LIST_PARTS
 #define CLEAVE_PARTICLE_LIST_PARTS
 
@@ -23,29 +23,37 @@ enum list_column {
     COLUMNS,
     COLUMN_NONE
 };
+/* Name and kind of unit of a column. */
 struct list_quantity {
     const char *name;
     enum unit unit;
 };
 extern const struct list_quantity list_quantity[COLUMNS];
 
-/* Where a column is kept. */
+/* Returns the member of l that holds the array of a column. */
 real **column_array(struct particle_list *l, int column);
-/* Has a list in so many dimensions no use for a column? */
+
+/* Returns true for a component of position or velocity along an axis that a space of `dim` dimensions does not have. */
 bool column_idle(int column, int dim);
-/* Fault of a value in a column, as the end of a sentence; NULL: none. */
+
+/* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
 const char *value_fault(int column, real value);
-/* The factor of a unit of this kind; false with the rest of a sentence: it is none. */
+
+/* Writes the factor from `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. Returns false if `unit`
+ * is none of this kind, and writes the rest of a sentence to what[room]. */
 bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room);
 
-/* Appends to the note on a list. */
+/* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
 void note_add(struct particle_list_head *head, const char *between, const char *what);
-/* What the columns found say about the list: `has` [COLUMNS]. */
+
+/* Sets the members of head, and completes its note, from the columns of the file. has: true for a column of the file
+ * [COLUMNS]. */
 void note_columns(struct particle_list_head *head, const bool *has);
 
 /* REFUSED if n particles of a run need more memory than the machine has. */
 status list_affordable(const char *path, int64_t n);
-/* `head`: the names of columns are enough. */
+
+/* Reads a particle list from a CSV file as particle_list_read does. head: true to read only the column names. */
 status list_csv_read(struct particle_list *l, const char *path, bool head);
 
 #endif

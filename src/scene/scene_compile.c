@@ -59,7 +59,7 @@ bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q
 
 struct operand *topmost(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
-/* Lets an operation act on the topmost operands, whose unit becomes that of q; constants give a constant. */
+/* The result replaces the operands. It is evaluated here, without a step, if all operands are constant. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
     const bool two = expression_has_two(op);

@@ -1,4 +1,4 @@
-/* What compiles an expression: the steps made so far, and the operands that they leave, with their units. */
+/* Compiles an expression to steps of a stack machine, and tracks the units of the operands. */
 #ifndef CLEAVE_SCENE_COMPILE
 #define CLEAVE_SCENE_COMPILE
 
@@ -6,46 +6,69 @@
 
 enum { EXPRESSION_TEXT = 4000 }; /* longest text, variables written out as numbers */
 
-/* A value on the stack at the time of compiling; a constant one is the last step. */
+/* A value on the stack during compilation. A constant one has its value in q, as the last step. */
 struct operand {
     struct quantity q;
     bool constant;
 };
 
+/* State of the compilation of one expression. */
 struct compile {
     struct reader *r;
-    unsigned of; /* EXPRESS_SPACE | EXPRESS_TIME */
-    const char *text, *at;
-    int depth, steps, operands;
+    unsigned of;                /* allowed variables: EXPRESS_SPACE | EXPRESS_TIME */
+    const char *text, *at;      /* the expression, and the next character to compile */
+    int depth, steps, operands; /* of nested brackets; entries of step and of operand */
     struct expression_step step[EXPRESSION_STEPS];
     struct operand operand[EXPRESSION_STACK];
-    char kept[EXPRESSION_TEXT + 1]; /* the text, numbers in place of variables */
-    size_t used;
-    const char *copied; /* up to here the text is in it */
-    char *what;
+    char kept[EXPRESSION_TEXT + 1]; /* copy of the text with numbers in place of variables */
+    size_t used;                    /* length of kept */
+    const char *copied;             /* end of the text that has been copied */
+    char *what;                     /* [room] the fault, as the rest of a sentence that begins with the text */
     size_t room;
 };
 
-/* Writes the rest of a sentence that begins with the text; false. */
+/* Writes a fault to c->what and returns false. */
 bool compile_wrong(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* Number of the character at a place of the text, from 1. */
+
+/* Returns the number of the character at `place` in c->text, from 1. */
 int character_of(const struct compile *c, const char *place);
-/* The unit of an operand for a message. */
+
+/* Text of a unit, returned by value. */
 struct named {
     char text[64];
 };
+
+/* Returns the unit of q as text for a message. */
 struct named unit_named(const struct quantity *q);
+
+/* Returns true if q has no dimension. */
 bool is_plain(const struct quantity *q);
+
+/* Returns the operand `below` entries under the top of the stack. */
 struct operand *topmost(struct compile *c, int below);
 
-/* Each adds a step and says what it makes of units; false with a complaint. `at`: where it stands in the text. */
+/* Adds a step that pushes a value: a number, a variable, or a coordinate or the time. The functions add_* return false
+ * on failure, with the fault in c->what. */
 bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q);
+
+/* Adds a step that applies op to the topmost one or two operands. unit: unit of the result. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);
+
+/* Adds a step that negates the topmost operand. */
 bool add_minus(struct compile *c);
+
+/* Adds a step that adds (sign '+') or subtracts the two topmost operands, which must have one unit. at: position of the
+ * operator in the text, for messages. */
 bool add_sum(struct compile *c, char sign, const char *at);
+
+/* Adds a step that multiplies (sign '*') or divides the two topmost operands, and their units. */
 bool add_product(struct compile *c, char sign, const char *at);
+
+/* Adds a step that raises an operand to the power of the topmost one, which must have no unit. */
 bool add_power(struct compile *c, const char *at);
-/* Makes the two topmost have one unit: a bare 0 has every unit. */
+
+/* Gives the two topmost operands one unit, where a zero without unit takes the unit of the other. word: the operation,
+ * for messages. Returns false if the units differ. */
 bool equal_units(struct compile *c, const char *word, const char *at);
 
 #endif

@@ -1,4 +1,4 @@
-/* What the files scene_echo*.c share: where the scene as run is written to, and values in the form of their keys. */
+/* Declares the writer of the scene as run (scene_echo*.c), which writes values in the form of their keys. */
 #ifndef CLEAVE_SCENE_ECHO
 #define CLEAVE_SCENE_ECHO
 
@@ -6,36 +6,59 @@
 
 #include "scene_internal.h"
 
+/* Destination and state of the output in YAML. */
 struct writer {
     FILE *out;
     const struct scene *scene;
-    int dim; /* of points: that of the scene, or 2 in an extrusion */
-    int indent;
-    bool dash; /* the next line begins an item of a list */
+    int dim;    /* dimensions of points: dim of the scene, or 2 in an extrusion */
+    int indent; /* indentation of the next line [characters] */
+    bool dash;  /* the next line begins an item of a list */
 };
 
-/* A key, and an item of a list before its first key. */
+/* Begins a line: writes indentation, the dash of a list item if it is due, and `key:`. */
 void begin(struct writer *w, const char *key);
+
+/* Begins an item of a list; the dash is written with its first key. */
 void begin_item(struct writer *w);
+
+/* Writes a number so that it reads back to identical bits. */
 void write_real(struct writer *w, real value);
+
+/* Writes a text in double quotes. */
 void write_quoted(struct writer *w, const char *text);
+
+/* Writes n numbers as a list in brackets. */
 void write_list(struct writer *w, const real *value, int n);
-/* Writes the value of key k at `place` in the form of its type. */
+
+/* Writes the value of key k, stored at `place`, in the form of its type. */
 void write_value(struct writer *w, const struct key *k, const void *place);
-/* Value of a key in its group's struct; all keys of a group; a mapping of them below a key. */
+
+/* Returns the address of the value of key k in `base`, the struct of its group. */
 const void *scene_echo_place_of(const struct key *k, const void *base);
+
+/* Writes all keys of a group with their values in the struct `base`, one per line. */
 void write_group(struct writer *w, const char *group, const void *base);
+
+/* Writes `key:` and below it all keys of a group as a mapping. */
 void write_part(struct writer *w, const char *key, const char *group, const void *base);
-/* A file by its absolute path, so that the echo runs from any folder, and the checksum of its contents. */
+
+/* Writes a key with the absolute path of a file, so that the scene runs from any folder, and the checksum of its
+ * contents. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents);
-void write_boundaries(struct writer *w); /* scene_echo_loads.c */
-/* A vector of numbers and formulas. */
+
+/* Writes the boundary conditions (scene_echo_loads.c). */
+void write_boundaries(struct writer *w);
+
+/* Writes a vector whose components are numbers or formulas. */
 void write_formulas(struct writer *w, const char *key, const real *value, const struct expression *formula);
 
-/* A region as a list of solids, and those that have names (scene_echo_solids.c). */
+/* Writes a region as a list of solids (scene_echo_solids.c). */
 void write_region(struct writer *w, const struct region *region);
+
+/* Writes the regions that have names (scene_echo_solids.c). */
 void write_regions(struct writer *w);
-/* A solid from a file: `stl: {..}` (scene_echo_shapes.c). */
+
+/* Writes a solid from a file, such as `stl: {..}` (scene_echo_shapes.c). */
 void write_shape_file(struct writer *w, const struct solid *s);
 
 #endif

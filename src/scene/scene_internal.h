@@ -1,4 +1,5 @@
-/* Shared by the files scene*.c: the tree of nodes with their line and column, the table of keys, and the reader. */
+/* Declares what the files scene*.c share: the tree of nodes with their line and column, the table of keys, and the
+ * reader. */
 #ifndef CLEAVE_SCENE_INTERNAL
 #define CLEAVE_SCENE_INTERNAL
 
@@ -7,7 +8,7 @@
 #include "scene/scene.h"
 #include "scene/units.h"
 
-/* A region that is being read by its name, and the one that asked for it. */
+/* A named region that is being read, and the region that refers to it: a chain by which cycles are found. */
 struct naming {
     const struct node *region;
     const struct naming *outer;
@@ -20,11 +21,11 @@ enum node_kind { NODE_SCALAR, NODE_LIST, NODE_MAP };
 struct node {
     enum node_kind kind;
     int line, column; /* of the key, or of an item without a key; from 1 */
-    int origin;       /* number of the override it came from; -1: the file; -2, -3, ..: one that it
-                         includes */
+    int origin;       /* source: index of an override; -1: the scene file; -2, -3, ..: an included
+                         file */
     int n;            /* entries of a list or map */
-    char *key;        /* NULL: the root or an item of a list */
-    char *text;       /* of a scalar, without quotes; else "" */
+    char *key;        /* key of the node; NULL for the root and for items of a list */
+    char *text;       /* text of a scalar, without quotes; else "" */
     struct node *parent, *first, *last, *next;
 };
 
@@ -34,116 +35,166 @@ struct key;
 
 enum { ORIGIN_INCLUDED = -2, INCLUDED_MOST = 64 };
 
+/* State of the reading of one scene. */
 struct reader {
-    const char *name; /* of the file, for messages */
+    const char *name; /* name of the scene file, for messages */
     const struct scene_override *override;
     int overrides;
-    struct scene *scene; /* being filled */
-    int dim;
+    struct scene *scene;                 /* the scene that is being filled */
+    int dim;                             /* dimensions of points: dim of the scene, or 2 in an extrusion */
     bool bounded;                        /* solids being read belong to a body: no infinite bounds */
-    bool cutting;                        /* ... and take something away from it: they may be infinite */
-    int solids;                          /* number of those read */
-    int grey_materials;                  /* images whose `materials` have not become parts of a body yet */
+    bool cutting;                        /* ... and are cut out of it: infinite bounds are allowed */
+    int solids;                          /* number of solids read */
+    int grey_materials;                  /* number of images whose `materials` are not yet parts of a body */
     bool files;                          /* check that particle lists exist */
-    const char *included[INCLUDED_MOST]; /* names of the files that it includes */
+    const char *included[INCLUDED_MOST]; /* [includes] names of the included files */
     int includes;
-    struct variable *variable;     /* of the scene, in the arena */
-    int variables, variables_open; /* how many; how many are being evaluated */
-    struct arena_block *arena;     /* nodes and texts of this reading */
-    const struct node *regions;    /* by name; NULL: none */
-    const struct node *sections;   /* likewise, of the plane, which extrusions in space call */
-    const struct naming *naming;   /* names of regions within whose reading this one is; NULL: none */
+    struct variable *variable;     /* [variables] variables of the scene, in the arena */
+    int variables, variables_open; /* number of variables; number of those being evaluated */
+    struct arena_block *arena;     /* memory of the nodes and texts of this reading */
+    const struct node *regions;    /* mapping of the named regions; NULL: none */
+    const struct node *sections;   /* mapping of the named plane sections of extrusions; NULL: none */
+    const struct naming *naming;   /* innermost named region that is being read; NULL: none */
 };
 
-/* Memory that lasts until arena_free, zeroed. */
+/* Returns zeroed memory that arena_free releases. */
 void *arena_new(struct reader *r, size_t size);
+
+/* Returns a copy of `length` bytes of a text, with a final 0, in the arena. */
 char *arena_text(struct reader *r, const char *text, size_t length);
+
+/* Releases all memory of the arena. */
 void arena_free(struct reader *r);
 
-/* Text to nodes. `origin` as in struct node. *root is NULL if the text holds no value. */
+/* Parses a YAML text to a tree of nodes in the arena. origin: as in struct node. Sets *root to NULL if the text
+ * contains no value. REFUSED for invalid YAML. */
 status tree_read(struct reader *r, const char *text, size_t length, int origin, struct node **root);
+
+/* Appends a node to the entries of a list or map. */
 void node_append(struct node *parent, struct node *child);
+
+/* Returns the entry of a map with this key, or NULL. */
 struct node *node_find(const struct node *map, const char *key);
+
+/* Removes a node from the entries of its parent. */
 void node_remove(struct node *parent, struct node *child);
-/* Reads the files that the tree includes, and lays it over them (scene_include.c). */
+
+/* Reads the files that the tree includes, and merges the tree over theirs (scene_include.c). */
 status tree_include(struct reader *r, struct node *root);
-/* Is the value of this key, or the whole scene (""), a mapping of keys that each have a meaning of their own? Others,
- * such as solids, are words with what belongs to them, and are replaced as a whole. */
+
+/* Returns true if the value of the key at `path` ("": the whole scene) is a mapping that is merged key by key. Other
+ * values, such as solids, are replaced as a whole. */
 bool group_is_merged(const char *path);
-/* Lays the overrides over the tree (scene_override.c). */
+
+/* Applies the overrides of the reader to the tree (scene_override.c). */
 status tree_override(struct reader *r, struct node *root);
-/* Gives keys of an earlier version their name of now, in the tree or in the path of an override (scene_renamed.c); the
- * scene keeps a note of them. REFUSED where both names are given, and for keys that no longer exist. */
+
+/* Replaces keys of earlier versions in the tree by their present names, and notes them in the scene (scene_renamed.c).
+ * REFUSED if both names are given, and for keys that no longer exist. */
 status tree_rename(struct reader *r, struct node *root);
+
+/* Returns the present name of the path of an override, `path` itself if it is current, and notes a replacement in the
+ * scene. */
 const char *path_renamed(struct reader *r, const char *path);
-/* The present name of a key of an earlier version; NULL: it is none. */
+
+/* Returns the present name of a key of an earlier version; NULL if `path` is no such key. */
 const char *path_now(const char *path);
-/* The file that a node came from; that of the scene for an override. How much of a path is its folder (scene_files.c).
- */
+
+/* Returns the name of the file from which a node was read; the scene file for an override (scene_files.c). */
 const char *file_of(const struct reader *r, int origin);
+
+/* Returns the length of the folder at the beginning of a path, with its final slash; 0 if there is none. */
 int folder_length(const char *path);
-/* The bytes of a scene's file; freed with memory_free. */
+
+/* Reads a whole file to *bytes [*length]; the caller releases it with memory_free. */
 status file_bytes(const char *path, char **bytes, size_t *length);
+
 /* Applies one more override, as from the command line. An empty value removes the key; REFUSED if it is not there. */
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
-/* The node at a path of keys without lists; NULL: the scene does not give it. */
+
+/* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
 const struct node *tree_at(const struct node *root, const char *path);
-/* scene_tree: the tree of nodes from the text and the overrides. scene_from_tree: r->scene from this tree (scene.c). */
+
+/* Parses the text of a scene and applies includes and overrides (scene.c). */
 status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
+
+/* Fills r->scene from the tree, and checks it (scene.c). */
 status scene_from_tree(struct reader *r, const struct node *root);
-/* Reads what a scene with `method: auto` requires of pilot runs, its tree and its text given (scene_wish.c). w is
- * zeroed by the caller. */
+
 struct pilot_wish;
+/* Reads the requirements of a scene with `method: auto` on pilot runs, from its tree and its text (scene_wish.c). The
+ * caller zeroes w. */
 status wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
-/* The shortest text that reads back to identical bits. */
+/* Writes the shortest text that reads back to identical bits, and returns it. */
 const char *number_text(char text[32], real value);
 
-/* A number [SI] with twice the powers of m, kg, s; bare: made of numbers without units, which are SI in every key. */
+/* A number with its unit. */
 struct quantity {
-    real value;
-    int twice[3];
-    bool bare;
+    real value;   /* [SI] */
+    int twice[3]; /* twice the exponents of m, kg, s */
+    bool bare;    /* the value has no unit in the text: it is taken as SI in every key */
 };
-/* Reads what number_read does, in any unit; false: it is nothing of the kind. */
+
+/* Reads `number [/ number] [unit]` with any unit. Returns false if the text has another form. */
 bool number_quantity(struct quantity *q, const char *text);
-/* Length of the number that a text begins with, and (with_unit) of the unit behind it; 0 with what is *wrong. */
+
+/* Reads the number at the beginning of a text, and with with_unit the unit that follows. Returns the length of both;
+ * 0 on failure, with the fault in *wrong. */
 size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const char **wrong);
-/* Length of the symbol of a unit that a text begins with, which is 1 of it. */
+
+/* Sets q to 1 of the unit whose symbol is at the beginning of a text. Returns the length of the symbol; 0 if there is
+ * none. */
 size_t quantity_unit(struct quantity *q, const char *text);
-/* False with the rest of a sentence in `what`, as number_read: it is not what a key of this unit expects; its value is
- * not finite or out of bounds. */
+
+/* Returns true if q is of this unit or has none. Else writes the rest of a sentence to what[room], as number_read. */
 bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room);
+
+/* Returns true if the value is finite and inside the bounds of its unit. Else writes the rest of a sentence to
+ * what[room], as number_read. */
 bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
-/* `a length`, or `in m^2 s^-1` where that has no name; and as a unit that reads back. */
+
+/* Writes a unit for messages: `a length`, or `in m^2 s^-1` if it has no name. */
 void quantity_name(const int twice[3], char *text, size_t room);
+
+/* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`. */
 void unit_text(const int twice[3], char *text, size_t room);
 
 /* ---- expressions (scene_expression.c) ---------------------------------------------------------------------------- */
 
-/* What an expression may contain besides numbers and variables of the scene. */
+/* Arguments that an expression may contain besides numbers and variables of the scene: x, y, z; t. */
 enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
-/* Reads an expression with the unit of k, of x, y, z and t as `of` allows: `12 MPa*exp(-(t/3us)^2)`. A number is one,
- * too. REFUSED in one line with the place in it. Freed with expression_free; its text is what the echo writes. */
+
+/* Reads an expression with the unit of key k, such as `12 MPa*exp(-(t/3us)^2)`; a number is one, too. of: sum of
+ * EXPRESS_*. Release e with expression_free. REFUSED in one line with the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e);
-/* The value of an expression without x, y, z, t, with its unit. False with a complaint as number_read. */
+
+/* Evaluates an expression without x, y, z and t, with its unit. Returns false on failure and writes the rest of a
+ * sentence to what[room], as number_read. */
 bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room);
-/* Does a complaint about this text speak of an expression, not of a number? */
+
+/* Returns true if messages about this text should treat it as an expression, not as a number. */
 bool looks_like_expression(const struct reader *r, const char *text);
 
 /* ---- variables (scene_number.c) ---------------------------------------------------------------------------------- */
 
-/* Evaluates the variables of a scene. REFUSED for those that are wrong, or that an override sets and nothing contains.
- */
+/* Evaluates the variables of a scene. REFUSED for an invalid variable, and for one that an override sets but nothing
+ * uses. */
 status read_variables(struct reader *r, const struct node *root);
-/* The variable of this name; NULL with a complaint, if there is none, or what it depends on is wrong. */
+
+/* Returns the value of the variable `name`. Returns NULL, and writes the fault to what[room], if there is none of this
+ * name or it cannot be evaluated. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room);
-/* A number of a scene: a plain one as number_read, or an expression of variables. False with a complaint. */
+
+/* Reads a number of a scene: a plain one as number_read does, or an expression of variables. Returns false on failure
+ * and writes the rest of a sentence to what[room]. */
 bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
                     size_t room);
-/* True for words that mean something in expressions, and cannot be variables: `is`, completed. */
+
+/* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
+ * messages; NULL for other words. */
 const char *reserved_word(const char *name);
 
 /* ---- the table of keys (scene_keys.c) ---------------------------------------------------------------------------- */
@@ -161,157 +212,235 @@ enum key_type {
     KEY_BODY,
     KEY_MATERIAL,
     KEY_SET,
-    KEY_SERIES, /* read and written by the table alone                       */
-    KEY_MAP,    /* its keys are read into the same struct                    */
-    KEY_PART,
-    KEY_LIST, /* a mapping, a list of mappings: read by a function         */
-    KEY_HAND, /* any other value, read by a function; `words`: its form */
-    KEY_GROUP /* not a key: heads the keys of solids                       */
+    KEY_SERIES, /* the types up to here are read and written by the table alone */
+    KEY_MAP,    /* mapping whose keys are read into the struct of this key      */
+    KEY_PART,   /* mapping, read by a function                                  */
+    KEY_LIST,   /* list of mappings, read by a function                         */
+    KEY_HAND,   /* any other value, read by a function; `words`: its form       */
+    KEY_GROUP   /* not a key: heads the keys of solids                          */
 };
 
+/* Bounds of a value; open: `least` itself is excluded. */
 struct range {
     real least, most;
     bool open, given;
-}; /* open: least itself is outside */
+};
 
+/* A row of the table of keys. */
 struct key {
-    const char *path;
+    const char *path; /* keys from the top of the scene, joined by dots */
     enum key_type type;
     enum unit unit;
-    size_t place, size; /* 1 + offset in its group's struct and bytes; 0: no place */
+    size_t place, size; /* 1 + offset of the value in the struct of its group (0: not stored there); bytes */
     struct range range;
-    const char *fallback; /* as text; "required"; "-": none; "(..)": explained, set by code */
-    const char *help;
+    const char *fallback; /* default as text; "required"; "-": none; "(..)": an explanation, set by code */
+    const char *help;     /* meaning of the key, for `cleave help` */
     /* CHOICE: a|b|c in the order of the enum; REAL: word allowed; NAME: any text is one; HAND: form */
     const char *words;
-    const char *low; /* complaint about a value below the range */
+    const char *low; /* message for a value below the range */
     size_t has;      /* 1 + offset of the bool that is set if the key is given */
     real word_value; /* REAL: value of the word */
     bool infinite;   /* inf is allowed */
-    bool of_process; /* limits a process, not what it computes: no part of the echo */
+    bool of_process; /* limits the process, not the computation: the echo omits the key */
 };
 extern const struct key keys[];
 extern const int keys_count;
 
+/* Returns the last part of the path of a key. */
 const char *key_leaf(const struct key *k);
-/* What a key is for, its type, range and default (scene_help.c). */
+
+/* Writes the meaning, type, range and default of a key to text[room] (scene_help.c). */
 void key_description(const struct key *k, char *text, size_t room);
+
 /* Writes type, SI unit, range or words, and default of k to text[room], in one line. */
 void key_facts(const struct key *k, char *text, size_t room);
-/* True if k is directly below `group` ("" for the top). */
+
+/* Returns true if k is directly below `group` ("" for the top). */
 bool key_in(const struct key *k, const char *group);
+
+/* Returns the key `leaf` directly below `group`, or NULL. */
 const struct key *key_find(const char *group, const char *leaf);
+
+/* Returns the key directly below `group` with the smallest edit distance to `leaf`. */
 const struct key *key_nearest(const char *group, const char *leaf);
 
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
-/* Writes what takes the place of a word that is no key of `group` ("" for the top): a key, or what Cleave does not do.
- * Returns false, and writes nothing, for words that are not known. */
+/* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note
+ * that Cleave has none. Returns false, and writes nothing, for unknown words. */
 bool foreign_text(const char *word, const char *group, char *text, size_t room);
 
-/* Returns the keys that concern such a word, separated by spaces, perhaps none; NULL for words that are not known. */
+/* Returns the keys equivalent to a word of another program, separated by spaces, perhaps none; NULL for unknown words.
+ */
 const char *foreign_paths(const char *word);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
-/* REFUSED with `file:line:column: key: ...` or `-s key=value: key: ...`. */
+/* Returns REFUSED with a message that begins with `file:line:column: key: ` or `-s key=value: key: ` of a node. */
 status fault(const struct reader *r, const struct node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/* Returns REFUSED with a message that begins with `file:line:column: `, or with the override, of an origin. */
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* The text with which fault begins a message, for messages made after the reading. */
+
+/* Writes the beginning of a message of fault to text[room], for messages that follow after the reading. */
 void fault_place(const struct reader *r, const struct node *at, char *text, size_t room);
+
+/* Returns REFUSED with the message that the required key k is missing in `map`. */
 status fault_missing(struct reader *r, const struct node *map, const struct key *k);
-/* REFUSED for two keys that exclude each other; the message is placed at the key of an override before that of the
- * file. */
+
+/* Returns REFUSED with the message that two keys exclude each other. It names the location of the key from an override,
+ * if one is. */
 status fault_both(const struct reader *r, const struct node *a, const struct node *b);
-/* The value in the form of messages: one line, short, printable. */
+
+/* Returns the value of a node as one short, printable line for messages, in the arena or static. */
 const char *shown(struct reader *r, const struct node *n);
+
+/* Returns a text as one short, printable line for messages, in the arena. */
 const char *shown_text(struct reader *r, const char *text);
-/* A choice's words as `a, b or c`. */
+
+/* Returns the words a|b|c of a choice as `a, b or c`, in the arena. */
 const char *word_list(struct reader *r, const char *words);
-/* Position of text in a|b|c, -1 if it is not there. */
+
+/* Returns the index of `text` in a|b|c, or -1. */
 int word_index(const char *words, const char *text);
 
 /* REFUSED for keys of `map` that are unknown in `group` or given twice. */
 status check_keys(struct reader *r, const struct node *map, const char *group);
+
 /* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
 status expect(struct reader *r, const struct node *n, enum node_kind kind, const char *what);
+
 /* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
  * keys are reported at `where`. */
 status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base);
+
+/* Reads the value n of key k by the table into `base`, the struct of its group. REFUSED for an invalid value. */
 status read_key(struct reader *r, const struct key *k, const struct node *n, void *base);
+
+/* Reads a number in the unit and range of key k. REFUSED for an invalid value. */
 status read_number(struct reader *r, const struct key *k, const struct node *n, real *value);
+
+/* Reads a point or vector [r->dim] in the unit and range of key k. REFUSED for an invalid value. */
 status read_point(struct reader *r, const struct key *k, const struct node *n, real *point);
-/* Where points being read lie, in words. */
+
+/* Returns the space of the points that are being read, in words for messages. */
 const char *space_shown(const struct reader *r);
 
 /* REFUSED if n is not a list with as many items as the range of k allows. */
 status expect_list(struct reader *r, const struct key *k, const struct node *n);
 
-/* Path of a file, sought in the folder of the scene, then in the current folder, and the checksum of its contents;
- * `what` it is. A reader without `files` takes the name as it stands, unseen (scene_files.c). */
+/* Reads a file name: searches the folder of the scene, then the current folder, and computes the checksum of the
+ * contents. The caller releases *path with memory_free. what: kind of file, for messages. Copies the name without
+ * opening the file if r->files is false (scene_files.c). */
 status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents);
 
 /* ---- parts (scene_solids.c, scene_parts.c, scene_loads.c) -------------------------------------------------------- */
 
+/* Reads a region: a list of solids, with the regions to which they refer by name. */
 status read_region(struct reader *r, const struct node *n, struct region *region);
-/* The regions of the scene that have names; read_region reads those that its solids call. */
+
+/* Reads the named regions of the scene. */
 status read_regions(struct reader *r, const struct node *root);
-/* Moves, turns and repeats a solid by the keys of `n` beside its own (scene_motions.c). */
-/* Solids from files (scene_shapes.c), and the parts of a body that `materials` of the images of its shape are. */
+
+/* Reads a solid from an STL file (scene_shapes.c). */
 status read_stl(struct reader *r, const struct node *n, struct solid *s);
+
+/* Reads a solid from a mesh file (scene_shapes.c). */
 status read_mesh(struct reader *r, const struct node *n, struct solid *s);
+
+/* Reads a solid from the grey values of an image (scene_shapes.c). */
 status read_image(struct reader *r, const struct node *n, struct solid *s);
+
+/* Adds a part to a body for each material in `materials` of the images in its shape (scene_shapes.c). */
 status read_grey_parts(struct reader *r, const struct node *shape, struct scene_body *b);
+
+/* Returns true for a key that moves, turns or repeats a solid (scene_motions.c). */
 bool is_motion(const struct node *n);
+
+/* Moves, turns and repeats a solid by the keys of `n` (scene_motions.c). */
 status read_motions(struct reader *r, const struct node *n, struct solid *s);
+
 status read_materials(struct reader *r, const struct node *root);
 status read_bodies(struct reader *r, const struct node *root);
-/* `list`: of key k, NULL: not given (scene_body_parts.c). */
+
+/* Reads the parts of a body from the list of key k; list NULL: not given (scene_body_parts.c). */
 status read_body_parts(struct reader *r, const struct node *list, const struct key *k, struct scene_body *b);
+
 status read_cracks(struct reader *r, const struct node *root);
 status read_growths(struct reader *r, const struct node *root);
 status read_initials(struct reader *r, const struct node *root);
-/* The function of time of a boundary; n NULL or `constant`: 1 (scene_time.c). */
+
+/* Reads the function of time of a boundary; n NULL or `constant`: the function is 1 (scene_time.c). */
 status read_time(struct reader *r, const struct node *n, struct boundary *b);
-/* Reads the axis of a rotation, `n` the mapping with it: z in the plane (scene_loads.c). */
+
+/* Reads the axis of a rotation from the mapping `n`: a unit vector in space, z in the plane (scene_loads.c). */
 status read_axis_of(struct reader *r, const struct node *n, const char *group, real *axis);
-/* Reads the components of a vector, value [dim]: numbers, or formulas of x, y, z and what else is in `of`, beside which
- * the value is 1 (scene_loads.c). */
+
+/* Reads the components of a vector: numbers to value[dim], or formulas of x, y, z and the arguments in `of` to
+ * formula[dim]. The value of a component with a formula is 1 (scene_loads.c). */
 status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
                      struct expression *formula);
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 status read_frame_regions(struct reader *r, const struct node *root);
-/* Conditions on several keys without lists, and defaults (scene_check.c). check_size and check_solver: the same for the
- * number of particles of the bodies, and for the static solvers, after these are read. */
+/* Sets defaults that depend on several keys, and checks conditions between keys outside of lists (scene_check.c).
+ * REFUSED for keys that contradict each other. */
 status check_scene(struct reader *r, const struct node *root);
-/* Default share of the critical step, by whether bonds may break; after the materials are read. */
+
+/* Sets the default of the safety factor on the critical time step, which depends on whether bonds can break. Call it
+ * after the materials are read. */
 void resolve_safety(struct reader *r, const struct node *root);
-status resolve_contact(struct reader *r, const struct node *root); /* what meets, where the scene does not say */
+
+/* Sets the default of contact.between. REFUSED for contact with a static solver, and for friction without contact. */
+status resolve_contact(struct reader *r, const struct node *root);
+
+/* REFUSED if the bodies hold more particles than 32-bit indices can count. Call it after the bodies are read. */
 status check_size(struct reader *r, const struct node *root);
+
+/* Reads the interfaces and joins their bodies (scene_interfaces.c). */
 status read_interfaces(struct reader *r, const struct node *root);
+
+/* REFUSED for a boundary on one of several joined bodies (scene_interfaces.c). */
 status check_joined(struct reader *r, const struct node *root);
-/* Critical stretch of a material with an energy release rate, in this scene. */
+
+/* Returns the critical stretch that follows from the energy release rate of a material, for the model, horizon and
+ * space of the scene [1]. */
 real scene_critical_stretch(const struct scene *s, const struct material *m);
+
+/* REFUSED for friction with a contact law or beside boundaries that do not support it. */
 status check_friction(struct reader *r, const struct node *root);
+
+/* REFUSED for absorbing boundaries in a static problem. */
 status check_absorbing(struct reader *r, const struct node *root);
+
+/* REFUSED for loads that static solvers or irregular lattices do not support. */
 status check_bearing(struct reader *r, const struct node *root);
-/* Resolves frames left at auto; after the bodies are read. */
+
+/* Resolves frames left at auto. Call it after the bodies are read. */
 void resolve_frames(struct scene *s);
-/* Surfaces of bodies again once they are known: those of lists need not be lattices. */
+
+/* Finds particle lists that are lattices, and sets the default of the surface rule again, which depends on them. Call
+ * it after the bodies are read. */
 void resolve_lists(struct reader *r, const struct node *root);
+
+/* REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. */
 status check_solver(struct reader *r, const struct node *root);
-/* scene_steps.c: conditions on load steps; REFUSED for keys of them in other scenes. */
+
+/* REFUSED for keys that load steps do not support (scene_steps.c). */
 status check_load_steps(struct reader *r, const struct node *root);
+
+/* REFUSED for keys of load steps with another solver, unless they all have their defaults (scene_steps.c). */
 status check_steps_given(struct reader *r, const struct node *root);
 
-/* The words of enum space and enum probe_kind. */
+/* Words of enum space. */
 extern const char *const space_names[];
+
+/* Words of enum probe_kind. */
 extern const char *const probe_names[PROBES];
 
-/* The scene as run (scene_echo.c); freed with memory_free. NULL: no memory. */
+/* Returns the scene as run, in YAML (scene_echo.c); the caller releases it with memory_free. NULL: out of memory. */
 char *scene_echo(const struct scene *s);
 
 #endif
