@@ -10,7 +10,7 @@ status arguments_override(struct run_arguments *a, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
-        return status_set(REFUSED, "-s %s: a key and its value are wanted, as in -s particles.spacing=0.5mm", text);
+        return status_set(REFUSED, "-s %s: a key and its value are expected, as in -s particles.spacing=0.5mm", text);
     char *copy = NEW("arguments.text", strlen(text) + 1, char);
     strcpy(copy, text);
     copy[equals - text] = '\0';

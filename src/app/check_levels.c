@@ -15,7 +15,7 @@ void say_levels(const struct run *e)
     frame_levels_text(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
-        printf("%s%lld cells of %d spacings%s", level == 0 ? "levels         " : ", ",
+        printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
                (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 

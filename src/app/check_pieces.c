@@ -33,7 +33,8 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
         "one is at (",
         s->body[body].name, (long long)pieces, (long long)particles);
     for (int d = 0; d < s->dim; d++) printf("%s%.4g", d ? ", " : "", f->fragment[first].x[d]);
-    printf(") m%s\n", free_ones > 0 ? "; some are not supported, so that there is no equilibrium" : "");
+    printf(") m%s\n",
+           free_ones > 0 ? "; nothing holds some of them, so that there is no equilibrium: add supports" : "");
 }
 
 void say_pieces(const struct run *e)

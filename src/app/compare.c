@@ -139,7 +139,7 @@ static void print_fields(const struct frame *a, const struct frame *b)
     if (a->stress[0] && b->stress[0])
         print_field("stress", "Pa", a, field_difference(a->stress, b->stress, frame_stresses(a->dim), a->n));
     print_field("damage", "", a, field_difference(&a->damage, &b->damage, 1, a->n));
-    printf("  %-28s %14lld of %lld\n", "particles of another kind", (long long)other_kind, (long long)a->n);
+    printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
 /* Why two frames cannot be compared particle by particle; NULL: they can. */

@@ -142,7 +142,8 @@ static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
     if (w->scene.scene && (r->folder || r->field || w->times || w->frames || r->projection.normal >= 0))
-        return status_set(REFUSED, "plot: --scene draws a scene before it runs: no folder, field, time or slice");
+        return status_set(
+            REFUSED, "plot: --scene draws a scene before it runs, so that it takes no folder, field, time or slice");
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
                           shown_name(w->times).text, shown_name(w->frames).text);

@@ -42,9 +42,8 @@ static void warn_of_spin(const struct scene *s, const struct grid_method *grid, 
 {
     if (scene_moves(s) && s->transfer == TRANSFER_FLIP && spins(s) && grid->turning.groups == 0)
         warnings_add(to,
-                     "mpm.transfer flip does not keep the spin of bodies in mpm.frame current: a plate of 20 x 10 "
-                     "points loses 7 %% of its angular momentum in 0.3 rad, 28 %% in half a turn, under stresses 100 "
-                     "times too large; apic loses 2e-5");
+                     "mpm.transfer: flip with this coupling loses angular momentum of bodies that rotate: a plate of "
+                     "20 x 10 points loses 28 %% of it in half a turn (apic: 0.002 %%); use mpm.transfer: apic");
 }
 
 /* Warns of pre-cracks without bonds, and of couplings that differ from their definition or have no energy. */
@@ -75,8 +74,8 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
                      s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
     if (s->method != METHOD_PD && s->cell < 1.5)
         warnings_add(to,
-                     "one point per cell (mpm.cell: %.3g) leaves an oscillation of 0.8 %% behind coupling interfaces; "
-                     "2 is usual",
+                     "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
+                     "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2",
                      s->cell);
 }
 
@@ -89,9 +88,9 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                                                 : NULL;
     const char *all = frame_hollow_obstacle(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
-        warnings_add(to, "mpm.levels: %d has no effect, as %s; auto or 0 is expected", s->levels, why);
+        warnings_add(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
-        warnings_add(to, "mpm.fill: needed has no effect, all particles are made, as %s; auto or all is expected",
+        warnings_add(to, "mpm.fill: needed has no effect, and all particles are made, as %s; use auto or all",
                      why   ? why
                      : all ? all
                            : "there are no coarse cells");

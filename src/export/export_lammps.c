@@ -93,7 +93,7 @@ static void readme_write(FILE *to, const struct exported *x)
         x->s->name, style, CLEAVE_VERSION, steps, x->bond_style ? " and bonds" : "", steps);
     lammps_cost_write(to, x);
     left_out_write(to, x->s);
-    fprintf(to, "\nThe method is `pd`: what a scene of `adaptive` leaves to material points has bonds here, too.\n");
+    fprintf(to, "\nThe method is `pd`: the whole body has bonds, also where `adaptive` would take material points.\n");
     for (int k = 0; k < x->settings.n; k++)
         fprintf(to, "%s%s: %s   %s\n",
                 k ? "" : "\nThe results differ from those of the scene as it was, by LAMMPS' rules:\n",

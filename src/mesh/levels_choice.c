@@ -191,8 +191,9 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
         snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f", c->step_share,
                  LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
-        snprintf(text, room, "none, as no part of the body is %d spacings thick, %d cells of 4", 4 * CELLS_ACROSS,
-                 CELLS_ACROSS);
+        snprintf(text, room,
+                 "no coarse cells, as no part of the body is %d spacings thick, which %d cells of 4 spacings need",
+                 4 * CELLS_ACROSS, CELLS_ACROSS);
     else if (c->why == LEVELS_THIN)
         snprintf(text, room, "cells of %d spacings at most, as no part of the body is thick enough for %d of the next",
                  edge, CELLS_ACROSS);

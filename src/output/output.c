@@ -393,7 +393,11 @@ static status series_archive(struct frame_series *s, struct archive *a)
     ARCHIVE_VALUE(a, frames_name, frames);
     if (!a->saving) {
         if (frames < 0 || a->stored_size(a, time_name) != (int64_t)frames * (int64_t)sizeof(real))
-            return status_set(FAILED, "the checkpoint's list of frames does not fit their number");
+            return status_set(
+                FAILED,
+                "cannot resume: the checkpoint names %d frames, and its list of their times has another length: "
+                "start again with --overwrite",
+                frames);
         memory_free(s->frame_time);
         s->frame_time = NEW("output.frame_time", frames, real);
         memory_free(s->frame_rows);

@@ -159,7 +159,9 @@ static status find_load(struct probe *q, const struct observed *o)
     if (probes_bar_make_count_of(o, BOUNDARY_PRESSURE, &other) > 0)
         return refuse(q, "a pressure acts on the bar; a traction on one end is expected");
     if (probes_bar_make_count_of(o, BOUNDARY_ABSORBING, &other) > 0)
-        return refuse(q, "an end of the bar is absorbing; fixed, mirror or nothing is expected");
+        return refuse(
+            q,
+            "an end of the bar is absorbing, for which it has no closed form; use fixed, mirror or no boundary there");
     TRY(find_ends(q, o));
     if (q->request.form == EXACT_PULSE) {
         if (o->pulses == 0) return refuse(q, "the scene starts no pulse; initial with a pulse is expected");

@@ -100,8 +100,8 @@ void rigids_meet(struct rigid_set *rigid, real spacing, real t, struct warnings 
             char text[320];
             if (a == b || one->motion != RIGID_FREE || !have_met(one, other, spacing)) continue;
             snprintf(text, sizeof text,
-                     "rigid bodies %.60s and %.60s are inside each other at t = %.3g s: they meet particles, not each "
-                     "other",
+                     "rigid bodies %.60s and %.60s overlap at t = %.3g s: rigid bodies push particles, not each other; "
+                     "change their motion, or make one of them a body of particles",
                      one->name, other->name, t);
             warnings_say(to, text);
             rigid->met = true;

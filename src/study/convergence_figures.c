@@ -168,7 +168,9 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     if (*figures > 0) return OK;
     memory_free(*figure);
     *figure = NULL;
-    return status_set(FAILED, "no figure has a value at every spacing: see %s/logs", s->study.folder);
+    return status_set(
+        FAILED, "nothing to extrapolate: no quantity has a value at every spacing, as some runs failed: see %s/logs",
+        s->study.folder);
 }
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */

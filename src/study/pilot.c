@@ -205,8 +205,9 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
                 "%.3g s (accuracy.budget); they are in %s\n",
                 pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
-        fprintf(stderr, "pilot          solver: relaxation and cg find one equilibrium, in which no bond breaks; load "
-                        "steps need method: pd or adaptive\n");
+        fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "
+                        "crack that grows under "
+                        "rising loads takes method: pd or adaptive with solver: static\n");
     TRY(search_first(p));
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);

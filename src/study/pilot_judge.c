@@ -91,7 +91,8 @@ status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const stru
         done =
             status_set(REFUSED, "accuracy.of: %s is zero, of which nothing is a share; name another figure", f->name);
     else if (!f)
-        done = status_set(REFUSED, "accuracy.of: the scene has no probe, crack or energy; name a figure");
+        done = status_set(
+            REFUSED, "accuracy.of: the scene has no probe, no crack and no energy that could be compared; add a probe");
     else {
         c->spacing = c->finest = c->seconds = 0, c->seen = false;
         snprintf(p->figure, sizeof p->figure, "%s", f->name);

@@ -88,11 +88,12 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     if (w->spacing > 0)
         fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
     else
-        fprintf(out, "), the spacing (%.4g mm and coarser at first, then finer)", spacing);
+        fprintf(out, "), the spacing (from %.4g mm and coarser ones down to finer ones)", spacing);
     fprintf(out, "%s\n", w->at_rest ? "" : " and the time step (0.9 to 1.1 of its own)");
     if (w->at_rest)
-        fprintf(out, "auto           solver: relaxation and cg find one equilibrium, in which no bond breaks; load "
-                     "steps need method: pd or adaptive\n");
+        fprintf(out, "auto           the solver of this scene finds one equilibrium, in which no bond breaks; a crack "
+                     "that grows under "
+                     "rising loads takes method: pd or adaptive with solver: static\n");
     fprintf(out,
             "auto           they cost at most %.4g s (accuracy.budget), of which %.4g s are for the first %d runs of "
             "each method; the run that they choose costs at most %.4g s\n",

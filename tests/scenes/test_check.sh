@@ -149,14 +149,14 @@ late=$(pulls 'ramp: {from: 5 us, until: 5.1 us}')
 says "a quick ramp, whenever it begins" 'boundary pull changes while a wave travels 3.84 spacings; below' "$far" -s "$late"
 says "levels by a pulse" "$needs 4 spacings at most (boundary pull is 76.8 spacings of wave long)" "$far" -s "$pulse"
 says "levels by nothing" "$needs 32 spacings at most (nothing loads it)" "$far" -s boundary=[]
-says "levels: cells" '^levels  *[0-9]* cells of 2 spacings, [0-9]* cells of 4 spacings, [0-9]* cells of 8' "$far" -s "$ramp"
+says "levels: cells" '^levels  *[0-9]* cells with edges of 2 spacings, [0-9]* cells with edges of 4 spacings, [0-9]* cells with edges of 8' "$far" -s "$ramp"
 costs "levels: what they save" '^levels  *[0-9]* of 133400 particles move as [0-9]* coarse cells; memory [0-9]* MB; about' "$far"
 says "levels: none, too small" '^levels  *none, as the body has [0-9]* particles: from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
 says "levels: none, a long step" '^levels  *none, as time.step is 0.7[0-9] of the critical one, and they bear 0.70' "$far" -s time.step=0.03us
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
 says "levels: none, too sudden" 'none, as boundary pull is sudden: cells of 4 spacings want a rise over 10, or a body 200 .*is 100$' "$far" -s "$narrow"
 says "levels given" '^levels  *cells of up to 16 spacings by mpm.levels; auto: this far field needs cells of 4' "$far" -s mpm.levels=3
-says "levels: none, too thin" 'none, as no part of the body is 24 spacings thick, 6 cells of 4$' "$far" -s boundary=[] \
+says "levels: none, too thin" 'no coarse cells, as no part of the body is 24 spacings thick, which 6 cells of 4 spacings need$' "$far" -s boundary=[] \
     -s "body={box: {from: [0, 0], to: [1200 mm, 3 mm]}}"
 says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes cells of 4 spacings at .* in 100 % of all coarse cells' "$far" -s mpm.levels=1 \
     -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"

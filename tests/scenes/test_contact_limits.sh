@@ -45,7 +45,7 @@ mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { sub(/ .*/, "", $k); if ($k
     NR > 1 { sum += $at; n++ } END { print sum / n }' "$work/rest/history.csv")
 between "a weight rests" "$mean" 380 420
 
-warned "rigid bodies do not meet" "$work/through" "meet particles, not each other" "$work/plate.yaml" \
+warned "rigid bodies do not meet" "$work/through" "push particles, not each other" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, mass: 1 g, velocity: [100 m/s, 0], shape: {box: {from: [30 mm, 0], to: [35 mm, 9 mm]}}}, {name: q, rigid: true, shape: {box: {from: [36 mm, 0], to: [40 mm, 9 mm]}}}')"
 stopped "a blade that outruns contact" "$work/blade" "spacings per step" "$work/plate.yaml" \
     -s "$(bodies '{name: p, rigid: true, velocity: [0, -3e4 m/s], shape: {box: {from: [0, 11 mm], to: [20 mm, 11.6 mm]}}}')"

@@ -46,7 +46,7 @@ holds "as chosen before: $(cat err)" grep -q "as chosen before" err
 holds "the same scene" cmp -s before.yaml collide/scene.yaml
 "$cleave" check collide.yaml >out 2>&1
 is "check" $? 0
-for words in "they judge energy.kinetic, within 5 %$" "they vary the method (points, bonds), the spacing (0.2 mm and coarser at first, then finer) and the time step" \
+for words in "they judge energy.kinetic, within 5 %$" "they vary the method (points, bonds), the spacing (from 0.2 mm and coarser ones down to finer ones) and the time step" \
     "they cost at most 40 s (accuracy.budget), of which 24 s .*; the run that they choose costs at most 800 s"; do
     holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
 done

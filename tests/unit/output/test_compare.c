@@ -220,7 +220,7 @@ static void runs_are_compared(void **state)
     assert_int_equal(sscanf(strstr(printed, "displacement [m]"), "displacement [m] %lf %lf", &largest, &mean), 2);
     assert_true(fabs(mean - largest) < 1e-9);
     assert_true(number_after(printed, "damage") == 0);
-    assert_true(number_after(printed, "particles of another kind") == 0);
+    assert_true(number_after(printed, "kind differs (bond or point)") == 0);
     assert_true(fabs(number_after(printed, "t_r = 1 - A/B = ") - 0.75) < 1e-4); /* printed with four digits */
     assert_true(fabs(number_after(printed, "nearest of B") - 5e-3) < 1e-6);
     assert_non_null(strstr(printed, "5 spacings"));
