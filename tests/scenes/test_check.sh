@@ -185,7 +185,7 @@ silent "a sudden load and cells of 4" 'accuracy  *mpm.levels' "$far" -s "$narrow
 # Keys without effect.
 cells="-s mpm.levels=2 -s mpm.fill=needed -s conversion.notch=slit"
 says "levels without cells" 'warning: mpm.levels: 2 has no effect, as method pd has no cells' plate_crack -s method=pd $cells
-says "fill without cells" 'warning: mpm.fill: needed has no effect, all particles are made, as method pd' plate_crack -s method=pd $cells
+says "fill without cells" 'warning: mpm.fill: needed has no effect, and all particles are made, as method pd' plate_crack -s method=pd $cells
 says "slit of bonds" 'warning: conversion.notch: slit has no effect with method pd' plate_crack -s method=pd $cells
 says "slit of points" 'warning: conversion.notch: slit has no effect with method mpm' plate_crack -s method=mpm $cells
 says "levels of the current frame" 'warning: mpm.levels: 2 has no effect, as no material points are in the reference' plate_crack \
