@@ -63,8 +63,9 @@ real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t r
 /* Releases all arrays. */
 void bonds_free(struct bonds *b);
 
-/* Returns the critical time step of the peridynamic particles [s]: 2 / omega_max with the block-Gershgorin bound over
- * all particles of the body, as if all were peridynamic. */
+/* Returns the critical time step of intact bonds [s]: 2 / omega_max with the block-Gershgorin bound of omega. The
+ * maximum is over all particles of the body, material points included, each with the bonds that it would have if all
+ * particles were peridynamic. No stored rows are needed. */
 real bonds_critical_step(const struct particles *p, const struct bond_source *s);
 
 /* Returns the critical time step of the intact bonds from the stored rows [s]. Valid only while all particles are

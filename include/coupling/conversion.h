@@ -52,8 +52,9 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
 void convert_region(struct region *to, const struct region *given, const struct particles *p,
                     const struct bond_source *source, real radius);
 
-/* Computes the partial stress (partial_stress.c) of every material point whose cell is crossed by PD-MPM bonds: T =
- * (1/V) sum K xi^2 l e e e e, l being the share of the reference segment of the bond inside the cell. changed: n
+/* Computes for every material point whose cell is crossed by PD-MPM bonds the stiffness tensor T of fourth rank that
+ * maps the strain of the point to its partial stress (partial_stress.c): T = (1/V) sum K xi^2 l e e e e over these
+ * bonds, with e the direction of the bond and l the share of its reference segment inside the cell. changed[n]:
  * particles converted since the last call, only whose surroundings are recomputed; NULL: all points. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);

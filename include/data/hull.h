@@ -63,7 +63,8 @@ real hull_distance(const struct hull *s, const real *X, real *normal);
 /* Returns hull_distance(s, X, NULL) <= most, without searching faces farther away than that. */
 bool hull_within(const struct hull *s, const real *X, real most);
 
-/* Returns the maximum over its corners of X . along [m]. */
+/* Returns the maximum of the scalar product X . along over the corners X of the hull [m] (support function). along:
+ * unit vector. */
 real hull_support(const struct hull *s, const real *along);
 
 /* Returns the share of about 4000 sample points of its box at which the winding number is ambiguous [1]. */

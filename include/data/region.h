@@ -28,7 +28,8 @@ real region_distance(const struct region *r, const real *X, int dim, real *norma
 /* Returns true if a side of one of its boxes is infinite; such boxes have no distance. */
 bool region_has_endless_box(const struct region *r, int dim);
 
-/* Returns an upper bound of the maximum over its points of X . along [m]. */
+/* Returns an upper bound of the scalar product X . along over all points X of the region [m]. along: unit vector, dim
+ * components. */
 real region_support(const struct region *r, const real *along, int dim);
 
 /* Returns the volume within the box from .. to [m^dim] by quasi-random sampling, to about 0.1 % of the box. */

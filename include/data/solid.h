@@ -115,7 +115,8 @@ bool solid_within(const struct solid *s, const real *X, int dim, real most);
 /* Computes a box around the solid, slightly larger, for a box_tree; infinite if no box bounds its levels. */
 void solid_box(const struct solid *s, int dim, struct bounds *box);
 
-/* Returns the maximum over its points of X . along [m], for unit vectors `along`. */
+/* Returns the maximum of the scalar product X . along over the points X of the solid [m] (support function). along:
+ * unit vector, dim components. */
 real solid_support(const struct solid *s, const real *along, int dim);
 
 /* Returns the radius of a ball, cylinder, tube or ring, or the least half axis of an ellipsoid [m]; INFINITY: it has

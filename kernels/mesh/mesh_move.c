@@ -49,7 +49,8 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
 #define OFF_PLACE 1e-6 /* largest deviation of a node from its prescribed place by round-off [cells]; empirical */
 
 /* Sets constrained components to the prescribed velocity exactly, removing round-off from velocity and displacement.
- * Nodes with a prescribed displacement are set to it, unless they started from another displacement. */
+ * A displacement within OFF_PLACE cell edges of its prescribed value is set to that value; one that differs by more,
+ * for example of a node that started from another displacement, follows the velocity alone. */
 static void walls_move(struct mesh *mesh, real dt)
 {
     const struct grid *g = &mesh->grid;

@@ -41,7 +41,8 @@ static ALWAYS_INLINE const int32_t *list_eight(const int32_t *list, int64_t k, i
     return room;
 }
 
-/* Returns true if eight entries of an ascending list are consecutive numbers. */
+/* Returns true if the eight entries list[0 .. 7] are consecutive numbers. The entries must be strictly ascending, or
+ * copies of list[0] may follow the ascending ones, as list_eight fills them up. */
 static ALWAYS_INLINE bool list_together(const int32_t *list) { return list[LANES - 1] - list[0] == LANES - 1; }
 
 /* Loads eight values of `from`: consecutive from `first` on, or, if first < 0, at index[0 .. 7]. */

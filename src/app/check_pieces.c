@@ -6,8 +6,8 @@
 #include "check_parts.h"
 #include "fracture/fragments.h"
 
-/* Marks fragments of which a support drives or holds a particle; beside planes of symmetry, which may hold them, all.
- * */
+/* Sets driven[k] of each fragment k of which a support drives or holds a particle. If the scene has any plane of
+ * symmetry, sets driven[] of all fragments, since the plane may hold them. */
 static void mark_driven(const struct bond_source *source, const struct particles *part, const struct fragments *f,
                         bool *driven)
 {

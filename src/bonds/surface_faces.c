@@ -155,7 +155,8 @@ static void normals_gather(struct faces *f, const struct near_faces *b, const st
 }
 
 /* Distributes the face of particle t at one end of an axis over the layers behind it. The area is extrapolated from the
- * middles of the layers to the face; the dipole has first moment 1 and sum 0 (with rotations a second difference). */
+ * middles of the layers to the face. The weights of the dipole have sum 0. Without rotations they are the difference 1,
+ * -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order at the face. */
 static void face_spread(struct faces *f, const struct near_faces *b, const struct smooth *smooth, int64_t t, int axis,
                         int up, bool rotates)
 {

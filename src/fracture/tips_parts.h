@@ -20,7 +20,8 @@ static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
     return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];
 }
 
-/* Returns true if n listed particles are consecutive, as most are: eight are tested at a time then. */
+/* Returns true if the n >= 1 particle numbers at[0 .. n - 1], which must be strictly ascending, are consecutive. Flags
+ * of consecutive particles are tested eight at a time. */
 static inline bool tip_piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
 
 /* Extent of a crack from its start [m], position of its end, particles, and groups equally far within a spacing. */

@@ -38,7 +38,8 @@ real sif_plane_crack_area(const struct sif_plane *plane, const struct particles 
 /* Returns true if the segment from..to of the plane lies on a plane of symmetry. */
 bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const real *to);
 
-/* Stores the point at `distance` [m] from `from` in the direction of the unit vector `along` [m]. */
+/* Computes the point ahead = from + distance * along. from: point of the plane of the tips [m]; along: unit vector in
+ * the plane; distance and result in [m]. */
 static inline void sif_point_ahead(const real *from, real distance, const real *along, real ahead[2])
 {
     for (int d = 0; d < 2; d++) ahead[d] = from[d] + distance * along[d];
