@@ -36,48 +36,56 @@ struct diagnostics {
     int64_t bonds_broken;         /* directed bonds broken by load */
 };
 
-/* Initialises the diagnostics, before step 0. */
+/* Initialises the diagnostics *w before the first time step: sums are 0, times of breaks are NAN (no break yet). */
 void diagnostics_make(struct diagnostics *w);
 
-/* Measures the momentum of particles and of mesh nodes, and the largest momentum error so far. nodes [grids]: grids
- * whose nodes carry the mass of their points; impulse: of loads and supports up to the time of the velocities [dim,
- * N s]. */
+/* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates
+ * w->now.momentum_error, the largest error so far. nodes[grids]: grids whose nodes carry the mass of their points.
+ * impulse: impulse of loads and supports from the start to the time of the velocities, dim components [N s]. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse);
 
-/* Measures the angular momentum of free bodies about their common centre of mass, and the largest error so far.
- * mesh: NULL if no node of the reference frame carries mass. Call it only if nothing outside the bodies acts on
- * them. */
+/* Computes the angular momentum of the free bodies about their common centre of mass, stores it in w->now.spin, and
+ * updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none of its nodes
+ * carries mass. bodies: number of bodies of the scene. Call this function only if no load, support or mirror acts on
+ * the bodies, since angular momentum is conserved only then. */
 void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies);
 
-/* Stores the energies and the work of loads and supports [J] of time t [s], and computes the balance error. Call it
- * after diagnostics_momentum. */
+/* Stores the energies *energy of the run at time t [s] and the work of loads and supports since the start, `work` [J],
+ * in w->now, and computes the error of the energy balance, w->now.balance_error. Call this function after
+ * diagnostics_momentum; its first call defines the energy and momentum at the start. */
 void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
-/* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample, with E without damped energy [1]; NAN
- * if E_0 is 0. */
+/* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample [1]. E is the sum of all energies except
+ * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if
+ * E_0 is not positive. */
 real diagnostics_energy_change(const struct diagnostics *w);
 
-/* Finds the cuts of a step: clusters of particles with FLAG_CRACKED (fracture/places.h). list [n]: particles that
- * are searched, NULL for the first n; horizon: longest bond [m]; middle [dim, m]: reference position of one cut.
- * Returns the number of separate cuts; if 0, middle is unchanged. */
+/* Finds the cuts of the present step: groups of particles whose flag FLAG_CRACKED is set and that are at most
+ * `horizon` apart (fracture/places.h). list[n]: numbers of the particles that are searched; NULL for particles 0 .. n
+ * - 1. horizon: length of the longest bond [m]. middle: receives the reference position of the middle of one cut, dim
+ * components [m]. Returns the number of separate cuts; if it is 0, `middle` is unchanged. */
 int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle);
 
-/* Records bonds that broke at time t [s], and the first break of the run. broken: number of directed bonds; horizon:
- * longest bond [m]. Returns true if these are the first broken bonds of driven particles. */
+/* Adds the bonds that broke in the step at time t [s] to the number of broken bonds, and stores time and position of
+ * the first break of the run. broken: number of directed bonds that broke in the step. horizon: length of the longest
+ * bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first
+ * time in the run. */
 bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t);
 
-/* Returns the largest speed of n listed particles [m/s]. */
+/* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
 real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n);
 
-/* Returns FAILED, with position, step and cause, if a position or velocity is not finite or a particle is faster
- * than `limit`, the fastest wave of the scene [m/s]. peridynamic, meshed: check peridynamic particles, and points of
- * a mesh; the kernels that move them report divergence, so that they need no check in most steps. step, t: for the
- * message. */
+/* Searches for particles whose position or velocity is not finite or whose speed exceeds `limit`, the fastest wave
+ * speed of the scene [m/s]. peridynamic: search the peridynamic particles too; meshed: search the material points of a
+ * mesh too. Both are false in most steps, since the functions that move these particles detect divergence. step, t:
+ * number and time [s] of the step, for the message. Returns FAILED if there is such a particle, with its position and
+ * the cause in the message. */
 status diagnostics_divergence(const struct particles *p, bool peridynamic, bool meshed, real limit, int64_t step,
                               real t);
 
-/* Saves or restores the diagnostics. */
+/* Saves the diagnostics to the archive if a->saving is set, else restores them from it. Returns FAILED if an entry is
+ * missing or has another size. */
 status diagnostics_archive(struct diagnostics *w, struct archive *a);
 
 #endif

@@ -35,8 +35,9 @@ struct exact_values {
     real strain;       /* [1] */
 };
 
-/* Returns the values at reference position X [m] and time t >= 0 [s], on a front the value behind it; NAN if the
- * closed form does not apply. */
+/* Returns displacement, velocity, stress and strain of the closed-form solution at reference position X [m] and time t
+ * >= 0 [s]. At a front, the values behind the front are returned. All values are NAN if the closed form does not apply
+ * at X and t. */
 struct exact_values exact_at(const struct exact *e, real X, real t);
 
 /* A stress jump that moves along the bar. */
@@ -47,9 +48,10 @@ struct exact_front {
 };
 enum { EXACT_FRONTS = 2 };
 
-/* Computes the fronts at time t [s]. STEP BAR: the front that was reflected last. PLASTIC BAR: the precursor and,
- * beyond the yield stress, the plastic front. Returns their number; 0 for smooth forms and where the closed form
- * does not apply. */
+/* Computes the stress jumps of the closed-form solution at time t [s] and stores them in front[]. STEP BAR has one
+ * front, the one that was reflected last; PLASTIC BAR has the elastic precursor and, if the load exceeds the yield
+ * stress, the plastic front. Returns the number of fronts; 0 for solutions without jumps and for times at which the
+ * closed form does not apply. */
 int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
 /* Regions in which the exact stress is constant, at a distance from fronts and ends. PLATEAU: behind the last front,
@@ -57,7 +59,8 @@ int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_F
  * behind the precursor to 0.05 ahead of the plastic front. */
 enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
-/* Computes the range [from, to] of a window at time t [m]; returns false if there is none. */
+/* Computes the range from *from to *to [m] of the window `which` at time t [s], a part of the bar in which the stress
+ * of the closed-form solution is constant. Returns false if there is no such part at time t. */
 bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to);
 
 #endif

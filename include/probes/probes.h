@@ -78,59 +78,73 @@ struct velocity_time {
     real scale; /* factor of velocities of the sample that undoes half a step of bulk damping [1] */
 };
 
-/* Binds requests to particles of a run. Returns REFUSED for a point outside the body, an unknown boundary, or a bar
- * that the closed form does not describe. */
+/* Initialises the probes *s for the requests request[n] of the scene: finds the particles that each probe observes,
+ * and lists the columns that probes add to history.csv. o: view of the run at the start. Returns REFUSED, with nothing
+ * left to free, if a point is outside the bodies, a region holds no particle, a named boundary does not exist or has
+ * no reaction, a bar differs from what its closed-form solution describes, or a SIF probe has no crack tip or
+ * unsuitable contours. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
 
-/* Frees probes and what they own. */
+/* Frees the arrays of all probes and clears *s. */
 void probes_free(struct probes *s);
 
-/* Computes the values of a sample that depend on positions only, at o->t. */
+/* Computes the values of a sample of history.csv that do not depend on velocities at the time of the sample, o->t, and
+ * stores them in s->value. probes_sample_end computes the other values. */
 void probes_sample(struct probes *s, const struct observed *o);
 
-/* Stores positions of o->t and velocities of o->t_velocity, before a step. */
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles, before the
+ * time step. probes_sample_end interpolates between them and the velocities after the step. */
 void probes_keep(struct probes *s, const struct observed *o);
 
-/* Completes the values of a sample after the step, at the time of probes_keep: velocities are interpolated, and
- * reactions are those of the forces of the step. now: time of the present velocities. Without probes_keep before, the
- * body is taken to be in equilibrium. */
+/* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
+ * stores them in s->value. The values are those at the time of the preceding call of probes_keep: velocities are
+ * interpolated to that time, and reactions are those of the forces in the step. now: time of the present velocities.
+ * If probes_keep was not called before, the body is assumed to be in equilibrium. */
 void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now);
 
-/* Updates the probes that observe every step: BREAK and SPALL search for bonds that just broke (FLAG_LOST_BOND),
- * REACTION updates its largest and root-mean-square force. Call it before the flags of the step are cleared. */
+/* Updates the probes that observe every time step: BREAK and SPALL probes search for bonds that broke in the step
+ * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared
+ * forces. Call this function before the flags of the step are cleared. */
 void probes_step(struct probes *s, const struct observed *o);
 
-/* Updates BREAK and SPALL probes only, in load steps. */
+/* Updates the BREAK and SPALL probes, which search for bonds that just broke, and no other probes. Load steps call
+ * this function each time bonds have broken. */
 void probes_breaks(struct probes *s, const struct observed *o);
 
-/* Calls emit for every figure of every probe that is not NAN; value is in SI units, context is passed on. */
+/* Calls emit(context, probe name, quantity name, value) for every result of every probe that summary.json reports, in
+ * SI units. Values that are NAN are skipped. */
 void probes_figures(const struct probes *s, const struct observed *o,
                     void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
 
-/* Writes a file `name` with a text of `length` bytes; context: as handed to probes_profiles. */
+/* Type of a function that writes the `length` bytes of `text` to a file called `name`. context: argument of the same
+ * name of probes_profiles. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
-/* Prints the profile of every LINE and EXACT probe as CSV, and hands each to put as the file `<probe>_<frame>.csv`.
- * Returns FAILED if put does. */
+/* Prints the profile of each LINE and EXACT probe as CSV text, and calls put(context, `<probe>_<frame>.csv`, text,
+ * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
+ * `put` if it is not OK. */
 status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
 
-/* Returns the number of profiles of a frame. */
+/* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */
 int64_t probes_profiled(const struct probes *s);
 
 /* Longest name of a profile, with its terminator. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
-/* Writes the file name of profile k of a frame to name [PROFILE_NAME]; returns false if there is no profile k. */
+/* Writes the file name of profile k, k >= 0, of frame number `frame` to name[PROFILE_NAME]. Returns false, without a
+ * name, if there are at most k profiles. */
 bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
 
-/* Finds the stress-intensity factors of the named SIF probe at the last sample, and the direction of its tip.
- * Returns false if there is none yet. */
+/* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
+ * crack tip, to *found. Returns false if the probe has no values yet. */
 bool probes_sif_control(const struct probes *s, const char *name, struct control *found);
 
-/* Finds the present tip [m] and the outer radius [m] of probe k. Returns false if it is no SIF probe. */
+/* Computes the present position of the crack tip of probe k, two components [m], and the outer radius of its contours,
+ * *radius [m]. Returns false if probe k is not a SIF probe. */
 bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real position[2], real *radius);
 
-/* Saves or restores the state of probes; FAILED if a restored state does not fit the probes. */
+/* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
+ * if an entry is missing or its size does not fit the probes. */
 status probes_archive(struct probes *s, struct archive *a);
 
 #endif

@@ -17,32 +17,35 @@ struct probing {
     real strain_stress;  /* for PATCH probes: largest component of the initial stress [Pa] */
 };
 
-/* Returns the largest |component| of the stress of particles [Pa]. */
+/* Returns the largest absolute value of a stress component among all particles [Pa]. */
 real largest_stress(const struct particles *p);
 
-/* Lists the pulses of the initial states of a scene. */
+/* Lists the wave pulses among the initial states of a scene in probing->pulse and their number in probing->pulses. */
 void make_pulses(const struct scene *s, struct probing *probing);
 
-/* Extends the growing cracks by one step; cracks controlled by a SIF probe follow its factors. Returns the number of
- * directed bonds cut. */
+/* Extends the cracks with prescribed growth by the growth of one time step, and cuts the bonds that they cross. The
+ * speed and direction of cracks that a SIF probe controls follow from its stress-intensity factors. Returns the number
+ * of directed bonds cut. */
 int64_t cracks_grow(struct run *e);
 
-/* Stores the largest force component on nodes of grids and on peridynamic particles in the regions of PATCH probes.
- * Call it in the first step, between forces and motion. */
+/* Stores the largest force component on the nodes of grids and on peridynamic particles in the regions of PATCH
+ * probes, in q->residual_step0 [N]. Call this function in the first step, after the forces have been computed and
+ * before particles are moved. */
 void residual_keep(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid);
 
-/* Stores the largest force component on nodes of a mesh of the reference frame in the regions of PATCH probes. Call it
- * in the first step, between forces and motion. */
+/* Updates q->residual_step0 [N] with the largest force component on nodes of a mesh of the reference frame in the
+ * regions of PATCH probes. Call this function in the first step, after the forces have been computed and before nodes
+ * are moved. */
 void residual_keep_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh);
 
-/* Writes the profiles of LINE and EXACT probes as files named after the frame that `out` has just written. Returns
- * FAILED if a file cannot be written. */
+/* Writes the profiles of LINE and EXACT probes as CSV files to the folder of `out`, named after the last frame written
+ * to it. o: present view of the run. Returns FAILED if a file cannot be written. */
 status profiles_write(const struct probes *s, const struct output *out, const struct observed *o);
 
-/* Warns of profiles of a resumed run that are missing. */
+/* Adds a warning to *to if profiles that belong to the frames of a resumed run are missing in the folder of `out`. */
 void profiles_check(const struct probes *s, const struct output *out, struct warnings *to);
 
-/* Removes the profiles of a previous run in the folder, before a new run. */
+/* Removes the profiles that an earlier run left in the folder of `out`. Call it before a new run. */
 void profiles_remove(const struct probes *s, const struct output *out);
 
 #endif

@@ -58,40 +58,45 @@ struct probe {
 /* Readings of a particle: displacement, velocity, stress (in plane strain also zz), damage. */
 enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
 
-/* Returns the number of readings of a particle of p. */
+/* Returns the number of values that a POINT or LINE probe reports of a particle: components of displacement, velocity
+ * and stress, and the damage. The number depends on the dimension of p. */
 int readings_count(const struct particles *p);
 
-/* Returns name and unit of reading k of a particle. */
+/* Returns the name and unit of value k of those that a POINT or LINE probe reports of a particle, 0 <= k <
+ * readings_count(p). */
 struct column reading_column(const struct particles *p, int k);
 
-/* Computes the readings of particle i into value [readings_count]. */
+/* Computes displacement, velocity, stress and damage of particle i and stores them in value[readings_count(p)], in the
+ * order of reading_column. */
 void readings_of(const struct particles *p, int64_t i, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
-/* Stores positions of o->t and velocities of o->t_velocity, before a step. */
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion,
+ * before the time step. */
 void motion_keep(struct probe *q, const struct observed *o);
 
-/* Interpolates the stored velocities to the time of the sample, after the step. now: time of the present velocities.
- * After the last step, which no step follows, positions are the present ones and velocities are extrapolated.
- * Without stored motion the particles are at rest. */
+/* Interpolates the velocities copied by motion_keep and the present velocities to the time of the sample, after the
+ * time step. now: time of the present velocities. After the last step, which no other step follows, the present
+ * positions are used and the velocities are extrapolated. If motion_keep was not called, velocities are 0. */
 void motion_complete(struct probe *q, const struct observed *o, const struct velocity_time *now);
 
-/* Ends the motion of a sample: positions and velocities are the present ones again. */
+/* Discards the positions and velocities interpolated for a sample, so that probe_position and probe_velocity return
+ * the present values again. */
 void motion_end(struct probe *q);
 
-/* Frees the arrays of the motion. */
+/* Frees the copies of positions and velocities of a probe. */
 void motion_free(struct probe *q);
 
-/* Returns component d of the position of the k-th particle of a probe [m]: of the sample's time while the motion is
- * complete, else the present one. */
+/* Returns component d of the position of the k-th particle of a probe [m]: at the time of the sample between
+ * motion_complete and motion_end, else the present position. */
 static inline real probe_position(const struct probe *q, const struct particles *p, int d, int64_t k)
 {
     return q->motion.complete ? q->motion.x[d][k] : p->x[d][q->list[k]];
 }
 
-/* Returns component d of the velocity of the k-th particle of a probe [m/s]: of the time of the sample while the motion
- * is complete, else the present one. */
+/* Returns component d of the velocity of the k-th particle of a probe [m/s]: at the time of the sample between
+ * motion_complete and motion_end, else the present velocity. */
 static inline real probe_velocity(const struct probe *q, const struct particles *p, int d, int64_t k)
 {
     return q->motion.complete ? q->motion.v[d][k] : p->v[d][q->list[k]];
@@ -101,30 +106,32 @@ static inline real probe_velocity(const struct probe *q, const struct particles 
 
 extern const char *const axis_name[DIM_MAX];
 
-/* Returns the nearest particle to reference position X [dim, m], or -1 if X is outside the body. */
+/* Returns the number of the particle nearest to the reference position X, dim components [m]. Returns -1 if X is
+ * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
 int32_t particle_nearest(const struct observed *o, const real *X);
 
-/* Computes the reference position of station k of a LINE probe [dim, m]. */
+/* Computes the reference position X of station k of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
+ * equidistant from one end of the line to the other. */
 void station_position(const struct probe *q, int dim, int k, real *X);
 
-/* Returns the tip that a TIP probe follows at present, NULL if there is none. */
+/* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *t. */
 const struct tip *probe_tip(const struct probe *q, const struct tips *t);
 
-/* Computes the sum of the reactions of all supports of the probe's boundary [dim, N], and the mean displacement of
- * their particles [dim, m]. */
+/* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
+ * [N], and the mean displacement of their particles, displacement[dim] [m]. */
 void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement);
 
 struct energies {
     real kinetic, strain, fracture; /* [J] */
 };
 
-/* Returns the energies of the particles of a probe. */
+/* Returns the kinetic, strain and fracture energy of the particles of a probe [J]. */
 struct energies probe_energies(const struct probe *q, const struct observed *o);
 
-/* Returns the kinetic energy of the particles of a probe [J]. */
+/* Returns the kinetic energy of the particles of a probe [J], with the velocities of probe_velocity. */
 real probe_kinetic(const struct probe *q, const struct particles *p);
 
-/* Computes the momentum of the particles of a probe [dim, kg m/s]. */
+/* Computes the momentum of the particles of a probe, momentum[dim] [kg m/s], with the velocities of probe_velocity. */
 void probe_momentum(const struct probe *q, const struct particles *p, real *momentum);
 
 /* Amplitudes of a PULSE probe over the incident amplitude: reflected, as the difference from the baseline, and
@@ -133,23 +140,28 @@ struct pulse_shares {
     real reflected, transmitted, energy_change;
 };
 
-/* Stores the incident amplitude of a PULSE probe. Returns REFUSED if nothing moves at the start. */
+/* Stores the largest initial speed of the body as the incident amplitude of a PULSE probe. Returns REFUSED if nothing
+ * moves at the start. */
 status pulse_bind(struct probe *q, const struct observed *o);
 
-/* Returns reflected and transmitted amplitudes and the energy change of the present state. */
+/* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
+ * energy change of the present state relative to that of the run on material points alone. */
 struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
 
-/* Tests whether a bar has separated along x; stores the plane of separation and the time in q->memory. */
+/* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
+ * separation and the time in q->memory; else changes nothing. */
 void spall_sample(struct probe *q, const struct observed *o);
 
-/* Computes the mean velocities along x of the lighter part of a separated bar and of the rest [m/s]. */
+/* Computes the mean velocity along x of the lighter part of a separated bar, *speed, and of the remaining part,
+ * *speed_rest [m/s]. */
 void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
 /* Tip position and length of a growing crack, its speed, and the equivalent factor K_eq that controls it. */
 enum { GROWTH_FIGURES = 5 };
 extern const struct column growth_figure[GROWTH_FIGURES];
 
-/* Computes the figures of a growing crack into value [GROWTH_FIGURES]. */
+/* Computes the reported quantities of a growing crack (position of its tip, length, speed, equivalent stress-intensity
+ * factor) and stores them in value[GROWTH_FIGURES], in the order of growth_figure[]. */
 void growth_readings(const struct growth *g, real *value);
 
 /* ---- stress-intensity factors: SIF ------------------------------------------------------------------------------- */
@@ -157,32 +169,36 @@ void growth_readings(const struct growth *g, real *value);
 enum { SIF_FIGURES = 4, SIF_CONTOURS_MAX = 16 };
 extern const struct column sif_figure[SIF_FIGURES];
 
-/* Finds the crack tip of a SIF probe, its contours and material. Returns REFUSED for bodies without a tip, and for
- * contours that leave the body or contain another tip or material. */
+/* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
+ * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
+ * another crack tip or material. */
 status sif_bind(struct probe *q, const struct observed *o);
 
-/* Frees the tip and its contours. */
+/* Frees the crack tip and the contours of a SIF probe. w may be NULL. */
 void sif_free(struct sif_tracked *w);
 
-/* Stores the motion at o->t and o->t_velocity, before the step (probes_keep). */
+/* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
+ * time step. */
 void sif_keep(struct probe *q, const struct observed *o);
 
-/* Computes the stress-intensity factors at the time of a sample into q->memory.factors. t_velocity: time of the present
- * velocities [s]. */
+/* Computes K_I, K_II, J and the spread between contours of a SIF probe at the time of the sample, and stores them in
+ * q->memory.factors. t_velocity: time of the present velocities [s]. */
 void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
 extern const struct column rigid_figure[RIGID_FIGURES];
 
-/* Stores angular momentum and kinetic energy of a RIGID probe at the start. Returns REFUSED unless the scene is plane.
- */
+/* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
+ * if the scene is not plane. */
 status rigid_bind(struct probe *q, const struct observed *o);
 
-/* Computes the angle and the largest stresses of a RIGID probe into value[] and q->memory.rigid. */
+/* Computes the angle of rotation and the largest stresses of a RIGID probe at the present positions, stores them in
+ * value[], and updates q->memory.rigid. */
 void rigid_sample(struct probe *q, const struct observed *o, real *value);
 
-/* Computes angular momentum and kinetic energy, once velocities are known. */
+/* Computes the errors of angular momentum and kinetic energy of a RIGID probe and stores them in value[]. Call this
+ * function when the velocities at the time of the sample are known. */
 void rigid_sample_motion(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
@@ -195,38 +211,43 @@ struct bar {
     real *flux, *strain;           /* [n] by rank: stress by bond flux [Pa]; strain du/dx [1] */
 };
 
-/* Finds the particles, ends and load of the bar of an EXACT probe. Returns REFUSED for a bar that the closed form does
- * not describe. */
+/* Finds the particles, ends, material and load of the bar of an EXACT probe and allocates q->bar. Returns REFUSED if
+ * the bar or its loads differ from what the closed-form solution describes. */
 status bar_make(struct probe *q, const struct observed *o);
 
-/* Frees a bar and its arrays. */
+/* Frees a bar and its arrays. b may be NULL. */
 void bar_free(struct bar *b);
 
-/* Computes displacement, velocity, flux and strain of all particles of a bar. */
+/* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
+ * arrays of *b. */
 void bar_measure(struct bar *b, const struct observed *o);
 
-/* Computes the stress by bond flux [n, Pa] by rank: the force of all bonds that cross the centre of a particle, over
- * the section. A bond counts in full for particles strictly between its ends and by half for its ends; bonds to
- * mirror images are included. Material points have their Cauchy stress. */
+/* Computes the stress by bond flux of each particle, flux[n] by rank from left to right [Pa]: the sum of the forces of
+ * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
+ * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
+ * particles are included. Material points have their Cauchy stress instead. */
 void bar_flux(const struct bar *b, const struct observed *o, real *flux);
 
 /* Figures of a bar in a fixed order; they are columns of the history, too. */
 enum { BAR_FIGURES_MAX = 16 };
 
-/* Returns the number of figures of a closed form. */
+/* Returns the number of quantities that an EXACT probe reports for the closed-form solution `form`. */
 int bar_figures_count(enum exact_form form);
 
-/* Returns name and unit of figure k of a closed form. */
+/* Returns the name and unit of reported quantity k of the closed-form solution `form`, 0 <= k <
+ * bar_figures_count(form). */
 struct column bar_figure(enum exact_form form, int k);
 
-/* Measures the bar (bar_measure) and computes its figures into value [bar_figures_count]. */
+/* Updates the measured fields of a bar (bar_measure), compares them with the closed-form solution, and stores the
+ * reported quantities in value[bar_figures_count], in the order of bar_figure. */
 void bar_figures(struct bar *b, const struct observed *o, real *value);
 
 /* Columns of a bar's profile. */
 enum { BAR_READINGS = 12 };
 extern const struct column bar_reading[BAR_READINGS];
 
-/* Computes the row of a bar profile for the particle with this rank into value [BAR_READINGS]. */
+/* Computes the line of the profile of a bar for one particle and stores it in value[BAR_READINGS], in the order of
+ * bar_reading[]. rank: position of the particle in the order from left to right, from 0. */
 void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value);
 
 #endif
