@@ -7,46 +7,53 @@
 #include "run/critical_step.h"
 #include "run/run.h"
 
-/* Creates the state of a run at step 0: particles, cells, loads, bonds, grid, time step. out: opened by output_open,
- * borrowed; NULL: no files. REFUSED if the scene is invalid; FAILED if memory is exhausted or a file cannot be read.
- * Release e with engine_free whatever is returned. */
+/* Creates the state of a run of the scene s before its first step: particles, cells, loads, bonds, grid, time step.
+ * out: files of the run, opened by output_open and kept by reference; NULL for a run without files. Returns REFUSED if
+ * the scene is invalid or needs more memory than available; FAILED if a file cannot be read. Release *e with
+ * engine_free whatever is returned. */
 status engine_make(struct run *e, const struct scene *s, struct output *out);
 
-/* Releases the memory of a run. */
+/* Releases the memory of a run. Waits first for the thread that may still be writing a frame. */
 void engine_free(struct run *e);
 
-/* Estimates the peak memory of a run of the lattice bodies of a scene [byte]. p: their particles; source: materials and
- * families. Can be called before bonds and grids are allocated. */
+/* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
+ * source: materials and bond families. Bonds and grids need not exist yet. */
 real run_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Estimates the peak memory as run_memory does if all particles of the bodies were peridynamic [byte]. */
+/* Estimates the peak memory of a run as run_memory does, but for the case that all particles of the bodies are
+ * peridynamic [byte]. */
 real run_memory_peridynamic(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Runs to the end of the scene. Returns INTERRUPTED, after a checkpoint, when a signal was received; FAILED if the run
- * becomes unstable or output fails. */
+/* Runs a scene from the present step to its end, with all reports. Returns INTERRUPTED, after a checkpoint, if a
+ * signal or the wall-clock limit stops the run; FAILED if the run becomes unstable, no equilibrium is found, or a file
+ * cannot be written. */
 status engine_run(struct run *e);
 
-/* Performs one time step, preceded by changes of the cell levels. */
+/* Adapts the refinement levels of the mesh cells and makes one time step (step). Returns FAILED if either fails. */
 status engine_step(struct run *e);
 
-/* Saves the state between two steps. run: struct run. */
+/* Saves the complete state of a run between two steps to the archive if a->saving is set, else restores it from the
+ * archive. run: a struct run. Returns FAILED if the file cannot be written, or if the stored state does not fit the
+ * run or is inconsistent. */
 status engine_archive(void *run, struct archive *a);
 
-/* Restores the state into a run of the same scene that engine_make has created. Reports on standard error if it was
- * saved with another instruction set. FAILED if the archive belongs to another body or is inconsistent. run: struct
- * run. */
+/* Restores the state of a run from a checkpoint. run: a struct run of the same scene that engine_make has created.
+ * Reports on standard error if the checkpoint was written with another instruction set. Returns FAILED if the
+ * checkpoint belongs to another body or is inconsistent. */
 status engine_restore(void *run, struct archive *a);
 
-/* Repeats the scene on material points alone if it has a PULSE probe, which compares the two runs. Call after the run.
- */
+/* Runs the scene once more with material points alone, if it has a PULSE probe, and stores the final velocities and
+ * the energy change with which the probe compares the run. Call it after the run. Returns the status of the second
+ * run. */
 status engine_baseline(struct run *e);
 
-/* Checks the scene for what is allowed but probably unintended, and adds warnings to e->warnings. Call once, before the
- * first step. */
+/* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
+ * before the first step. */
 void engine_warn(struct run *e);
 
-/* Writes summary.json for the steps done so far. s: status of the run; threads, wall_seconds: measured by the
- * caller. */
+/* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
+ * for a run without files. s: status with which the run ended; threads: number of threads; wall_seconds: duration of
+ * the run [s]. Returns FAILED if a file cannot be written. */
 status summary_write(const struct run *e, status s, int threads, double wall_seconds);
 
 #endif

@@ -7,46 +7,52 @@
 struct sif_plane;
 struct statics;
 
-/* Finds the equilibrium of bonds or of a grid (`solver: cg, relaxation`) and ends the run. Returns FAILED if it is not
- * found, INTERRUPTED as engine_run does. */
+/* Finds the static equilibrium of a scene without load steps, of bonds by conjugate gradients (`solver: cg`) or of a
+ * grid by damped time steps (`solver: relaxation`), and completes the run. Returns FAILED if no equilibrium is found
+ * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_solve(struct run *e);
 
-/* Makes load steps to the end of the scene (`solver: static` with `steps`). Returns FAILED if there is no equilibrium,
- * INTERRUPTED as engine_run does. */
+/* Makes the load steps of a scene (`solver: static` with `steps`), from the present one to the last. Returns FAILED if
+ * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_steps(struct run *e);
 
-/* Initialises the solver of engine_solve. Returns REFUSED for loads without equilibrium. */
+/* Initialises the solver that engine_solve uses. Returns REFUSED if the loads of the scene admit no equilibrium. */
 status engine_solver_make(struct run *e);
 
-/* Returns REFUSED for scenes with bodies or loads that load steps do not support. */
+/* Checks that load steps support the bodies, loads and supports of a scene. Returns REFUSED, with the reason, if they
+ * do not. */
 status statics_check(const struct run *e);
 
-/* Finds the equilibrium at load time t [s] for an estimate of cost. No load step can follow. Returns FAILED if there is
- * none. */
+/* Finds the equilibrium at load time t [s] for an estimate of the cost of a run (`cleave check`). The run cannot be
+ * continued with load steps afterwards. Returns FAILED if no equilibrium is found. */
 status engine_equilibrium_try(struct run *e, real t);
 
-/* Computes the largest ratio of stretch to critical stretch of the whole run, if no bond broke, and stores it in *ratio
- * [1] and its load time in *at [s]. Loads that grow in proportion are scaled from the present equilibrium; where loads
- * turn back or others join them, the equilibria are computed. first: load time of the preceding engine_equilibrium_try
- * [s]. Returns FAILED if an equilibrium is not found. */
+/* Computes the largest ratio of bond stretch to critical stretch that the whole run would reach if no bond broke.
+ * Stores the ratio in *ratio [1] and its load time in *at [s]. Where all loads grow in proportion, the stretches of
+ * the present equilibrium are scaled; where loads reverse or further loads begin, equilibria are computed. first: load
+ * time of the preceding engine_equilibrium_try [s]. Returns FAILED if an equilibrium is not found. */
 status engine_stretch_ratio_worst(struct run *e, real first, real *at, real *ratio);
 
-/* Returns the load size at pseudo-time t [s]: the root of the sum of squares of the prescribed displacements of
- * particles and rigid bodies [m] or, if all of them are 0, of the applied forces [N]. */
+/* Returns the load size at pseudo-time t [s], a measure proportional to the loads: the root of the sum of squares of
+ * all prescribed displacements of particles and rigid bodies [m] or, if all of these are 0, of all applied forces [N].
+ */
 real statics_load_size(const struct run *e, real t);
 
-/* Returns the reason why the growth direction of cracks does not follow from their stress-intensity factors
- * (`steps.path`), or NULL if it does; then stores the plane of the tips in *plane (may be NULL). */
+/* Returns the reason why the growth direction of cracks cannot be determined from their stress-intensity factors (key
+ * `steps.path` of the scene), a static text, or NULL if it can. If it can and `plane` is not NULL, stores the plane in
+ * which the crack tips move in *plane. */
 const char *sif_fault(const struct run *e, struct sif_plane *plane);
 
-/* Returns REFUSED if a scene in space requires SIF-driven cracks (`steps.path: hoop`) and they are not possible. */
+/* Checks a three-dimensional scene with SIF-driven cracks (`steps.path: hoop`). Returns REFUSED, with the reason, if
+ * their growth direction cannot be determined (sif_fault). */
 status sif_check(const struct run *e);
 
-/* Saves or restores the state between two load steps; for a trial, the equilibrium alone. Returns the status of the
- * archive. */
+/* Saves the state between two load steps to the archive if a->saving is set, else restores it from the archive. If
+ * a->scope is ARCHIVE_TRIAL, only the equilibrium is saved or restored. Returns FAILED if an entry is missing or has
+ * another size. */
 status statics_archive(struct run *e, struct archive *a);
 
-/* Frees the storage of the equilibrium solver. The SIF-driven cracks stay (sif_cracks_free). */
+/* Frees the storage of the equilibrium solver. SIF-driven cracks keep their state; sif_cracks_free frees them. */
 void statics_free(struct statics *s);
 
 #endif

@@ -5,35 +5,40 @@
 #include "base/rise.h"
 #include "run/run.h"
 
-/* Stores the largest speed of particles at the start, with which later speeds are compared. */
+/* Stores the largest speed of the particles at t = 0 in s->start_speed. Messages about unstable runs compare later
+ * speeds with it. */
 void stability_make(struct stability *s, const struct particles *p);
 
-/* Checks a run after every step. FAILED, with position, step, cause and remedy, if a particle is faster than the
- * fastest wave, a cell of a mesh is inverted, bodies in contact overlap, or a formula of a load has no finite
- * value. */
+/* Checks a run after each time step. Returns FAILED if a particle is faster than the fastest wave or its position is
+ * not finite, a cell of a mesh is inverted, bodies in contact overlap, a rigid body is too fast, or a formula of a
+ * load has no finite value; the message names position, step, cause and remedy. */
 status stability_check(struct run *e);
 
-/* Checks for particles that are faster than the fastest wave or at positions that are not finite; FAILED as in
- * stability_check. peridynamic, meshed: check peridynamic particles, and points of a mesh, too; the kernels that
- * move them report divergence in every step. */
+/* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
+ * peridynamic: check the peridynamic particles too; meshed: check the material points of a mesh too. Both may be false
+ * in a step in which the functions that move these particles detected no divergence. Returns FAILED if there is such a
+ * particle; the message names its position, the step, the cause and a remedy. */
 status divergence_check(const struct run *e, bool peridynamic, bool meshed);
 
-/* Checks the energies of the last sample, if one was due in this step. Returns FAILED if the body gained energy that
- * nothing supplied, or an energy is not finite. */
+/* Checks the energies of the last sample, if a sample was due in this step. Returns FAILED, with a remedy in the
+ * message, if the body has gained energy that neither loads nor supports have supplied, if the velocities change sign
+ * in every step, or if an energy is not finite. */
 status energy_check(struct run *e);
 
-/* Returns the energy that bonds released when they broke beyond what they had stored [J]. */
+/* Returns the energy that breaking bonds have released in excess of the energy that they had stored [J], 0 if there is
+ * no excess. Bonds of state-based models can have such an excess. */
 real energy_released(const struct diagnostics *w);
 
-/* Returns true if the energies of the run so far are round-off: below 1e-24 of the kinetic energy that the whole
- * body has at its wave speed. mass: of the body [kg]; wave_speed: the fastest [m/s]. */
+/* Returns true if the energies of the run so far are mere round-off: below 1e-24 of the kinetic energy of the whole
+ * body at the wave speed. mass: of the body [kg]; wave_speed: of the fastest wave [m/s]. */
 bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed);
 
 enum { REMEDY_LENGTH = 640 };
 
-/* Writes to text [room] what to change in the scene: the loads, if they explain the motion; the time step, if
- * `value` has grown as fast as only an unstable step makes it grow (base/rise.h); else other methods. rise: earlier
- * values; value: the present one. */
+/* Writes to `text`, which holds `room` bytes, what the user should change in the scene: the loads, if they explain the
+ * motion of the body; the time step, if `value` has grown as fast as in a run whose time step exceeds the stability
+ * limit (base/rise.h); else the method or model. value: present value of the quantity that grows (square of a speed,
+ * or an energy); rise: its earlier values. */
 void stability_remedy(const struct run *e, const struct rise *rise, real value, char *text, size_t room);
 
 #endif

@@ -10,25 +10,29 @@ struct damping_state {
     real *before[2][DIM_MAX];
 };
 
-/* Returns the factor exp(-c dt/2) that damping applies to the kick of a step; 1 without damping [1]. decay: c dt of
- * a step. */
+/* Returns the factor exp(-c dt/2) by which bulk damping reduces the velocity increment of a time step [1], c being the
+ * damping rate and dt the time step; 1 without damping. decay: c dt [1]. */
 real damping_share(real decay);
 
-/* Multiplies all velocities by exp(-c dt/2), before the first kick; returns the kinetic energy that is lost [J]. */
+/* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
+ * and subtracts the momentum that is lost from the impulse of the loads, l->impulse. decay: c dt [1]. Returns the
+ * kinetic energy that is lost [J]. */
 real damping_start(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
 
-/* Stores all velocities before the kick of a step. */
+/* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
 void damping_keep(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
-/* Returns the energy lost since the previous step [J], from the velocities stored in this step. Valid from the
- * second step on. */
+/* Returns the energy that bulk damping has taken since the previous time step [J], computed from the velocities that
+ * damping_keep stored in this step and the present ones. decay: c dt [1]. Valid from the second step on. */
 real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
-/* Multiplies all velocities by exp(-c dt) at the end of a step. */
+/* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
+ * momentum that is lost from the impulse of the loads, l->impulse. decay: c dt [1]. */
 void damping_end(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
 
-/* Returns the energy lost in the kick after the last step [J]. kinetic_before: kinetic energy before the kick;
- * kinetic: 1/2 m v- . v+ with the velocities before and after the kick [J]. */
+/* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. decay: c dt
+ * [1]. kinetic_before: kinetic energy before that update [J]; kinetic: 1/2 m v- . v+, with v- and v+ the velocities
+ * before and after it [J]. */
 real damping_last(real decay, real kinetic_before, real kinetic);
 
 #endif

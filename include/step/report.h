@@ -56,50 +56,58 @@ struct run_report {
     const volatile sig_atomic_t *stop; /* set by a signal handler to stop after a checkpoint; may be NULL */
 };
 
-/* Returns the number of frames of the body after the frame at t = 0. */
+/* Returns the number of frames of the whole body that the run writes after the frame at t = 0. clock: time step and
+ * number of steps of the run. */
 int64_t report_frames(const struct scene *s, const struct run_clock *clock);
 
-/* Returns the step after which frame k of the body is written; frame 0 is at t = 0. */
+/* Returns the number of the time step after which frame k of the whole body is written, k >= 0; frame 0 is written at
+ * t = 0. clock: time step and number of steps of the run. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k);
 
-/* Returns the set of series of frames that are due after `step` steps, as bits: bit 0 is the body, bit k region k.
- * Returns 0 if out is NULL (a run without files). Solvers other than `explicit` have frames at the start and the
- * end. */
+/* Returns the set of frame series that must be written after `step` time steps, one bit per series: bit 0 is the whole
+ * body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). Scenes whose solver is
+ * not `explicit` write frames at the start and at the end. */
 unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                            int64_t step);
 
-/* Returns true if a sample is taken in the next step. Samples are spread evenly over the run. */
+/* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
+ * run; a scene without motion takes one at the start. */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 
-/* Starts the reports before the first step of this process: opens history.csv and writes frame 0 and the first
- * checkpoint, unless the run is resumed. Returns FAILED if a file cannot be written. */
+/* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is
+ * resumed, writes frame 0 and the first checkpoint. Warns of missing frames of a resumed run. Returns FAILED if a file
+ * cannot be written or an index of frames cannot be read. */
 status report_start(struct run *e);
 
-/* Completes a step: writes the frames, the checkpoint and the progress line that are due, and the last sample after
- * the last step. Returns FAILED if a file cannot be written or the energies are wrong (energy_check); INTERRUPTED,
- * after a checkpoint, if a signal or time.wall stops the run. */
+/* Reports a finished time step or load step: takes the last sample after the last step, checks the energies
+ * (energy_check), and writes the frames, the checkpoint and the progress line that are due. Returns FAILED if a file
+ * cannot be written, a particle has values that are not finite, or energy_check fails; INTERRUPTED, after a
+ * checkpoint, if a signal or the wall-clock limit time.wall stops the run. */
 status report_step(struct run *e);
 
-/* Ends the reports after the last step: waits for the frames and writes the last checkpoint. Returns FAILED if a file
- * cannot be written. */
+/* Ends the reports after the last step: prints the last progress line, waits for the thread that writes frames, and
+ * writes the last checkpoint. Returns FAILED if a file cannot be written. */
 status report_end(struct run *e);
 
-/* Returns the share of all particles that are at rest, so that steps skip them (data/active_set.h) [1]. */
+/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]. */
 real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
-/* Warns at the end of a run if energy or angular momentum is not conserved, or if bonds broke in a shock too sharp
- * for the spacing. */
+/* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping took much energy, or
+ * if bonds broke in a collision that is too fast for the particle spacing. */
 void say_balance(struct run *e);
 
-/* Warns once, as soon as a bond has yielded, how bonds that yield differ from von Mises' law. */
+/* Warns, at the first call after a bond has yielded, how the yielding of bonds differs from von Mises' law. The
+ * warning is added to *to and printed; r stores that it has been given. */
 void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
 
-/* Computes the fields in `asked` (bits ASK_...) that particles do not store, and adds them to a frame. Call it once
- * all particles are synchronised and extra->more is set; release the fields with fields_free when the frame has been
- * begun. */
+/* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores
+ * pointers to them in *extra, from which the frame is written. asked: set of these fields, as bits ASK_...
+ * (output/output.h). Before the call, the positions and stresses of all particles must be up to date (run_sync), and
+ * extra->more, the material points of coarse cells, must be set. Call fields_free once the frame has been copied by
+ * output_frame_begin. */
 void fields_make(struct run *e, unsigned asked, struct frame_extra *extra);
 
-/* Frees the fields that fields_make has added to a frame. */
+/* Frees the fields that fields_make has allocated for a frame. */
 void fields_free(struct frame_extra *extra);
 
 #endif

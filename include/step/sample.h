@@ -5,36 +5,41 @@
 
 #include "run/run.h"
 
-/* Opens history.csv and writes its header: columns of all runs, of probes and of the parts of the run. resume:
- * append to the file of an interrupted run. Returns FAILED if the file cannot be written. */
+/* Allocates the record of a sample, opens history.csv, and writes its header: the columns common to all runs, those of
+ * the probes, and those of contact, cracks and the other parts of the run. resume: append to the file of an
+ * interrupted run instead. Returns FAILED if the file cannot be written. */
 status sample_start(struct run *e, bool resume);
 
-/* Begins a sample, if one is due, before the step moves anything: positions, damage, tips and probes of t_n;
- * velocities of t_n - dt/2 (of t = 0 in the first step). */
+/* Begins a sample, if one is due, before the time step moves particles: computes momentum, crack tips and
+ * position-dependent values of probes at time t_n, and stores the velocities, which are those at t_n - dt/2 (at t = 0
+ * in the first step). */
 void sample_begin(struct run *e);
 
-/* Computes the energies of a sample at the positions of t_n, after the forces and before the motion. */
+/* Computes the energies of a sample, if one is due, at the positions of time t_n, except the kinetic energy. Call it
+ * after the forces have been computed and before particles move. */
 void sample_energy(struct run *e);
 
-/* Ends a sample after the motion: interpolates velocities to t_n, computes the kinetic energy and the work up to
- * t_n, and writes the line of history.csv. */
+/* Completes a sample, if one is due, after particles have moved: interpolates velocities to time t_n, computes the
+ * kinetic energy and the work up to t_n, and writes the line of history.csv. */
 void sample_end(struct run *e);
 
-/* Takes a whole sample of a body in equilibrium: at the start, and after a load step. */
+/* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Call it at the start of a
+ * static run and after each load step. */
 void sample_rest(struct run *e);
 
-/* Takes the last sample, after the last step. Synchronises all particles, except for the stress of peridynamic ones
- * (run_stress). */
+/* Takes the sample after the last time step and writes its line of history.csv. Brings positions, velocities and
+ * stresses of all particles up to date, except the stress of peridynamic particles (run_stress). */
 void sample_last(struct run *e);
 
-/* Returns the elastic energy of bonds, material points and cells at the present positions [J]. */
+/* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */
 real sample_strain(struct run *e);
 
-/* Updates probes that observe every step (BREAK, SPALL, REACTION). In a static run, call it at equilibrium only. */
+/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_step). In a static run, call it in
+ * equilibrium states only. */
 void sample_probes(struct run *e);
 
-/* Records the bonds that broke in this step: the first break, probes, and a warning if driven particles lose bonds.
- * broken: number of directed bonds. */
+/* Records the bonds that broke in this step: updates the first break of the run and the BREAK and SPALL probes, and
+ * warns if driven particles lose bonds. broken: number of directed bonds that broke. */
 void sample_breaks(struct run *e, int64_t broken);
 
 #endif

@@ -6,26 +6,29 @@
 #include "probes/probes.h"
 #include "run/run.h"
 
-/* Makes one time step. Returns FAILED if material points have left the background grid and diverged. */
+/* Advances a run by one time step dt: computes forces, breaks bonds, moves particles and nodes, and converts material
+ * points. Returns FAILED if material points have left the background grid because their motion has diverged. */
 status step(struct run *e);
 
-/* Converts material points to peridynamic particles between load steps, without motion. broken: directed bonds
- * broken since the last call. Returns true if points have converted. */
+/* Converts material points near broken bonds to peridynamic particles between load steps, at fixed positions. broken:
+ * number of directed bonds broken since the last call. Returns true if points have been converted. */
 bool step_convert(struct run *e, int64_t broken);
 
-/* Computes the internal forces at the present positions, without motion: of bonds into part.f, of bonds and cells
- * into the forces of mesh nodes. Points of the mesh to which bonds reach, and mirror images, are synchronised first.
- * Bonds beyond their limit break. */
+/* Computes the internal forces at the present positions without moving anything: bond forces into e->part.f, and
+ * forces of cells and of bonds to mesh points into the nodal forces of the mesh. Material points of the mesh that have
+ * bonds, and mirror images of particles, are first brought to their present positions. Bonds stretched beyond their
+ * limit break. */
 void run_forces(struct run *e);
 
-/* Synchronises positions, velocities and stresses of all particles, as frames need them. */
+/* Brings positions, velocities and stresses of all particles up to date, as frames need them: points of a mesh from
+ * its nodes, stresses of peridynamic particles from their bonds. */
 void run_sync(struct run *e);
 
-/* Chooses the time step and the number of steps. Returns REFUSED if time.step is too long for coarse cells, or the run
- * would have more than 1e12 steps. */
+/* Computes the critical time step, and sets the time step dt and the number of steps in e->clock. Returns REFUSED if
+ * time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */
 status time_step_make(struct run *e);
 
-/* Returns the read-only view of a run that probes measure; all pointers borrow from the run. */
+/* Returns a read-only view of a run, from which probes read. All its pointers refer to data of the run. */
 struct observed run_observed(const struct run *e);
 
 #endif

@@ -26,19 +26,22 @@ struct viscosity {
     bool small_strain;               /* cells of the reference frame have small strains: F = 1 */
 };
 
-/* Adds the viscous forces of bonds to particles, computes q of points on the grid, and adds the energy dissipated
- * since the previous step. Call it after the forces of bonds and before the loads. */
+/* Adds the viscous forces of bonds to the forces of particles, computes the viscous pressure q of points on the grid,
+ * and adds the energy dissipated since the previous step to viscosity.taken. Call it after the bond forces and before
+ * the loads. Does nothing if no material is viscous. */
 void viscosity_push(struct run *e);
 
-/* Adds q to the compression in the stress of points on the grid if `on`, before the stress is mapped to nodes; else
- * restores the stress. */
+/* Subtracts the viscous pressure q from the normal stresses of points on the grid if `on` is true, before their
+ * stresses are mapped to nodes. If `on` is false, restores the stresses without q. Does nothing if no material is
+ * viscous. */
 void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on);
 
-/* Adds the viscous forces of cells to the nodes of the reference frame, and the energy that they dissipated. */
+/* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
+ * dissipated since the previous step to viscosity.taken. Does nothing if no material is viscous. */
 void viscosity_push_nodes(struct run *e);
 
-/* Returns the factor of the critical time step under viscosity, sqrt(1 + q^2) - q, with the largest q/(rho c^2)
- * expected from the speeds of bodies and supports [1]. */
+/* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
+ * of viscous pressure to rho c^2 that the speeds of bodies and supports lead to expect. */
 real viscosity_step_share(const struct scene *s, const struct particles *p);
 
 /* The fastest collision of bodies that a scene expects. */
@@ -47,7 +50,8 @@ struct shock {
     real share; /* speed over the speed at which a front breaks or yields a body; 0 if viscosity would not help [1] */
 };
 
-/* Returns the fastest collision within the duration of a scene. */
+/* Returns the fastest collision of two bodies within the duration of a scene, from their initial velocities and
+ * positions. */
 struct shock shock_expected(const struct scene *s);
 
 #endif

@@ -5,10 +5,10 @@
 #include "data/hollow.h"
 #include "engine/engine.h"
 
-/* Creates all parts of a run in an empty state. */
+/* Allocates the parts of a run (contact, cracks, mesh, probes and others), all zero, and stores them in *e. */
 void run_parts_make(struct run *e);
 
-/* Releases all parts of a run and what they own; parts that were not created are skipped. */
+/* Releases all parts of a run and what they own. Parts that were not created are skipped. */
 void run_parts_free(struct run *e);
 
 /* A run that is replaced by one with other particles. */
@@ -17,34 +17,42 @@ struct predecessor {
     int32_t *now; /* [particles and images of `run`] their indices in the new run; -1: not in the new run */
 };
 
-/* Creates a run as engine_make does, with given hollow cells. before: if not NULL, particles, bonds and time are taken
- * from this run; other state that its steps have changed, and the levels of cells, are set by the caller. */
+/* Creates the state of a run as engine_make does, without the particles of the cells listed in `hollow` (cells inside
+ * a body that coarse cells replace). before: if not NULL, particles, bonds and time are transferred from this run; the
+ * caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
+ * engine_make does. */
 status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
                          struct predecessor *before);
 
-/* Recreates a run with the particles that the given levels of cells need, and continues from its current state. level:
- * refinement level of each cell. */
+/* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
+ * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
+ * progress cannot be written. */
 status engine_refill(struct run *e, const uint8_t *level);
 
-/* Transfers the particles of the predecessor to a run that is being created; call when its images exist. */
+/* Transfers the particles of before->run to a run that is being created, and stores the new indices of these particles
+ * in before->now. Call it when the mirror images of the new particles exist. */
 void engine_take_particles(struct run *e, struct predecessor *before);
 
-/* Transfers the broken bonds of the predecessor to a run that is being created. */
+/* Transfers the broken bonds of before->run to a run that is being created, and frees the bonds and particles of
+ * before->run. Call it after engine_take_particles. */
 void engine_take_bonds(struct run *e, const struct predecessor *before);
 
-/* Saves or restores the state of loads and of all parts, as far as a->scope includes it. */
+/* Saves the state of loads and of all parts of a run to the archive if a->saving is set, else restores it from the
+ * archive. Each part saves only state that a->scope includes. Returns FAILED if an entry is missing or has another
+ * size. */
 status parts_archive(struct run *e, struct archive *a);
 
-/* Warns about particles without neighbours. */
+/* Adds warnings to *to about bodies with particles that have no neighbours. */
 void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
                          const struct particles *p, struct warnings *to);
 
-/* Warns about figures that look like mistakes of units (`accept` of the scene excepted). clock: time step and number of
- * steps; wave_speed: fastest of the materials [m/s]. */
+/* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
+ * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
                           const struct run_clock *clock, real wave_speed, struct warnings *to);
 
-/* Warns about loads whose speed breaks the bonds next to the particles that they drive. */
+/* Adds warnings to *to about supports whose prescribed speed is so high that the bonds next to the particles that they
+ * drive break. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *l, const struct particles *p, struct warnings *to);
 
 #endif

@@ -4,14 +4,15 @@
 
 #include "run/run.h"
 
-/* Finds the equilibrium under the loads and supports of pseudo-time t [s] and makes t the present pseudo-time. Updates
- * the work of loads, the losses, the reactions, and the largest ratio of stretch to critical stretch. Returns FAILED,
- * with the position of the largest residual, if there is no equilibrium, and INTERRUPTED if the run is to stop. */
+/* Finds the equilibrium under the loads and supports of pseudo-time t [s] and sets the present pseudo-time to t.
+ * Updates the work of loads, the energy losses, the reactions of supports, and the largest ratio of stretch to
+ * critical stretch. Returns FAILED, with the position of the largest residual in the message, if no equilibrium is
+ * found; INTERRUPTED if the run is to stop. */
 status equilibrium_at(struct run *e, real t);
 
-/* Converts marked material points to peridynamic particles and finds the equilibrium again, until no point is marked.
- * broken: number of directed bonds that have broken since the last call. Returns FAILED if there is no equilibrium,
- * INTERRUPTED if the run is to stop. */
+/* Converts the material points that broken bonds or high stress require to peridynamic particles and finds the
+ * equilibrium again, until no further point must be converted. broken: number of directed bonds that have broken since
+ * the last call. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
 status equilibrium_convert(struct run *e, int64_t broken);
 
 #endif

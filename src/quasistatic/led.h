@@ -11,31 +11,35 @@
 
 /* ---- the plane of the tips (led_plane.c) ------------------------------------------------------------------------- */
 
-/* Finds the plane in which the tips of pre-cracks move. The caller has set the members dim, spacing, section and
- * body_mirrors of *plane; the function sets its axes, front, middle and mirrors. t: tips of the pre-cracks. cracks: the
- * pre-cracks. Returns NULL, or the reason why there is no such plane (a static text). */
+/* Finds the plane in which the tips of the pre-cracks move, and stores its axes, the direction and middle of the crack
+ * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
+ * body_mirror of *plane. t: tips of the pre-cracks; cracks: the pre-cracks. Returns NULL, or the reason why there is
+ * no such plane (a static text). */
 const char *sif_plane_find(struct sif_plane *plane, const struct tips *t, const struct crack_list *cracks,
                            const struct particles *p);
 
-/* Projects the point X[dim] onto the plane [m]. */
+/* Projects the point X, dim components [m], onto the plane and stores its two coordinates in the plane in to[] [m]. */
 void sif_plane_project(const struct sif_plane *plane, const real *X, real to[2]);
 
-/* Projects the reference position of particle i onto the plane [m]. */
+/* Projects the reference position of particle i onto the plane and stores its two coordinates in the plane in to[]
+ * [m]. */
 void sif_plane_project_particle(const struct sif_plane *plane, const struct particles *p, int64_t i, real to[2]);
 
-/* Stores the intersection of the pre-crack c and the plane, a segment from at[0] to at[1] [m]. Returns false if the
- * pre-crack is not perpendicular to the plane. */
+/* Computes the straight segment in which the pre-crack c intersects the plane and stores its ends in at[0] and at[1],
+ * as coordinates in the plane [m]. Returns false if the pre-crack is not perpendicular to the plane. */
 bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX]);
 
-/* Returns the mean width of the body along the front, over the segment from..to of the plane [m]. For a plane body that
- * is its thickness. */
+/* Returns the width of the body along the crack front [m], averaged over the segment between the points `from` and
+ * `to` of the plane, two coordinates each [m]. For a plane body the width is its thickness. */
 real sif_plane_width(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to);
 
-/* Returns the area of a crack face whose intersection with the plane is the segment from..to [m^2], halved if it lies
+/* Returns the area of the crack face that intersects the plane in the segment between the points `from` and `to`, two
+ * coordinates each [m]: length times width of the body along the front [m^2]. The area is halved if the segment lies
  * on a plane of symmetry. */
 real sif_plane_crack_area(const struct sif_plane *plane, const struct particles *p, const real *from, const real *to);
 
-/* Returns true if the segment from..to of the plane lies on a plane of symmetry. */
+/* Returns true if the segment between the points `from` and `to` of the plane, two coordinates each [m], lies on a
+ * plane of symmetry. */
 bool sif_plane_on_mirror(const struct sif_plane *plane, const real *from, const real *to);
 
 /* Computes the point ahead = from + distance * along. from: point of the plane of the tips [m]; along: unit vector in
@@ -45,68 +49,74 @@ static inline void sif_point_ahead(const real *from, real distance, const real *
     for (int d = 0; d < 2; d++) ahead[d] = from[d] + distance * along[d];
 }
 
-/* Returns the distance of two points of the plane [m]. */
+/* Returns the distance between the points a and b of the plane, two coordinates each [m]. */
 static inline real sif_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
 /* ---- tips (led.c) ------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the last segment of the crack before the tip lies on a plane of symmetry. */
+/* Returns true if the crack segment that ends at the tip lies on a plane of symmetry. */
 bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
 
-/* Computes the stress-intensity factors K_I and K_II of a tip in its frame `along` by a fit of crack-tip fields to the
- * displacements around it (tip_fit) [Pa m^(1/2)]. closed: crack faces are in contact (statics_faces_closed); K_I is
- * then at least 0. Returns false if too few particles are near the tip. */
+/* Computes the stress-intensity factors K_I and K_II of a tip and stores them in K[] [Pa m^(1/2)]. They follow from a
+ * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
+ * tip->along. closed: crack faces are in contact (statics_faces_closed), which makes K_I at least 0. Returns false if
+ * too few particles are near the tip. */
 bool sif_tip_measure(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                      bool closed, real K[2]);
 
-/* Stores the position at which the next increment of a tip ends: 2 spacings ahead or as far as steps.energy suffices,
- * at most up to another crack [m]. */
+/* Computes the position at which the next increment of a tip ends, two coordinates in the plane [m]. The increment is
+ * 2 particle spacings long or, if the key steps.energy is set, as long as that energy suffices for; it ends at the
+ * first other crack that it meets. */
 void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                            real position[2]);
 
-/* Returns the crack energy per area of the material at a tip [J/m^2] (toughness_of). */
+/* Returns the crack energy per area [J/m^2] of the material at a tip (toughness_of). */
 real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip);
 
-/* Computes the stress-intensity factors of a tip and sets `heading`, the direction of its next increment, by the
- * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction stays constant while `straight` is positive or
- * too few particles are near the tip. closed: crack faces are in contact. */
+/* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
+ * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight is
+ * positive or if too few particles are near the tip. closed: crack faces are in contact. */
 void sif_tip_turn(const struct sif_cracks *l, const struct particles *p, bool closed, struct sif_crack_tip *tip);
 
-/* Moves tip number `tip` by its next increment, appends the segment to the path, and ends the tip if it has reached a
- * surface or another crack. */
+/* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
+ * sets `ended` of the tip if it has reached a surface or another crack. */
 void sif_tip_move(struct sif_cracks *l, const struct particles *p, int tip);
 
-/* Stores the stress-intensity factors of the tip with the largest growth among the tips that have not ended [Pa
- * m^(1/2)]; NAN if all have. closed: crack faces are in contact. Call sif_cracks_start before. */
+/* Computes the stress-intensity factors of the tip that has grown most among those that can still grow, and stores
+ * them in K[] [Pa m^(1/2)]; NAN if no tip can grow. closed: crack faces are in contact. Call sif_cracks_start before.
+ */
 void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, bool closed, real K[2]);
 
-/* Stores the reference position of the tip with the largest growth, for a front in space the position of its middle
- * [m]; NAN if there is no tip. */
+/* Stores the reference position of the tip that has grown most in position[] [m]; in three dimensions that of the
+ * middle of its front. Stores NAN if there is no tip. */
 void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX]);
 
-/* Marks all tips as ended: bonds have broken away from the tips, and their paths no longer describe the cracks. */
+/* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
+ * since the tips then no longer describe the cracks. */
 void sif_tips_end(struct sif_cracks *l);
 
-/* Frees the path and clears *l. */
+/* Frees the stored path of the cracks and clears *l. */
 void sif_cracks_free(struct sif_cracks *l);
 
 /* ---- increments (led_cut.c) -------------------------------------------------------------------------------------- */
 
-/* Breaks the intact bonds that cross the pre-crack behind a tip, without cost of energy. Needed after a tip has been
- * moved off a row of particles (led_start.c). */
+/* Breaks the intact bonds that cross the last part of the pre-crack behind a tip, at no cost of energy. Needed after a
+ * tip has been moved off a row of particles (led_start.c). */
 void sif_tip_cut_behind(struct run *e, const struct sif_crack_tip *tip);
 
-/* Determines the next crack increment under the present loads from trial equilibria with the bonds of each tip broken:
- * stores the bonds to break (statics.next), the energies, and the load size at which the increment is due. Returns
- * FAILED if an equilibrium is not found. */
+/* Determines the next crack increment of the SIF-driven cracks under the present loads. For each tip that can grow, a
+ * trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds to
+ * break in statics.next, the energies in statics.ahead, and the load size at which the increment is due in
+ * statics.due. Returns FAILED if an equilibrium is not found. */
 status sif_increment_find(struct run *e);
 
-/* Moves the tips that take part in the present crack increment (`selected`). */
+/* Moves all tips that take part in the present crack increment (member `selected`) to the ends of their increments. */
 void sif_tips_advance(struct sif_cracks *l, const struct particles *p);
 
 /* ---- start (led_start.c) ----------------------------------------------------------------------------------------- */
 
-/* Finds the plane and the tips of the pre-cracks if that has not been done. Returns true if a tip can grow. */
+/* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow; false also if the
+ * cracks of the scene are not SIF-driven, with the reason in sif.fault of e->statics. */
 bool sif_cracks_start(struct run *e);
 
 #endif

@@ -7,23 +7,25 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the pseudo-time at which the load size equals `size`, by the secant method from the present pseudo-time
- * [s]. */
+/* Returns the pseudo-time at which the load size (statics_load_size) equals `size` [s], found by the secant method
+ * from the present pseudo-time. The load size is in [m] or [N]. */
 real statics_time_of_size(const struct run *e, real size);
 
-/* Returns the load size at which the increments a and b together release as much energy as they cost, sqrt((cost_a +
- * cost_b)/(release_a + release_b)); INFINITY if they release none. */
+/* Returns the load size at which the crack increments a and b together release as much energy as they cost,
+ * sqrt((cost_a + cost_b)/(release_a + release_b)) [m or N]; INFINITY if a has no cost or the two release no energy. */
 real balanced_load(const struct crack_increment *a, const struct crack_increment *b);
 
-/* Returns the load size at which the increment a alone releases as much energy as it costs; INFINITY if it releases
- * none. */
+/* Returns the load size at which the crack increment a releases as much energy as it costs [m or N]; INFINITY if it
+ * has no cost or releases no energy. */
 real balanced_load_alone(const struct crack_increment *a);
 
-/* Returns the fictitious increment by which the pre-crack would have reached its present length. Its release is
- * extrapolated linearly from the first two increments, and is at least 0. */
+/* Returns a fictitious increment that precedes the first one, as if the pre-crack had grown to its present length by
+ * it. Its cost equals that of *first; its release is extrapolated linearly from the first two increments and is at
+ * least 0. */
 struct crack_increment increment_before(const struct crack_increment *first, const struct crack_increment *second);
 
-/* Returns the energy released so far: fracture energy of broken bonds and losses of solutions [J]. */
+/* Returns the energy released since the start [J]: the fracture energy of broken bonds and the energy that solutions
+ * have lost. */
 real statics_released(const struct statics *s, const struct bonds *b);
 
 #endif

@@ -6,27 +6,31 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Returns the largest ratio of stretch to critical stretch of all intact bonds [1]. */
+/* Returns the largest ratio of stretch to critical stretch among all intact bonds [1]. limit: rule for the critical
+ * stretch. */
 real largest_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit);
 
-/* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those within `share` of the largest
- * ratio, but at most `most` pairs and further pairs whose ratio equals that of the last one to round-off. Appends the
- * bonds to the list of the next crack increment, and adds their energy at the critical stretch to *cost [J] and the
- * crack area that corresponds to it to *area [m^2]. Returns the number of directed bonds broken. */
+/* Breaks the intact bonds with the largest ratios of stretch to critical stretch: those whose ratio differs from the
+ * largest one by at most the fraction `share` [1], but no more than `most` pairs of particles and the pairs whose
+ * ratio equals that of the last pair up to round-off. Appends the bonds to the list of the next crack increment
+ * (statics.next). Adds their energy at the critical stretch to *cost [J] and the crack area that corresponds to it to
+ * *area [m^2]. Returns the number of directed bonds broken. */
 int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real *cost, real *area);
 
-/* Breaks the bonds of a list. The energy that exceeds the cost of a bond (`held`) is added to the losses of the solver
- * and of the run. */
+/* Breaks the bonds of the list l. The stored energy of a bond beyond its energy at the critical stretch (member `held`
+ * of its record) is added to the losses of the solver and of the run. */
 void bonds_break_listed(struct run *e, const struct break_list *l);
 
-/* Restores the bonds of a list, which must be the bonds broken last, and the energies, damage and flags of their rows
- * and particles. */
+/* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
+ * of their rows (all bonds of one particle) and particles from the records of the list. */
 void bonds_mend(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
-/* Appends a copy of a record to a list. */
+/* Appends a copy of *record to the list l, which grows as needed. */
 void break_list_add(struct break_list *l, const struct broken_bond *record);
 
-/* Returns the record of an intact bond of row `row`, with half of its energy at the critical stretch [J]. */
+/* Returns the record of an intact bond, from which bonds_mend can restore it. row: index of the row (all bonds of one
+ * particle) that contains the bond. limit: rule for the critical stretch; it determines the member `held`, half of the
+ * energy of the bond at its critical stretch [J]. */
 struct broken_bond bond_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                const struct bond *bond, int64_t row);
 

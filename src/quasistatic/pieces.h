@@ -5,18 +5,19 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Finds the unconstrained fragments and their free rigid motions for the present bonds, supports and contacts. */
+/* Finds the unconstrained fragments for the present bonds, supports and contacts, with their free rigid motions, and
+ * stores them in e->statics. An earlier list is freed. */
 void unconstrained_find(struct run *e);
 
-/* Frees the list of unconstrained fragments. */
+/* Frees the list of unconstrained fragments in *s. */
 void unconstrained_free(struct statics *s);
 
-/* Returns FAILED if the applied forces on an unconstrained fragment do not balance along its free motions. step: number
- * of the load step, for the message. */
+/* Checks that the applied forces on each unconstrained fragment are balanced along its free rigid motions. step:
+ * number of the load step, for the message. Returns FAILED, with position and size of the fragment, if they are not. */
 status unconstrained_check(const struct statics *s, const struct particles *p, int64_t step);
 
-/* Removes from the field v (forces or displacements) its components along the free rigid motions of the fragments, by
- * orthogonal projection. */
+/* Removes from the field v (nodal forces or displacements) its components along the free rigid motions of the
+ * unconstrained fragments, by orthogonal projection. */
 void unconstrained_project(const struct statics *s, struct field *v);
 
 #endif

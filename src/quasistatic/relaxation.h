@@ -4,12 +4,12 @@
 
 #include "run/run.h"
 
-/* Returns the time in which loads grow [s]: the whole number of steps dt [s] in which a wave of this speed [m/s]
- * travels twice the length of the body [m]. */
+/* Returns the time over which loads grow to their full value [s]: the smallest whole number of time steps dt [s] in
+ * which a wave with the speed wave_speed [m/s] travels twice the length of the body, `length` [m]. */
 real grid_relaxation_ramp(real length, real wave_speed, real dt);
 
-/* Makes a damped time step. Sets *done at equilibrium, and leaves it otherwise. Returns the status of step, or FAILED
- * if the step is unstable. */
+/* Makes one damped time step towards equilibrium. Sets *done to true if the body has reached equilibrium, else leaves
+ * *done unchanged. Returns FAILED if the step fails or is unstable. */
 status grid_relaxation_step(struct run *e, bool *done);
 
 #endif

@@ -5,19 +5,21 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Computes z = M^-1 r (`precondition` of solver/equilibrium.h). Makes the preconditioner if there is none. engine: a
- * struct run. */
+/* Computes z = M^-1 r, M being the preconditioner (callback `precondition` of solver/equilibrium.h), and removes the
+ * free rigid motions of unconstrained fragments from z. Makes the preconditioner if there is none. engine: a struct
+ * run; r: residual forces [N]; z: result. */
 void statics_precondition(void *engine, const struct field *r, struct field *z);
 
-/* Makes the preconditioner from the present bonds, cells and contacts. */
+/* Makes the multigrid preconditioner from the stiffness of the present bonds, cells and contacts, and stores it in
+ * e->statics. */
 void statics_precondition_make(struct run *e);
 
-/* Frees the preconditioner if it has become inefficient because bonds have broken. directions: number of search
- * directions of the last solution; the limit is 1.5 times that of the first solution with the preconditioner, plus 8
- * (empirical). */
+/* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. directions: number of
+ * search directions of the last solution. The limit is 1.5 times that of the first solution with the preconditioner,
+ * plus 8 (empirical). */
 void statics_precondition_watch(struct statics *s, int64_t directions);
 
-/* Frees the preconditioner, if there is one. */
+/* Frees the preconditioner. Does nothing if there is none. */
 void statics_precondition_free(struct statics *s);
 
 #endif

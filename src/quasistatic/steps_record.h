@@ -6,13 +6,16 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Stores names and units of the columns in column[] (not if `column` is NULL). Returns the number of columns. */
+/* Stores names and units of the columns that load steps add to history.csv in column[], unless `column` is NULL.
+ * Returns the number of these columns, 0 for a run without load steps. */
 int statics_columns(const struct run *e, struct column *column);
 
-/* Stores the values of the columns in record[] after a load step. */
+/* Computes the values of the columns that load steps add to history.csv and stores them in record[], in the order of
+ * statics_columns. Call it after a load step. */
 void statics_record(struct run *e, real *record);
 
-/* Stores the present counters of the solver (search directions, equilibria), from which the next record counts. */
+/* Stores the present numbers of search directions and equilibria of the solver. The next call of statics_record
+ * reports the numbers since then. */
 void statics_record_keep(struct statics *s);
 
 #endif

@@ -4,24 +4,28 @@
 
 #include "run/run.h"
 
-/* Makes the system of equations for the present particles and nodes at their present displacements. Counters, losses
- * and the largest force norm of a previous system are kept. Release with statics_unknowns_free. */
+/* Makes the system of equations, one unknown displacement per present peridynamic particle and moving mesh node,
+ * starting from the present displacements. Counters, energy losses and the largest force norm of an earlier system in
+ * e->statics are kept. Release with statics_unknowns_free. */
 void statics_unknowns_make(struct run *e);
 
-/* Frees the system of equations. Counters, losses and the largest force norm remain. */
+/* Frees the system of equations. Its counters, energy losses and largest force norm stay in *s. */
 void statics_unknowns_free(struct statics *s);
 
-/* Moves particles and nodes to the displacements of the last solution, and updates their plastic state. */
+/* Moves particles and nodes to the displacements of the last solution. If the body can yield, also computes the forces
+ * there, which updates the plastic state of bonds and points. */
 void plastic_update(struct run *e);
 
-/* Saves or restores the plastic state of bonds and points. optional: WITH_* arrays that the particles have. Returns the
- * status of the archive. */
+/* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
+ * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
+ * another size. */
 status plastic_archive(struct bonds *b, struct particles *p, int optional, struct archive *a);
 
-/* Saves the plastic state of bonds and points as the start of the next solutions. */
+/* Copies the plastic state of bonds and points to e->statics, as the state from which the next solutions start. */
 void plastic_state_save(struct run *e);
 
-/* Restores the plastic state saved last. Does nothing if none has been saved. */
+/* Restores the plastic state of bonds and points that plastic_state_save copied last. Does nothing if there is no
+ * copy. */
 void plastic_state_restore(struct run *e);
 
 #endif

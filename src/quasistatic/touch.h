@@ -8,35 +8,39 @@
 struct contact;
 struct rigid_set;
 
-/* Returns true if contact acts between the faces of cracks and anything is in contact. */
+/* Returns true if contact acts between all particles, crack faces included, and any particles are in contact at
+ * present. */
 bool statics_faces_closed(const struct contact *c);
 
-/* Returns true if anything was in contact before the present solution, or is now. */
+/* Returns true if anything was in contact before the present solution or is in contact now. */
 bool statics_in_contact(const struct statics *s, const struct contact *c);
 
-/* Searches for contact pairs before the first solution. Does nothing without contact and rigid bodies. */
+/* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
+ * if the search has been made. */
 void statics_contact_start(struct run *e);
 
-/* Returns the number of substeps into which the load increment to pseudo-time t [s] is divided, so that no rigid body
- * moves by more than 0.2 spacings in a substep. */
+/* Returns the number of substeps into which the load increment from the present positions of rigid bodies to those at
+ * pseudo-time t [s] is divided, so that no rigid body moves by more than 0.2 particle spacings in a substep; at least
+ * 1, and limited (SUBSTEPS_MOST). */
 int statics_substeps(const struct scene *s, const struct rigid_set *rigid, real t);
 
-/* Prepares a solution: moves rigid bodies to pseudo-time t [s], finds what is in contact there, and computes the stored
- * energy. */
+/* Prepares the solution at pseudo-time t [s]: computes the energy stored before the solution, moves rigid bodies to
+ * their positions at t, and searches for contacts there. */
 void statics_contact_begin(struct run *e, real t);
 
-/* Updates the set of active contacts at an equilibrium. Returns true if the set has not changed (`settle` of
- * solver/equilibrium.h). engine: a struct run. */
+/* Moves particles and nodes to the displacements of the solution and updates the set of active contacts (callback
+ * `settle` of solver/equilibrium.h). engine: a struct run. Returns true if the set has not changed. */
 bool statics_contact_settle(void *engine);
 
-/* Selects whether contact forces act on the fixed set of active contacts (settled) or on all that overlap (`laws` of
- * solver/equilibrium.h). engine: a struct run. */
+/* Selects the contacts that exert forces (callback `laws` of solver/equilibrium.h): the fixed set of active contacts
+ * if `settled` is true, else all pairs that overlap. engine: a struct run. */
 void statics_contact_laws(void *engine, bool settled);
 
-/* Completes a solution: adds the work of rigid bodies to their accounts and, if anything is or was in contact, computes
- * the energy that the solution has lost. work: of loads and supports in the solution [J]. lost: losses of the solver
- * before the solution [J]. Returns the uncertainty of the work of the rigid bodies: the difference between the work
- * with the mean of the initial and final force and the work with one of these forces [J]. */
+/* Completes a solution: adds the work done on rigid bodies in this solution to their total work and, if anything is or
+ * was in contact, computes the energy that the solution has lost. work: work of loads and supports in this solution
+ * [J]; lost: losses of the solver before it [J]. Returns the uncertainty of the work of the rigid bodies [J]: the
+ * difference between the work with the mean of the initial and final contact force and the work with one of these
+ * forces. */
 real statics_contact_end(struct run *e, real work, real lost);
 
 #endif

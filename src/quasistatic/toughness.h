@@ -5,20 +5,21 @@
 #include "bonds/family.h"
 #include "scene/scene.h"
 
-/* Returns the crack energy per area of a material [J/m^2]: of bond-based models the energy of the bonds that cross a
- * plane of the lattice, each at its critical stretch; of state-based models G_c of the material. */
+/* Returns the crack energy per area of a material [J/m^2]. For bond-based models it is the energy of all bonds that
+ * cross a plane of the lattice, each at its critical stretch, per area; for state-based models the fracture energy G_c
+ * of the material. */
 real toughness_of(const struct family *family, enum model model, const struct material *m);
 
-/* Returns the crack energy per area between particles i and j [J/m^2]: that of their material or, for two materials,
- * of the interface, or else of the weaker material; times the square of the strength of the bond where strength
- * scatters. */
+/* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
+ * materials that of their interface if the scene defines it, else that of the weaker material. Where the strength of
+ * bonds scatters, the value is multiplied by the square of the relative strength of the bond i-j. */
 real toughness_between(const struct scene *s, const struct bond_source *source, const struct particles *p, int64_t i,
                        int64_t j);
 
-/* Returns the work that stretches a bond from zero force to the elastic stretch `elastic` beyond its plastic stretch,
- * divided by its stiffness and length [1]. The force grows linearly with the stretch up to `yield` [1] (INFINITY: the
- * bond does not yield), then with the slope h/(1 + h), where h = `hardening` is the ratio of plastic modulus and
- * stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998, section 1.2). */
+/* Returns the work that stretches a bond from zero force by the elastic stretch `elastic` beyond its plastic stretch,
+ * divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch `yield` [1]
+ * (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening` is the ratio of plastic
+ * modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998, section 1.2). */
 real stretch_work(real elastic, real yield, real hardening);
 
 #endif

@@ -6,12 +6,13 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Saves the present equilibrium in *m, and the plastic state as the start of the next solutions. End the trial with
- * trial_undo, or keep its result and call memory_archive_free. */
+/* Begins a trial equilibrium: saves the present equilibrium in *m, and the present plastic state as the start of the
+ * next solutions. End the trial with trial_undo, or keep its result and release *m with memory_archive_free. */
 void trial_begin(struct run *e, struct memory_archive *m);
 
-/* Restores the equilibrium saved in *m, the plastic state saved last, and the bonds of the list `broken` (NULL: none);
- * frees *m. The system of equations must have the same unknowns as at trial_begin. */
+/* Ends a trial equilibrium: restores the equilibrium saved in *m, the plastic state at trial_begin, and the bonds that
+ * the trial has broken, listed in `broken` (NULL: none); frees *m. The system of equations must have the same unknowns
+ * as at trial_begin. */
 void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken);
 
 #endif

@@ -9,32 +9,35 @@
 
 struct contact;
 
-/* Lists the unknowns with their weights, the boundaries that prescribe their components, and their present
- * displacements; allocates the fields of the balance, whose member `length` the caller has set. Release with
- * unknowns_unlist. */
+/* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that
+ * prescribe their components and their present displacements, and allocates the fields of s->balance. The caller has
+ * set the member `length` of s->balance. Release with unknowns_unlist. */
 void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads);
 
 /* Frees the lists and fields that unknowns_list has allocated. */
 void unknowns_unlist(struct statics *s);
 
-/* Stores the reference position of unknown k in X [m]. */
+/* Stores the reference position of unknown k, a particle or a mesh node, in X[] [m]. */
 void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X);
 
-/* Moves particles, nodes and the mirror images of nodes to the displacements u[unknowns] [m]. */
+/* Sets the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
+ * displacements u [m]. */
 void unknowns_move(const struct statics *s, struct particles *p, struct mesh *mesh, const struct field *u);
 
-/* Stores the signs with which the displacement components of image i follow those of its source particle (image_root);
- * +1 for a particle of the body. */
+/* Stores in sign[] the factors +1 or -1 by which displacement components of the mirror image i equal those of the
+ * particle that it mirrors. All factors are +1 if i is a particle of the body. */
 void image_signs(const struct particles *p, const struct loads *loads, int64_t i, real sign[DIM_MAX]);
 
-/* Stores the applied forces at pseudo-time t [s] in `applied` [dim][particles of the body, N]. */
+/* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
+ * the body [N]. Allocates these arrays on the first call. */
 void applied_forces_make(struct statics *s, const struct particles *p, const struct loads *loads, real t);
 
-/* Returns the norm of the applied forces on free components of particles and on points of the mesh that no boundary
- * drives, and of the contact forces of rigid bodies [N]. */
+/* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of
+ * the contact forces of rigid bodies [N]. */
 real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *c);
 
-/* Stores reactions and mean displacements of supports, and sums of applied forces, at the present equilibrium. */
+/* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
+ * equilibrium, and stores them in *loads. */
 void reactions_store(const struct statics *s, const struct particles *p, struct loads *loads);
 
 #endif
