@@ -9,19 +9,20 @@
 
 enum { FOOTER_BYTES = 24 };
 
-/* Appends the footer to the temporary file PATH.cleave.tmp and syncs the file to disk. On a fault PATH.cleave.tmp is
- * removed and the status is returned. */
+/* Appends the footer (magic number, number of preceding bytes, hash) to the temporary file PATH.cleave.tmp and syncs
+ * the file to disk. Returns FAILED if the file cannot be written; PATH.cleave.tmp is removed then. */
 status file_seal_whole(const char *path);
 
-/* Checks the footer of a file. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in a message
- * (for example "is cut short"); the phrase is a constant. A file that cannot be read counts as faulty. */
+/* Checks the footer of the file `path`. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in
+ * a message, for example "is cut short" (a static text). A file that cannot be read counts as faulty. */
 const char *whole_fault(const char *path);
 
-/* Checks the footer of a file as whole_fault does, but returns NULL also if the file cannot be read: only damage that
- * is certain is reported. */
+/* Checks the footer of the file `path` as whole_fault does, but returns NULL also if the file cannot be read, so that
+ * only damage that is certain is reported. */
 const char *whole_fault_certain(const char *path);
 
-/* Computes the hash of the contents of a regular file. REFUSED if the file cannot be read. */
+/* Computes a hash of the contents of the regular file `path` and stores it in *hash. Returns REFUSED if the file
+ * cannot be read. */
 status file_contents(const char *path, uint64_t *hash);
 
 #endif

@@ -16,13 +16,13 @@ struct folder_kind {
     const char *inner[2]; /* subfolders that the command fills; NULL: unused slot */
 };
 
-/* Returns true for names of hidden and temporary files, which any folder may hold. */
+/* Returns true if `name` is that of a hidden or temporary file, which any output folder may hold. */
 bool entry_is_ignored(const char *name);
 
-/* Checks that a command may write into `folder`: the folder does not exist, is empty but for hidden and temporary
- * files, or is of this kind. text: text of the scene, passed to is_sign; may be NULL. Sets *there to true if the folder
- * exists and is of this kind. REFUSED, with the name of the entry, if the folder holds a file that Cleave did not
- * write, or if a subfolder in `inner` is a link. */
+/* Checks that a command may write its files into `folder`: the folder does not exist, holds nothing but hidden and
+ * temporary files, or is of the given kind. text: text of the scene, passed to kind->is_sign; may be NULL. Sets *there
+ * to true if the folder exists and is of this kind, else to false. Returns REFUSED, with the name of the entry in the
+ * message, if the folder holds a file that Cleave did not write, or if a subfolder listed in kind->inner is a link. */
 status folder_guard(const struct folder_kind *kind, const char *folder, const char *text, bool *there);
 
 #endif

@@ -11,20 +11,22 @@ struct history {
     double *value; /* [rows][columns] in SI units; NAN for an empty or non-numeric entry */
 };
 
-/* Reads folder/history.csv into h. An incomplete last line, which a run is still writing, is left out. FAILED without a
- * file or a header, and for a line with another number of columns. Release with history_free. */
+/* Reads the file history.csv of the folder of a run into *h. The last line is skipped if it is incomplete because the
+ * run is still writing it. Returns FAILED if there is no such file or header, or if a line has another number of
+ * columns than the header. Release with history_free. */
 status history_read(struct history *h, const char *folder);
 
-/* Reads any file of the form of history.csv, for example a profile of a probe, as history_read does. */
+/* Reads the file `path`, a table with one header line like history.csv (for example a profile of a probe), into *h.
+ * Return value and release are those of history_read. */
 status history_read_file(struct history *h, const char *path);
 
-/* Releases the memory of h. */
+/* Releases the names and values of the table *h. */
 void history_free(struct history *h);
 
-/* Returns the index of the column `name`, or -1 if there is none. */
+/* Returns the index of the column called `name` (without unit), or -1 if there is none. */
 int history_column(const struct history *h, const char *name);
 
-/* Returns the value in a row and column, or NAN if `column` is -1. */
+/* Returns the value in the given row and column of the table, in SI units; NAN if `column` is -1. */
 static inline double history_at(const struct history *h, int64_t row, int column)
 {
     return column < 0 ? __builtin_nan("") : h->value[row * h->columns + column];

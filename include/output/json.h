@@ -16,26 +16,30 @@ struct json {
     bool filled;
 };
 
-/* Opens an object (bracket '{') or a list (bracket '['). */
+/* Opens an object (bracket '{') or a list (bracket '[') as the next entry. key: name of the entry; NULL in a list.
+ * Close it with json_close. */
 void json_open(struct json *j, const char *key, char bracket);
 
-/* Closes the innermost object (bracket '}') or list (bracket ']'). */
+/* Closes the innermost open object (bracket '}') or list (bracket ']'). */
 void json_close(struct json *j, char bracket);
 
-/* Writes a string, with escapes. */
+/* Writes the string `text` as the next entry, with special characters escaped. key: name of the entry; NULL in a list.
+ */
 void json_text(struct json *j, const char *key, const char *text);
 
-/* Writes an integer. */
+/* Writes the integer `value` as the next entry. key: name of the entry; NULL in a list. */
 void json_count(struct json *j, const char *key, int64_t value);
 
-/* Writes a number with `digits` significant digits. Writes nothing if `value` is NaN or infinite: a value that a run
- * does not have is left out of the file. */
+/* Writes the number `value` with `digits` significant digits as the next entry. key: name of the entry; NULL in a
+ * list. Writes no entry if `value` is NaN or infinite, which marks a quantity that a run does not have. */
 void json_number(struct json *j, const char *key, real value, int digits);
 
-/* Writes a number with the 17 digits of JSON_EXACT; writes nothing if `value` is NaN or infinite. */
+/* Writes the number `value` with 17 significant digits, which restore the same double, as the next entry. key: name of
+ * the entry; NULL in a list. Writes no entry if `value` is NaN or infinite. */
 void json_real(struct json *j, const char *key, real value);
 
-/* Writes the coordinates of a point, x[dim], as entries PREFIXx, PREFIXy and PREFIXz. */
+/* Writes the dim coordinates x[] of a point as the entries PREFIXx, PREFIXy and PREFIXz of the innermost object,
+ * PREFIX being the text `prefix`. */
 void json_point(struct json *j, const char *prefix, const real *x, int dim);
 
 #endif

@@ -12,16 +12,17 @@ struct lammps_frame {
     double *damage;                  /* broken share of the bonds that LAMMPS created [1]; 0 if the dump has none */
 };
 
-/* Lists the time steps in a dump in ascending order. Stores their number in *n and an allocated array in *step, which
- * the caller releases with memory_free. An incomplete last step is left out. FAILED if the file is
- * not such a dump or holds no complete step. */
+/* Lists the numbers of the time steps in the LAMMPS dump `path` in ascending order. Stores how many there are in *n
+ * and an allocated array of them in *step, which the caller releases with memory_free. An incomplete last time step is
+ * skipped. Returns FAILED if the file is not a dump with the columns of this header, or holds no complete time step. */
 status lammps_steps(const char *path, int *n, int64_t **step);
 
-/* Reads the particles of one time step. FAILED if the step is missing or the ids are not 1 .. n, each exactly once; no
- * memory is held then. Release with lammps_frame_free. */
+/* Reads the particles of time step number `step` of the LAMMPS dump `path` into *f, sorted by id. Returns FAILED, with
+ * no memory to release, if the dump lacks that time step, or if its ids are not 1 .. n, each exactly once. Release
+ * with lammps_frame_free. */
 status lammps_frame_read(struct lammps_frame *f, const char *path, int64_t step);
 
-/* Releases the memory of f. */
+/* Releases the arrays of *f. */
 void lammps_frame_free(struct lammps_frame *f);
 
 #endif

@@ -52,47 +52,53 @@ struct output {
     int64_t frame_copy_bytes;
 };
 
-/* Configures HDF5 and signals. Call once per process before any other HDF5 call: no exit handler, no error stack on the
- * terminal. SIGXFSZ and SIGPIPE are ignored, so that a full disk causes an error instead of the end of the process. */
+/* Configures HDF5 and signals: no exit handler of HDF5, no error messages of HDF5 on the terminal. SIGXFSZ and SIGPIPE
+ * are ignored, so that a full disk causes an error code instead of the end of the process. Call this function once per
+ * process, before any other call of HDF5. */
 void output_start(void);
 
-/* Creates `folder` and its subfolder frames, locks the folder for this process and writes scene.yaml.
- * Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With OUTPUT_RESUME
- * and no older run, a new run begins and a line reports it.
- * scene_text: scene with all defaults; a copy is written. compress: gzip the frames.
- * REFUSED if another process runs in the folder; if the folder holds files that no run wrote; if it holds a run of
- * another scene (a scene.yaml with another text), unless `mode` is OUTPUT_OVERWRITE; if it holds a run of this scene
- * and `mode` is OUTPUT_FIRST; if `mode` is OUTPUT_RESUME and the older run has lost its checkpoints. FAILED if a file
- * or folder cannot be created. On a fault nothing is left to close. */
+/* Opens the output of a run: creates `folder` and its subfolder frames, locks the folder for this process and writes
+ * scene.yaml. Removes temporary files of runs and, unless `mode` is OUTPUT_RESUME, the files of an older run. With
+ * OUTPUT_RESUME and no older run, a new run begins and a line reports it.
+ * scene_text: text of the scene with all defaults; a copy is written. compress: compress frames with gzip.
+ * Returns REFUSED if another process runs in the folder, if the folder holds files that no run wrote, if it holds a run
+ * of another scene (another text in scene.yaml) and `mode` is not OUTPUT_OVERWRITE, if it holds a run of this scene and
+ * `mode` is OUTPUT_FIRST, or if `mode` is OUTPUT_RESUME and the older run has lost its checkpoints. Returns FAILED if a
+ * file or folder cannot be created. Unless OK is returned, output_close need not be called. */
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress);
 
-/* Waits for the writing thread, closes history.csv, releases the lock and frees the memory of o. */
+/* Waits for the thread that writes frames, closes history.csv, unlocks the folder of the run, and frees the memory of
+ * *o. */
 void output_close(struct output *o);
 
-/* Checks the subfolder frames_NAME of a run's folder. REFUSED if it is a link or a file. Call before output_open, which
- * removes an older run. */
+/* Checks that the subfolder frames_NAME of the folder of a run can hold frames of a region. name: name of the region.
+ * Returns REFUSED if a link or a file has that name. Call it before output_open, which removes the files of an older
+ * run. */
 status output_series_guard(const char *folder, const char *name);
 
-/* Adds a series of frames of a region: the folder frames_NAME and its indices NAME.hdf.series and so on. Call after
- * output_open. region: borrowed until output_close. */
+/* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
+ * NAME.hdf.series and so on, with NAME = name. region: kept by reference until output_close. Call it after
+ * output_open. Returns FAILED if the subfolder cannot be created. */
 status output_add_series(struct output *o, const char *name, const struct region *region);
 
-/* Returns true if two texts of scenes describe the same scene. Particle lists are compared by their checksums, not by
- * their paths. */
+/* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their
+ * checksums, not by their paths. */
 bool scene_text_same(const char *a, const char *b);
 
-/* Returns true if the file `path` describes the same scene as scene_text. False also if the file cannot be read. */
+/* Returns true if the file `path` holds the text of the same scene as scene_text (see scene_text_same), false also if
+ * the file cannot be read. */
 bool scene_file_same(const char *path, const char *scene_text);
 
-/* Returns true if `text` begins as every scene.yaml that Cleave writes: with the quoted name of the scene. */
+/* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
 bool scene_text_is_written(const char *text);
 
-/* Writes `text` of `length` bytes to the file `name` in the run's folder, under a temporary name that is synced and
- * renamed. */
+/* Writes `length` bytes of `text` to the file `name` in the folder of the run, first under a temporary name, which is
+ * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
 status output_text(const struct output *o, const char *name, const char *text, size_t length);
 
-/* Removes missing and incomplete frames from the indices. Call after a restart. lost: their number. text: receives a
- * message about the first of them (`room` bytes). */
+/* Removes frames that are missing or incomplete from the index files of all series. Call it after a restart. lost:
+ * receives the number of these frames. text: receives a message about the first of them and holds `room` bytes.
+ * Returns FAILED if an index file cannot be written. */
 status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 
 /* Names of the fields, as in the table of output_fields.c. The ASK_ bits select the fields that are written only if the
@@ -126,38 +132,44 @@ struct frame_extra {
     struct frame_state state, more_state;
 };
 
-/* Writes the next frame of the whole body at time t [s] and step `step`: frames/NNNNNN.hdf, then the indices
- * frames.hdf.series and frames.xdmf. Particles are sorted by id. All fields but the reference positions are in single
- * precision. Returns when the files are complete. */
+/* Writes the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then the
+ * index files frames.hdf.series and frames.xdmf. Particles are sorted by id; all fields but the reference positions
+ * have single precision. scene_text: text of the scene, stored in the frame. Returns when the files are complete,
+ * FAILED if one cannot be written. */
 status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
-/* Starts to write the next frame of series k (0: the whole body; 1 .. n_series: regions) in a separate thread.
- * Fields that change during the run, and `extra`, are copied before the function returns; p and scene_text must stay
- * valid until output_wait. extra: NULL if there is none. Only one frame is written at a time: the next frame,
- * checkpoints and output_close wait for it. A fault of the thread is returned by the call that waits. */
+/* Starts to write the next frame of series k (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
+ * time steps, in a separate thread. Fields that change during the run, and those in *extra (NULL: none), are copied
+ * before the function returns; p and scene_text must stay valid until output_wait. Only one frame is written at a
+ * time: the next frame, checkpoints and output_close wait for it. The call that waits for the thread returns FAILED if
+ * the frame could not be written. */
 status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text);
 
-/* Writes all frames of each series as one temporal file for later versions of ParaView, frames.vtkhdf
- * (output_temporal.c). Call at the end of a run. Writes nothing if there is no frame, or more frames than such a file
- * can serve efficiently. */
+/* Writes all frames of each series as one temporal file for ParaView, frames.vtkhdf (output_temporal.c), at the end of
+ * a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more
+ * frames than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
 status output_temporal(struct output *o, const char *scene_text);
 
-/* Removes the files that output_temporal of an earlier process wrote: they lack the frames of a continued run, and a
- * failing run does not write them again. */
+/* Removes the temporal files that output_temporal of an earlier process wrote to the folder of the run, since they
+ * lack the frames of a run that continues. */
 void output_temporal_remove(const struct output *o);
 
-/* Discards the stored order of the particles. Call when particles or their ids have changed, after output_wait. */
+/* Discards the stored order in which particles are written. Call this function when the number of particles or their
+ * ids have changed, after output_wait. */
 void output_particles_changed(struct output *o);
 
-/* Waits until the writing thread has finished. Returns its status; OK if there was none. */
+/* Waits until the thread that writes a frame has finished. Returns FAILED if the frame could not be written; OK if it
+ * was written or there was no frame in progress. */
 status output_wait(struct output *o);
 
-/* Opens history.csv and writes its header `name [unit],...`. column[columns]: the first two are time and step. resume:
- * cut the file to the length that output_archive restored instead of starting a new one. */
+/* Opens history.csv and writes its header `name [unit],...` from column[columns], of which the first two are time and
+ * step. If `resume` is true, opens the existing file instead and cuts it to the length that output_archive has
+ * restored. Returns FAILED if the file cannot be opened or written. */
 status output_history_open(struct output *o, const struct column *column, int columns, bool resume);
 
-/* Appends a line to history.csv and flushes it. value[columns] in SI units, written with 9 significant digits. */
+/* Appends one line with value[columns] in SI units to history.csv, with 9 significant digits each, and flushes it.
+ * Returns FAILED if the line cannot be written. */
 status output_history(struct output *o, const real *value);
 
 /* Fields read from a frame, in the order of ascending id. Every array has n entries and belongs to the frame. */
@@ -175,20 +187,21 @@ struct frame {
     float *spacing;    /* particle spacing [m]; NULL if all particles have the same */
 };
 
-/* Returns the number of stress components in a frame: 1 in 1D, 4 in 2D (with zz), 6 in 3D. */
+/* Returns the number of stress components stored in a frame of dimension `dim`: 1 in 1D, 4 in 2D (zz included), 6 in
+ * 3D. */
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 
-/* Reads a frame from the file `path`. FAILED if the file cannot be read or is damaged; no memory is held then. Release
- * with frame_free. */
+/* Reads the frame in the file `path` into *f, particles in the order of ascending id. Returns FAILED, with no memory
+ * to release, if the file cannot be read or is damaged. Release with frame_free. */
 status frame_read(struct frame *f, const char *path);
 
-/* Releases the memory of f. */
+/* Releases the arrays of the frame *f. */
 void frame_free(struct frame *f);
 
-/* Reads a field by name at the particles of frame f, which was read from `path`: a field of the file, or one derived
- * from the fields of f (data/derived_fields.h).
- * Stores the number of components in *columns and an allocated array [n][columns] in *value, which the caller releases
- * with memory_free. FAILED if the frame has no such field. */
+/* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored
+ * in the file, or one computed from fields of f (data/derived_fields.h). Stores the number of its components in
+ * *columns and an allocated array [n][columns] in *value, which the caller releases with memory_free. Returns FAILED
+ * if the frame has no such field. */
 status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value);
 
 /* Entry of frames.hdf.series. Numbers have gaps where files were lost. */
@@ -197,29 +210,33 @@ struct listed_frame {
     real time;  /* [s] */
 };
 
-/* Lists the frames in frames.hdf.series of a run's folder in ascending order. Stores their number in *n and an
- * allocated array in *list, which the caller releases with memory_free. FAILED if the index cannot be read. */
+/* Reads the list of frames, in ascending order, from the index frames.hdf.series of the folder of a run. Stores their
+ * number in *n and an allocated array in *list, which the caller releases with memory_free. Returns FAILED if the
+ * index cannot be read. */
 status frames_list(const char *folder, int *n, struct listed_frame **list);
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Saves or restores the complete state of a run through the archive a; a->saving selects the direction. context:
- * argument of checkpoint_write or checkpoint_read. */
+/* Type of a function that saves the complete state of a run to the archive if a->saving is set, else restores it from
+ * the archive. context: argument of the same name of checkpoint_write or checkpoint_read. */
 typedef status archive_all_fn(void *context, struct archive *a);
 
-/* Writes checkpoint.h5 and renames the previous one to checkpoint.previous.h5. The file holds the format version,
- * scene_text, the state that archive_all saves, and a footer that detects damage (checksum.h). Waits for a frame that
- * is being written. */
+/* Writes the file checkpoint.h5 after renaming the previous one to checkpoint.previous.h5. The file holds the format
+ * version, scene_text, the state that archive_all(context, archive) saves, and a footer that detects damage
+ * (checksum.h). Waits first for a frame that is being written. Returns FAILED if a file cannot be written. */
 status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
 
-/* Restores the state from checkpoint.h5; if that file is damaged, from checkpoint.previous.h5, with a line on standard
- * error. FAILED if neither is whole, or if the checkpoint belongs to another scene or format version. */
+/* Restores the state of a run by archive_all(context, archive) from checkpoint.h5 or, if that file is damaged, from
+ * checkpoint.previous.h5, with a line on standard error. scene_text: text of the scene of the run. Returns FAILED if
+ * neither file is whole, or if the checkpoint belongs to another scene or format version. */
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context);
 
-/* Returns true if the folder holds checkpoint.h5 or checkpoint.previous.h5. */
+/* Returns true if the folder of a run holds checkpoint.h5 or checkpoint.previous.h5. */
 bool checkpoint_exists(const char *folder);
 
-/* Saves or restores the state of the output: number and times of the frames, length and hash of history.csv. */
+/* Saves the state of the output (number and times of frames, length and hash of history.csv) to the archive if
+ * a->saving is set, else restores it from the archive. Returns FAILED if an entry is missing or does not fit the files
+ * of the run. */
 status output_archive(struct output *o, struct archive *a);
 
 #endif

@@ -12,11 +12,12 @@ struct path {
     char text[PATH_ROOM];
 };
 
-/* Returns folder/name. The result is empty if it is too long, so that every system call refuses it. */
+/* Returns the path FOLDER/NAME. Returns an empty path if it would exceed the capacity of struct path; every system
+ * call refuses an empty path. */
 struct path path_join(const char *folder, const char *name);
 
-/* Creates a folder and its parent folders unless they exist. REFUSED if a file has such a name; FAILED if a folder
- * cannot be created. */
+/* Creates the folder `path` and its parent folders unless they exist. Returns REFUSED if the path is too long or a
+ * file has the name of such a folder; FAILED if a folder cannot be created. */
 status folder_make(const char *path);
 
 /* Ending of the names of temporary files. It contains the name of the program, so that files of other programs do not
@@ -25,70 +26,80 @@ status folder_make(const char *path);
 /* Returns PATH.cleave.tmp, the temporary name under which a file is written before it is renamed to `path`. */
 struct path path_aside(const char *path);
 
-/* Returns path_aside(path) and adds `path` to the list of unfinished files; file_publish or file_discard of the same
- * `path` removes it from the list. */
+/* Returns the temporary name PATH.cleave.tmp and adds `path` to the list of unfinished files. file_publish or
+ * file_discard with the same path removes it from the list. */
 struct path file_begin(const char *path);
 
-/* Removes the temporary files of the list of unfinished files. Call before the program ends because of an internal
- * fault. */
+/* Removes the temporary files of all unfinished files (file_begin). Call it before the program ends because of an
+ * internal fault. */
 void files_unfinished_remove(void);
 
-/* Returns true if anything has this name; a link counts even if its target is missing. */
+/* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is
+ * missing. */
 bool path_exists(const char *path);
 
-/* Returns true if a symbolic link has this name. */
+/* Returns true if a symbolic link called `path` exists. */
 bool path_is_link(const char *path);
 
-/* Returns true if a regular file, or a link to one, has this name. */
+/* Returns true if `path` is a regular file or a link to one. */
 bool path_is_file(const char *path);
 
-/* Returns true if a folder has this name; a link to a folder counts. */
+/* Returns true if `path` is a folder or a link to one. */
 bool path_is_folder(const char *path);
 
-/* Sets the message `cannot write PATH: cause; remedy` and returns FAILED. cause: an errno; 0 if unknown. */
+/* Sets the message `cannot write PATH: cause; remedy` and returns FAILED. cause: value of errno after the failed call;
+ * 0 if unknown. */
 status file_fault(const char *path, int cause);
 
-/* Checks that a file may be replaced or removed. REFUSED if it is an input of this command, or a pipe, socket or
- * device. OK if there is no such file. */
+/* Checks that the file `path` may be replaced or removed. Returns REFUSED if it is an input of this command, or a
+ * pipe, socket or device; OK otherwise, also if there is no such file. */
 status file_guard(const char *path);
 
-/* Checks that a file begins as files of Cleave do. begin[n]: the possible beginnings; a shorter file must agree with
- * one of them to its end. OK if there is no such file; REFUSED otherwise. */
+/* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. begin[n]: the possible
+ * beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if there is
+ * no such file; REFUSED if no beginning agrees. */
 status file_begin_guard(const char *path, const char *const *begin, size_t n);
 
-/* Action on one file. */
+/* Type of a function that acts on the file `path`. */
 typedef status each_file(const char *path);
 
-/* Calls `each` for the files in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops at the
- * first fault and returns it. */
+/* Calls each(path) for every file in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops
+ * at the first call that does not return OK, and returns its status. */
 status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
                   each_file *each);
 
-/* Returns true if the file has exactly these `length` bytes. */
+/* Returns true if the file `path` has exactly the given contents, `length` bytes from `bytes` on; false also if it
+ * cannot be read. */
 bool file_holds(const char *path, const void *bytes, size_t length);
 
-/* Writes `length` bytes as the complete file `path`: temporary name, sync, rename, sync of the folder. An input of this
- * command is never replaced: OK if it already has these bytes, else REFUSED. */
+/* Writes `length` bytes from `bytes` on as the complete file `path`: under a temporary name, which is synced and
+ * renamed; then syncs the folder. A file that is an input of this command is never replaced: returns OK if it already
+ * has these contents, else REFUSED. Returns FAILED if the file cannot be written. */
 status file_put(const char *path, const void *bytes, size_t length);
 
-/* Writes a file as file_put does, but without the sync of the folder. For many files in one folder: call file_settle
- * once for one of them at the end. */
+/* Writes `length` bytes from `bytes` on as the complete file `path` as file_put does, but does not sync the folder.
+ * After writing many files to one folder, call file_settle once for one of them. */
 status file_put_unsettled(const char *path, const void *bytes, size_t length);
 
-/* Syncs the folder that holds `path`, so that a new name survives a crash. A folder that may not be read is skipped. */
+/* Syncs the folder that holds the file `path`, so that a new name survives a crash of the machine. A folder that may
+ * not be read is skipped. Returns FAILED if the sync fails. */
 status file_settle(const char *path);
 
-/* Appends `length` bytes (may be 0) to PATH.cleave.tmp and syncs the file. On a fault PATH.cleave.tmp is removed. */
+/* Appends `length` bytes (may be 0) from `tail` on to the temporary file PATH.cleave.tmp and syncs it. Returns FAILED
+ * if that is not possible; PATH.cleave.tmp is removed then. */
 status file_seal(const char *path, const void *tail, size_t length);
 
-/* Renames the synced PATH.cleave.tmp to `path` and syncs the folder. On a fault PATH.cleave.tmp is removed. */
+/* Renames the synced temporary file PATH.cleave.tmp to `path` and syncs the folder. Returns REFUSED if the file `path`
+ * must not be replaced (file_guard), FAILED if the renaming or the sync fails. If the file is not renamed,
+ * PATH.cleave.tmp is removed. */
 status file_publish(const char *path);
 
-/* Removes PATH.cleave.tmp and frees its disk space even if the file is still open. */
+/* Removes the temporary file PATH.cleave.tmp and frees its disk space even if the file is still open. */
 void file_discard(const char *path);
 
-/* Reads a complete regular file. Stores an allocated text in *text, which the caller releases with memory_free, and its
- * length in *length; a 0 byte follows the last byte. FAILED if the file cannot be read. */
+/* Reads the complete regular file `path`. Stores an allocated text in *text, which the caller releases with
+ * memory_free, and its length [byte] in *length; a 0 byte follows the last byte. Returns FAILED, with no memory to
+ * release, if the file cannot be read. */
 status file_get(const char *path, char **text, size_t *length);
 
 #endif

@@ -11,7 +11,7 @@
 /* Types of numbers in a file. */
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
 
-/* Returns the size of one number [byte]. */
+/* Returns the size of one number of the given type [byte]. */
 size_t hdf_size(enum hdf_type type);
 
 /* An open HDF5 file and its first fault. */
@@ -22,20 +22,22 @@ struct hdf {
     int cause;     /* errno of the failed call, 0 if unknown */
 };
 
-/* Creates the file PATH and replaces an existing one. No time stamps are stored: equal content gives equal bytes. A
- * fault is stored in f. */
+/* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the
+ * datasets that hdf_rows writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
+ * failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
-/* Opens the file PATH for reading. A fault is stored in f. */
+/* Opens the HDF5 file `path` for reading and stores its handle in *f. A failure is stored in f->failed. */
 void hdf_open(struct hdf *f, const char *path);
 
-/* Closes the file and all its objects. */
+/* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
 void hdf_close(struct hdf *f);
 
-/* Creates a group. */
+/* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
 void hdf_group(struct hdf *f, const char *name);
 
-/* Writes a dataset of rows x columns numbers; it has one dimension if columns is 1. data: [rows][columns]. */
+/* Writes the dataset `name` of rows x columns numbers of the given type from data[rows][columns]; the dataset has one
+ * dimension if `columns` is 1. A failure is stored in f->failed. */
 void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
@@ -45,34 +47,41 @@ struct hdf_source {
     int64_t rows;
 };
 
-/* Creates a virtual dataset: the rows of the dataset `name` in the files source[sources], one after another. Each
- * source contributes its `rows` plus `more` rows. No data are copied. */
+/* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
+ * dataset of the same name in the files source[sources], one after another. Each file contributes its number of rows,
+ * source[k].rows, plus `more` rows. A failure is stored in f->failed. */
 void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
                  int sources, int more);
 
-/* Writes a dataset with one fixed-length string. */
+/* Writes the string `text` as the dataset `name`, with fixed length. A failure is stored in f->failed. */
 void hdf_text(struct hdf *f, const char *name, const char *text);
 
-/* Writes a dataset with a list of one variable-length string, which VTK shows as field data. Bytes that are not ASCII
- * become question marks. */
+/* Writes the string `text` as the dataset `name`, a list of one string of variable length, which VTK shows as field
+ * data. Bytes that are not ASCII become question marks. A failure is stored in f->failed. */
 void hdf_text_list(struct hdf *f, const char *name, const char *text);
 
-/* Writes an attribute of `count` numbers (a list even for one number) to a group or dataset. */
+/* Writes values[count] as the attribute `name` of a group or dataset; the attribute is a list even for one number.
+ * group: path of the group or dataset. A failure is stored in f->failed. */
 void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values);
 
-/* Writes an attribute of one number (a scalar) to a group or dataset. */
+/* Writes the number *value as the attribute `name` of a group or dataset; the attribute is a scalar. group: path of
+ * the group or dataset. A failure is stored in f->failed. */
 void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value);
 
-/* Writes an attribute of one fixed-length ASCII string to a group or dataset. */
+/* Writes the ASCII string `text` as the attribute `name` of a group or dataset, with fixed length. group: path of the
+ * group or dataset. A failure is stored in f->failed. */
 void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text);
 
-/* Returns the number of numbers in a dataset, or -1 if there is no such dataset, which is not a fault. */
+/* Returns the number of numbers in the dataset `name`, or -1 if the file has no such dataset, which is not a failure.
+ */
 int64_t hdf_count(struct hdf *f, const char *name);
 
-/* Reads exactly `count` numbers of a dataset into `data`; another size is a fault. */
+/* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
+ * data[count]. Another size or a failed read is stored in f->failed. */
 void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t count, void *data);
 
-/* Reads an attribute of one number of a group or dataset; another size is a fault. */
+/* Reads the attribute `name` of a group or dataset, which must be one number, and converts it to the given type in
+ * *value. group: path of the group or dataset. Another size or a failed read is stored in f->failed. */
 void hdf_read_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value);
 
 #endif

@@ -9,14 +9,16 @@ struct folder_lock {
     int fd;
 }; /* -1: not locked */
 
-/* Locks the folder for this process until folder_unlock or the end of the process. REFUSED, with the process that holds
- * the lock, while that process runs. OK with a warning on standard error if the file system supports no locks. */
+/* Locks `folder` for this process, until folder_unlock or the end of the process, and stores the lock in *l. Returns
+ * REFUSED, with the number of the process that holds the lock, while another process has locked the folder. Returns
+ * OK, with a warning on standard error, if the file system does not support locks. */
 status folder_lock(struct folder_lock *l, const char *folder);
 
-/* Checks that the lock still applies. FAILED if the folder of this name is no longer the folder that was locked. */
+/* Checks that the lock l still applies to `folder`. Returns FAILED if another folder has that name now, for example
+ * because the locked one was moved or removed. */
 status folder_held(const struct folder_lock *l, const char *folder);
 
-/* Removes the lock file, if the lock still applies, and releases the lock. */
+/* Releases the lock l, and removes the lock file in `folder` if the lock still applies. */
 void folder_unlock(struct folder_lock *l, const char *folder);
 
 #endif

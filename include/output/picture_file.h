@@ -6,16 +6,16 @@
 
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 
-/* Completes the picture PATH.tmp: checks that it is whole, writes the mark of Cleave into it, syncs it and renames it
- * to `path`. FAILED if the file is missing or incomplete, for example on a full disk; then PATH.tmp is removed and an
- * existing file at `path` stays. */
+/* Completes the picture PATH.tmp: checks that it is whole, writes a mark into it by which Cleave recognises its own
+ * pictures, syncs it and renames it to `path`. Returns FAILED if the file is missing or incomplete, for example on a
+ * full disk; PATH.tmp is removed then, and an existing file at `path` remains. */
 status picture_publish(const char *path, enum picture_format format);
 
-/* Returns true if the file has the mark that picture_publish writes. */
+/* Returns true if the file `path` has the mark that picture_publish writes into pictures. */
 bool picture_is_ours(const char *path);
 
-/* Checks that a picture may replace the file `path`. REFUSED if there is such a file and it lacks the mark of
- * Cleave. */
+/* Checks that a picture may be written to the file `path`. Returns REFUSED if there is such a file and it lacks the
+ * mark of Cleave; OK if there is no such file. */
 status picture_guard(const char *path);
 
 #endif

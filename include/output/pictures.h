@@ -22,20 +22,24 @@ enum picture {
     DRAWN_KINDS
 };
 
-/* Returns DIR/pictures, the folder of pictures of the run in `dir`. */
+/* Returns the path DIR/pictures of the folder for pictures of the run in the folder `dir`; an empty path if it would
+ * be too long. */
 struct path pictures_folder(const char *dir);
 
-/* Returns DIR/pictures/NAME.ENDING; empty if `dir` is too long. ending: "png", "svg" and so on. */
+/* Returns the path DIR/pictures/NAME.ENDING of a picture of the run in the folder `dir`; an empty path if it would be
+ * too long. which: kind of picture, which determines NAME; ending: "png", "svg" and so on. */
 struct path picture_path(const char *dir, enum picture which, const char *ending);
 
-/* Returns the path of the picture of one frame, DIR/pictures/NAME_000012.png; empty if `dir` is too long. number:
- * number of the frame. */
+/* Returns the path DIR/pictures/NAME_000012.png of the picture of frame 12 = number of the run in the folder `dir`; an
+ * empty path if it would be too long. which: kind of picture, which determines NAME. */
 struct path picture_path_of_frame(const char *dir, enum picture which, int number);
 
-/* Returns the path of the picture of a field, DIR/pictures/field_NAME.ENDING; empty if `dir` is too long. */
+/* Returns the path DIR/pictures/field_NAME.ENDING of a picture of the field called NAME = field of the run in the
+ * folder `dir`; an empty path if it would be too long. ending: "png", "svg" and so on. */
 struct path picture_path_of_field(const char *dir, const char *field, const char *ending);
 
-/* Returns true if `name` is that of a picture or film, NAME.png or NAME_000012.png, followed by `end`. */
+/* Returns true if `name` is the name of a picture or film that Cleave draws, NAME.png or NAME_000012.png, followed by
+ * the text `end`. */
 bool is_picture(const char *name, const char *end);
 
 #endif

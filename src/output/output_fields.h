@@ -29,29 +29,33 @@ enum { FIELD_POINTS, FRAME_FIELDS = 24 }; /* index of the positions in the table
 /* Table of all fields, in the order of their bits. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
-/* Returns the bit set of the fields of a frame: plastic strain if a material yields, contact force if contact is on,
- * fragments if bodies can break, others if the scene requests them. */
+/* Returns the set of the fields of a frame, one bit per field in the order of frame_fields[]: the basic ones, plastic
+ * strain if a material yields, contact force if the scene has contact, fragments if bodies can break, and those that
+ * the scene requests. */
 unsigned frame_fields_of(const struct frame_source *s);
 
-/* Writes rows first .. end - 1 of a field that changes during a run into `rows`, which starts at particle 0. */
+/* Copies rows first .. end - 1 (one row per particle) of a field that changes during a run to `rows`, whose first row
+ * belongs to particle 0. */
 void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
                       void *rows);
 
-/* Writes the rows of the material points of coarse cells (extra.more) for a field that changes during a run. */
+/* Copies the rows of the material points of coarse cells (source->extra.more), one per point, of a field that changes
+ * during a run to `rows`. */
 void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
 
-/* Writes one line `field [unit]` for every field of the bit set `fields` that has a unit. text: capacity `room`
- * [byte]. */
+/* Writes one line `field [unit]` for every field with a unit in the set `fields` (bits as returned by frame_fields_of)
+ * to `text`, which holds `room` bytes. */
 void frame_units_text(unsigned fields, char *text, size_t room);
 
-/* Returns the size of one row of a field [byte]. */
+/* Returns the size of one row of a field, its values at one particle [byte]. dim: dimension of the body. */
 size_t frame_field_row(const struct frame_field *field, int dim);
 
-/* Writes the name of frame `number` of a series relative to the run's folder. name: capacity `room` [byte]. */
+/* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds `room`
+ * bytes. */
 void frame_name(const struct frame_series *s, char *name, size_t room, int number);
 
-/* Writes the name of an index of a series relative to the run's folder: that of the series with the ending `end`. name:
- * capacity `room` [byte]. */
+/* Writes the name of an index file of a series, relative to the folder of the run, to `name`, which holds `room`
+ * bytes: the name of the series followed by the ending `end`. */
 void series_file(const struct frame_series *s, char *name, size_t room, const char *end);
 
 #endif
