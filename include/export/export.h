@@ -19,9 +19,10 @@ struct export_request {
     bool overwrite;       /* replace an older export in the folder */
 };
 
-/* Writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and prints the estimated cost of
- * the run in LAMMPS. REFUSED, with the reason and without writing anything, if LAMMPS cannot run the scene or would
- * give another result, if the folder holds other files, or if it holds an export and `overwrite` is false. */
+/* Exports a scene to LAMMPS: writes in.lammps, plate.data, README.txt, scene.yaml and check.csv into the folder, and
+ * prints the estimated cost of the run in LAMMPS. Returns REFUSED, with the reason and without writing anything, if
+ * LAMMPS cannot run the scene or would give another result, if the folder holds other files, or if it holds an export
+ * and `overwrite` is false; FAILED if a file cannot be written. */
 status export_lammps(const struct export_request *request);
 
 #endif

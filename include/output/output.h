@@ -78,7 +78,7 @@ status output_series_guard(const char *folder, const char *name);
 
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
  * NAME.hdf.series and so on, with NAME = name. region: kept by reference until output_close. Call it after
- * output_open. Returns FAILED if the subfolder cannot be created. */
+ * output_open. Returns REFUSED if a link or a file has the name of the subfolder, FAILED if it cannot be created. */
 status output_add_series(struct output *o, const char *name, const struct region *region);
 
 /* Returns true if the scene texts a and b describe the same scene. Files of particle lists are compared by their

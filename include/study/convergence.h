@@ -47,18 +47,21 @@ struct convergence {
                                          * difference of squares */
 };
 
-/* Determines order, verdict and intervals of a figure from n runs.
- * value[k]: figure of run k at spacing[k] and level[k] = 0 .. levels - 1; NAN: the run has no value. resolution[level]:
- * half the step in which the figure is quantised; NULL: not quantised. Returns false if one of the three finest levels
- * has no value. */
+/* Determines observed order, verdict and uncertainty intervals of a figure (a scalar result) from n runs. value[k]:
+ * figure of run k, NAN if the run has none; spacing[k]: its particle spacing [m]; level[k] = 0 .. levels - 1: its
+ * spacing level, 0 the finest. resolution[level]: half of the step in which the figure is quantised at this level;
+ * NULL if it is not quantised. Stores the results in *c. Returns false if one of the three finest levels has no value.
+ */
 bool convergence_find(struct convergence *c, const double *spacing, const double *value, const int *level, int n,
                       int levels, const double *resolution);
 
-/* Returns the half-width of the interval around `about` that contains the true value with probability `share`. Uses the
- * means of all levels and their errors (convergence_interval.c). */
+/* Returns the half-width of the interval centred at `about` that contains the true value of the figure with
+ * probability `share` [1], from the means of all spacing levels and their errors (convergence_interval.c). `about` and
+ * the result have the unit of the figure. */
 double convergence_half_width(const struct convergence *c, double about, double share);
 
-/* Sets order_likely, order_error, extrapolated, uncertainty and discretisation from the levels of c. */
+/* Computes order_likely, order_error, extrapolated, uncertainty and discretisation of *c from the means and errors of
+ * its levels. */
 void convergence_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with n >= 1 degrees of freedom. */

@@ -16,7 +16,8 @@ struct spacings {
                                  * have, at at[level][0] [spacings] */
 };
 
-/* Chooses the spacings of `levels` levels with ratio sqrt(2), level 0 near `finest` [m]. */
+/* Chooses the particle spacings of a convergence study of the scene s and stores them in *to: `levels` levels whose
+ * spacings have the ratio sqrt(2), the finest near `finest` [m], such that the lattice fits the bodies and cracks. */
 void spacings_plan(struct spacings *to, const struct scene *s, int levels, double finest);
 
 /* Parameters in which a run of the study differs from the scene. */
@@ -69,30 +70,37 @@ struct convergence_request {
     struct study_options options;
 };
 
-/* Runs the study. Failed runs leave NAN in the table. REFUSED if the scene cannot be refined, or if the budget is too
- * small; the message then states the required budget. Release with convergence_study_free. */
+/* Runs a convergence study as requested by *w and stores its runs and results in *s. Figures of failed runs are NAN in
+ * the table. Returns REFUSED if the scene cannot be refined or if the time budget is too small (the message states the
+ * required one), FAILED if the coarsest run fails, INTERRUPTED if options.stop is set. Release with
+ * convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
-/* Releases the memory of s. */
+/* Releases the memory of *s. */
 void convergence_study_free(struct convergence_study *s);
 
-/* Determines the convergence of the physical figures that all levels have. wanted[wanteds]: only these figures, REFUSED
- * if one is missing; NULL: all. Stores an allocated array in *figure, which the caller releases with memory_free, and
- * its length in *figures. */
+/* Determines the convergence of the figures (scalar results) that describe the body and have values at all levels.
+ * wanted[wanteds]: names of the only figures to treat, none (0): all. Stores an allocated array in *figure, which the
+ * caller releases with memory_free, and its length in *figures. Returns REFUSED if a named figure does not exist,
+ * FAILED if no figure has values at all levels. */
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures);
 
-/* Checks that the table and the pictures may be written to the folder. REFUSED if the folder is that of a study, and
- * one of these files exists and Cleave did not write it. Other folders are checked by study_take. */
+/* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if one of
+ * these files exists in the folder of a study and Cleave did not write it. Returns OK for any other folder, which
+ * study_take checks. */
 status figures_guard(const char *folder);
 
-/* Writes the table FOLDER/converge.csv. */
+/* Writes the table of figure[figures] to the file converge.csv in the folder of the study, and the text of the scene
+ * to the file that identifies the study. Returns FAILED if a file cannot be written. */
 status figures_write(const struct convergence_study *s, const struct figure_study *figure, int figures);
 
-/* Prints a table, a sentence for each figure, and the parameter to which it is most sensitive. */
+/* Prints to standard output a table of figure[figures], one sentence on each of them, and the parameter of the
+ * discretisation to which they are most sensitive. */
 void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures);
 
-/* Draws FOLDER/pictures/convergence.png, and path.png if the runs have cracks. */
+/* Draws figure[figures] over the particle spacing as pictures/convergence.png in the folder of the study and, if the
+ * runs have cracks, their paths as pictures/path.png. Returns FAILED if a picture cannot be drawn. */
 status figures_draw(const struct convergence_study *s, const struct figure_study *figure, int figures);
 
 #endif

@@ -45,77 +45,90 @@ struct study {
 
 /* ---- values (study_values.c) ------------------------------------------------------------------------------------- */
 
-/* Parses `KEY=VALUE,...`. Values are separated by commas outside brackets and quotes. `from:to:step` stands for
- * equidistant numbers including both ends, with at most one unit. REFUSED, with the reason, if the text is malformed.
- * Release with varied_key_free. */
+/* Parses the text `KEY=VALUE,...` and stores the key and its values in *k. Values are separated by commas outside
+ * brackets and quotes; `from:to:step` stands for equidistant numbers that include both ends, with at most one unit.
+ * Returns REFUSED, with the reason, if the text is malformed. Release with varied_key_free. */
 status varied_key_read(struct varied_key *k, const char *text);
 
-/* Releases the memory of k. */
+/* Releases the memory of *k. */
 void varied_key_free(struct varied_key *k);
 
-/* Returns the number at the start of a value; NAN if there is none. unit: receives the text that follows the number. */
+/* Returns the number at the start of the text `value`, NAN if there is none. *unit receives a pointer to the rest of
+ * the text after that number and spaces; the whole text if there is no number. */
 double value_number(const char *value, const char **unit);
 
 /* ---- cases (study.c) --------------------------------------------------------------------------------------------- */
 
-/* Initialises a study of the scene with path `scene`. folder: NULL for results/NAME_KIND, NAME the name of the scene.
- * Creates no folder. FAILED or REFUSED if the scene cannot be read. Release with study_free. */
+/* Initialises a study without runs and creates no folder. scene: path of the scene file, kept by reference. folder:
+ * folder of the study; NULL for results/NAME_KIND with the name of the scene and KIND = kind. Returns REFUSED if the
+ * name of the folder is empty or too long, FAILED or REFUSED if the scene cannot be read. Release with study_free. */
 status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
 
-/* Initialises a study as study_make does, for a scene without the varied keys; keys with a single value override the
- * scene. */
+/* Initialises a study as study_make does, and stores the text of the scene in s->text, without the keys that vary.
+ * key[keys]: keys of the study and their values; a key with a single value overrides the scene in all runs. Returns as
+ * study_make does. */
 status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
                      const struct varied_key *key, int keys);
 
-/* Writes the default folder of a study of a scene, results/NAME_KIND. to: capacity `room` [byte]. */
+/* Writes the path of the default folder of a study of a scene, results/NAME_KIND with the name of the scene and KIND =
+ * kind, to `to`, which holds `room` bytes. */
 void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind);
 
-/* Checks that the folder holds no study of another scene. REFUSED if it does. text: text of the scene. */
+/* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
+ * study of another scene, or files that Cleave did not write. */
 status study_folder_fits(const char *folder, const char *text);
 
-/* Marks the folder as that of a study: writes STUDY_SCENE without a scene unless the file exists. REFUSED if the folder
- * holds files that Cleave did not write, or if its subfolder `logs` or `pictures` is a link. */
+/* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it is one already.
+ * Returns REFUSED if the folder holds files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
+ * link; FAILED if the file cannot be written. */
 status study_folder_claim(const char *folder);
 
-/* Checks a folder as study_folder_claim does, but writes nothing. */
+/* Checks `folder` as study_folder_claim does, with the same return values, but writes nothing. */
 status study_folder_guard(const char *folder);
 
-/* Returns true if the folder is that of a finished study of the scene with this text. */
+/* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */
 bool study_scene_same(const char *folder, const char *text);
 
-/* Writes STUDY_SCENE: a first line by which Cleave recognises the file, then the text of the scene. */
+/* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, then the text of the
+ * scene. Returns FAILED if the file cannot be written. */
 status study_scene_put(const char *folder, const char *text);
 
-/* Releases the memory of s. */
+/* Releases the memory of *s. */
 void study_free(struct study *s);
 
-/* Adds a run with copies of override[overrides]. name: wanted name of its folder; made unique and restricted to
- * characters that every file system accepts. A name that is too long or taken becomes case-HASH, with a hash of the
- * overrides that is independent of their order. Returns the run, which the study owns. */
+/* Adds a run to the study, with copies of the overrides override[overrides] of keys of the scene. name: desired name
+ * of its folder, which is restricted to characters that every file system accepts; if it is too long or already taken,
+ * the name case-HASH is used, HASH being a hash of the overrides that does not depend on their order. Returns the run,
+ * which belongs to the study; the pointer is valid until the next call. */
 struct study_case *study_add(struct study *s, const char *name, const struct scene_override *override, int overrides);
 
-/* Adds a run for every combination of the values of key[keys]; the last key varies fastest. REFUSED if there are more
- * than CASES_MOST. */
+/* Adds one run to the study for every combination of the values of the keys key[keys]; the values of the last key vary
+ * fastest. Returns REFUSED if there would be more than CASES_MOST runs. */
 status study_cross(struct study *s, const struct varied_key *key, int keys);
 
-/* Reads the scene of every run; REFUSED if one is invalid. Marks runs with equal scenes, runs that are already done
- * and, if `collect` is true, runs that have failed, which a study would run again. */
+/* Reads the scene of every run of the study and sets the states of the runs: CASE_SAME if another run has an equal
+ * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `collect` is true, CASE_FAILED if it
+ * holds a failed run, which the study would otherwise run again. Returns REFUSED if the scene of a run is invalid. */
 status study_check(struct study *s, bool collect);
 
-/* Prints how many runs have the same scene as another one; prints nothing if there are none. */
+/* Prints to `out` how many runs of the study have the same scene as another run (CASE_SAME). Prints nothing if there
+ * are none. */
 void study_print_same(const struct study *s, FILE *out);
 
-/* Returns the value of a key in the overrides of a run; "" if it has no override for the key. */
+/* Returns the value of the key called `key` among the overrides of a run, "" if the run does not override that key.
+ * The text belongs to the run. */
 const char *study_value(const struct study_case *c, const char *key);
 
-/* Closes a file of open_memstream and writes its `*length` bytes as FOLDER/name; frees *text. to: NULL if
- * open_memstream failed; then FAILED. */
+/* Closes `to`, a memory stream that memory_stream_open has opened on *text and *length, and writes its *length bytes
+ * as the file `name` in the folder of the study; frees *text. Returns FAILED if `to` is NULL because memory was
+ * exhausted, or if the file cannot be written. */
 status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 
-/* Returns the run whose results are used for run c: c itself unless its state is CASE_SAME. */
+/* Returns the run whose results stand for those of run c: the run with an equal scene if the state of c is CASE_SAME,
+ * else c. */
 const struct study_case *study_representative(const struct study *s, const struct study_case *c);
 
-/* Returns the folder with the results of run c. */
+/* Returns the path of the folder that holds the results of run c, that of study_representative. */
 struct path study_folder(const struct study *s, const struct study_case *c);
 
 /* ---- runs (study_run.c) ------------------------------------------------------------------------------------------ */
@@ -130,15 +143,19 @@ struct study_options {
                                         * started */
 };
 
-/* Locks the folder of the study for this process. REFUSED if the folder does not exist, is that of a run, is used by
- * another process or, without `overwrite`, holds a study of another scene. */
+/* Locks the folder of the study for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
+ * not exist, is that of a single run, holds files that Cleave did not write, is in use by another process or, unless
+ * `overwrite` is true, holds a study of another scene. */
 status study_take(struct study *s, bool overwrite);
 
-/* Creates and locks the folder and starts all waiting runs. A failed run is recorded in its state, with a line on
- * standard error, and the study continues. REFUSED as study_take; INTERRUPTED by how.stop. */
+/* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
+ * process. how: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
+ * appears on standard error, and the study continues. Returns REFUSED as study_take does, FAILED if a process cannot
+ * be started, INTERRUPTED if how.stop is set. */
 status study_run(struct study *s, struct study_options how);
 
-/* Prints a shell command that runs one case, valid in any current folder, with quotes where the shell requires them. */
+/* Prints to `out` the shell command that executes run c alone, valid in any current folder, with quotes where the
+ * shell requires them. how: options of the study. */
 void study_print_command(const struct study *s, const struct study_case *c, struct study_options how, FILE *out);
 
 /* ---- results (study_table.c, study_draw.c) ----------------------------------------------------------------------- */
@@ -150,41 +167,48 @@ struct study_table {
     int figures, cases;
 };
 
-/* Reads the summaries of all finished runs. FAILED if one cannot be read. Release with study_table_free. */
+/* Reads all numbers from the summaries of the finished runs of a study into *t. Returns FAILED if a summary cannot be
+ * read. Release with study_table_free. */
 status study_table_read(struct study_table *t, const struct study *s);
 
-/* Releases the memory of t. */
+/* Releases the memory of *t. */
 void study_table_free(struct study_table *t);
 
-/* Returns the index of a figure in the table, or -1. */
+/* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
 int study_figure(const struct study_table *t, const char *name);
 
-/* Checks that runs of the scene can have a figure of this name (figure_names.c). REFUSED, with the most similar name,
- * if not. */
+/* Checks that runs of the scene s can have a figure (a number in summary.json) called `name` (figure_names.c). Returns
+ * REFUSED if not, with the most similar name in the message. */
 status figure_name_check(const struct scene *s, const char *name);
 
-/* Returns true if a figure describes the computation or the discretisation instead of the body. */
+/* Returns true if the figure called `name` describes the computation or the discretisation (time, number of particles)
+ * instead of the body. */
 bool study_figure_is_technical(const char *name);
 
-/* Reads the header of the history.csv of a run, from which study_unit takes units. header: capacity `room` [byte]; ""
- * if there is none. */
+/* Reads the header of the history.csv of the first run that has such a file into `header`, which holds `room` bytes;
+ * "" if there is none. study_unit takes units from the header. */
 void study_header_read(char *header, size_t room, const struct study *s);
 
-/* Determines the SI unit of a figure. unit: capacity `room` [byte]; "" if it has none or it is unknown. header: from
- * study_header_read. */
+/* Determines the SI unit of the figure called `figure` and writes it to `unit`, which holds `room` bytes; "" if the
+ * figure has no unit or it is unknown. header: text from study_header_read. */
 void study_unit(char *unit, size_t room, const char *header, const char *figure);
 
-/* Prints each distinct warning of the runs: the number of runs that have it and the text of the first. */
+/* Prints each distinct warning of the runs of a study to `out`: the number of runs that have it, and the text of the
+ * first one. */
 void study_print_warnings(const struct study *s, FILE *out);
 
-/* Writes FOLDER/sweep.csv with a line for each run: name, state, values of the varied keys, figures. */
+/* Writes the table sweep.csv to the folder of the study, one line for each run: name, state, values of the keys
+ * key[keys], figures. Returns FAILED if the file cannot be written. */
 status study_write_table(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
-/* Checks that the table and the pictures of the study may be written. REFUSED if the folder is that of a study, and one
- * of these files exists and Cleave did not write it. Other folders are checked by study_take. */
+/* Checks that the table sweep.csv and the pictures of the study may be written, one picture for each of the keys
+ * key[keys]. Returns REFUSED if one of these files exists in the folder of a study and Cleave did not write it.
+ * Returns OK for any other folder, which study_take checks. */
 status study_output_guard(const struct study *s, const struct varied_key *key, int keys);
 
-/* Draws FOLDER/pictures/KEY.png for each varied key, and map.png for two. */
+/* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the
+ * study, and pictures/map.png over two keys. key[keys]: keys of the study and their values. Returns FAILED if a
+ * picture cannot be drawn. */
 status study_draw(const struct study_table *t, const struct study *s, const struct varied_key *key, int keys);
 
 #endif

@@ -6,11 +6,12 @@
 #include "output/output_files.h"
 #include "step/report.h"
 
-/* Returns the folder of the pilot runs of a run: FOLDER_pilot. */
+/* Returns the path FOLDER_pilot of the folder that holds the pilot runs of the run in `folder`. */
 struct path pilot_folder(const char *folder);
 
-/* Reads the 95 % intervals of figures from the convergence study in NAME_converge beside `folder`, if it is a study of
- * scene s. bar: receives at most `most` of them. Returns their number; 0 if there is no study or it cannot be read. */
+/* Reads the half-widths of the 95 % intervals of figures from an existing convergence study of the scene s: that in
+ * NAME_converge beside `folder`, the folder of the run, or else that of its pilot runs. Stores at most `most`
+ * half-widths in bar[]. Returns their number; 0 if there is no study of this scene or it cannot be read. */
 int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder);
 
 #endif

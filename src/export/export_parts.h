@@ -26,12 +26,13 @@ struct lammps_settings {
     struct lammps_setting of[SETTINGS_MOST];
 };
 
-/* Lists the keys that must be changed for LAMMPS to run the scene. bond_style: as in struct export_request. REFUSED if
- * LAMMPS lacks a feature of the scene. */
+/* Lists in *to the keys of the scene that must be changed for LAMMPS to give the same results, with their required
+ * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED if LAMMPS lacks a
+ * feature of the scene. */
 status lammps_carries(struct lammps_settings *to, const struct scene *s, bool bond_style);
 
-/* Returns true if bonds break in the scene and LAMMPS would keep the weights of intact families, which no key
- * changes. */
+/* Returns true if bonds of the scene can break and LAMMPS then keeps normalising by the intact families of particles,
+ * a difference that no key of the scene removes. */
 bool lammps_families_differ(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */
@@ -49,16 +50,17 @@ struct touched {
 enum { COLOURS_MOST = 3000 };
 enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 
-/* Releases the arrays of t. */
+/* Releases the arrays of *t. */
 void touched_free(struct touched *t);
 
-/* Assigns colours 0, 1, ... such that no pair of colours has both bonded and cut pairs of particles. Particles with
- * equal keys share a colour where this holds. colour: [t->n]. Returns the number of colours; 0 if more than
- * COLOURS_MOST would be needed. */
+/* Assigns a colour, a number from 0 on, to each particle of t, such that no pair of colours has both pairs of
+ * particles with a bond and pairs whose bond must be cut. Particles with equal keys share a colour where possible.
+ * Stores the colours in colour[t->n]. Returns the number of colours; 0 if more than COLOURS_MOST are needed. */
 int colours_make(int32_t *colour, const struct touched *t);
 
-/* Returns the state of each pair of colours [colours * colours] (PAIR_CUT and so on), recomputed from the particles;
- * NULL if a pair has both kinds. Release with memory_free. */
+/* Returns an allocated array [colours * colours] with the state of each pair of colours (PAIR_UNKNOWN, PAIR_BONDED,
+ * PAIR_CUT), computed from the particles of t and their colours colour[t->n]; the caller releases it with memory_free.
+ * Returns NULL if a pair of colours has both bonded and cut pairs of particles. */
 uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *t);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
@@ -85,8 +87,9 @@ struct exported {
     int64_t bonds, cut; /* pairs bonded in the scene; pairs that LAMMPS would bond in addition */
 };
 
-/* Compares the bonds that LAMMPS would create with those of the scene, and lists the particles of bonds to be cut.
- * REFUSED if LAMMPS would lack a bond or weight one differently. */
+/* Compares the bonds that LAMMPS would create with those of the scene, stores the numbers of bonds in x->bonds and
+ * x->cut, and lists in *t the particles of the bonds that must be cut in LAMMPS. Returns REFUSED if LAMMPS would lack
+ * a bond of the scene or give it another weight. Release *t with touched_free. */
 status lammps_touched(struct touched *t, struct exported *x);
 
 /* Types of particles: one for each combination of material and loads, and more where bonds are cut. */
@@ -98,45 +101,55 @@ struct lammps_types {
     int32_t (*pair)[2]; /* [pairs] pairs of types excluded while bonds are created */
 };
 
-/* Assigns the types. REFUSED if too many are needed. Release with lammps_types_free. */
+/* Assigns a LAMMPS type to each particle, such that particles of one type have the same material and loads, and pairs
+ * of types can be excluded where bonds must be cut. Returns REFUSED if too many types are needed. Release with
+ * lammps_types_free. */
 status lammps_types_make(struct lammps_types *t, struct exported *x);
 
-/* Releases the arrays of t. */
+/* Releases the arrays of *t. */
 void lammps_types_free(struct lammps_types *t);
 
 /* ---- loads (export_loads.c) -------------------------------------------------------------------------------------- */
 
-/* Prepares the loads: marks those that act on each particle. REFUSED for a load for which LAMMPS has no command. */
+/* Allocates x->loads and stores in it which loads act on each particle, and lists the columns of plate.data that loads
+ * need. Returns REFUSED if LAMMPS has no command for a load, or not enough groups for all loads. */
 status lammps_loads_make(struct exported *x);
 
-/* Computes the initial velocity of particle i in LAMMPS; for driven particles that at half a step [m/s]. */
+/* Computes the velocity v[] with which particle i starts in LAMMPS [m/s]: its initial velocity, in the components that
+ * a boundary drives the prescribed velocity at half a time step. */
 void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 
-/* Writes the names of the columns for `fix property/atom`. */
+/* Writes the names of all columns of x to the file `to`, as arguments of the LAMMPS command `fix property/atom`. */
 void lammps_columns_name(FILE *to, const struct exported *x);
 
-/* Writes one `compute property/atom` command for each column, through which variables of LAMMPS read it. */
+/* Writes one LAMMPS command `compute property/atom` for each column of x to the file `to`; variables of the script
+ * read the columns through them. */
 void lammps_columns_compute(FILE *to, const struct exported *x);
 
-/* Returns the value of a column for particle i. */
+/* Returns the value of the column with index `column` at particle i: a component of the initial displacement [m], or
+ * of the force of a load on the particle [N], 0 if the load does not act on it. */
 real lammps_column_value(const struct exported *x, int column, int64_t i);
 
-/* Writes the commands of all loads. */
+/* Writes the LAMMPS commands of all loads and supports to the file `to`. t: types of the particles. */
 void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_types *t);
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Writes plate.data (export_data.c). */
+/* Writes the contents of plate.data, the particles with their types, to the file `to` (export_data.c). t: types of the
+ * particles. */
 void lammps_data_write(FILE *to, const struct exported *x, const struct lammps_types *t);
-/* Writes in.lammps (export_script.c). */
+/* Writes the contents of the input script in.lammps to the file `to` (export_script.c). t: types of the particles. */
 void lammps_script_write(FILE *to, const struct exported *x, const struct lammps_types *t);
-/* Writes the estimated cost of the run in LAMMPS and in Cleave, and what the export lacks (export_cost.c). */
+/* Writes the estimated duration of the run in LAMMPS and in Cleave, and what the export lacks, to the file `to`
+ * (export_cost.c). */
 void lammps_cost_write(FILE *to, const struct exported *x);
 
-/* Returns the number of steps of the check: CHECK_STEPS, or all steps of a shorter run. */
+/* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps
+ * of a shorter run. */
 int64_t lammps_check_steps(const struct exported *x);
 
-/* Runs these steps and writes the positions of the particles and the broken share of their bonds (export_check.c). */
+/* Makes lammps_check_steps time steps in Cleave and writes the positions of the particles and the broken share of
+ * their bonds to the file `to`, the contents of check.csv (export_check.c). Returns FAILED if a step fails. */
 status lammps_check_write(FILE *to, struct exported *x);
 
 #endif

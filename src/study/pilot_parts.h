@@ -42,27 +42,34 @@ struct pilot_search {
     int n;
 };
 
-/* Lists the methods applicable to the scene in at[n] (pilot_plan.c). REFUSED if there is none, if the spacing of the
- * scene cannot be varied, or if no run of the scene has the requested figure. */
+/* Lists the methods that are applicable to the scene in p->at[] and their number in p->n (pilot_plan.c). Returns
+ * REFUSED if no method is applicable, if the particle spacing of the scene cannot be varied, or if no run of the scene
+ * has the requested figure. */
 status pilot_plan(struct pilot_search *p);
 
-/* Returns the name of the figure whose accuracy is requested, or a description of the default figure. */
+/* Returns the name of the figure (scalar result) whose accuracy the scene requests; if it names none, a description of
+ * the default figure. The text belongs to *p or is static. */
 const char *pilot_figure(const struct pilot_search *p);
 
-/* Fills `to` with override[overrides] of the user and room for n chosen ones (pilot_keep.c). */
+/* Allocates to->override and fills it with the overrides override[overrides] of the user, followed by n chosen keys
+ * and values from to->key and to->value (pilot_keep.c). An earlier array is freed. */
 void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n);
 
-/* Determines from a study the spacing that method c requires for the requested accuracy (pilot_judge.c). FAILED or
- * REFUSED if the study lacks the figure. */
+/* Determines, from the convergence study s of the method c, the particle spacing that the method requires for the
+ * requested accuracy, and stores it with its cost in *c (pilot_judge.c). Returns REFUSED if no accuracy can be
+ * attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
 status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s);
 
-/* Prints the results of method c. */
+/* Prints the results of the pilot runs of method c: spacing, accuracy, and expected duration of the run. */
 void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c);
 
-/* Stores the choice, the request that it answers and the error bars of the chosen method (pilot_keep.c). */
+/* Stores the choice *to, the scene and overrides for which it was made, and the error bars of the chosen method *best
+ * as files in the folder of the pilot runs (pilot_keep.c). Returns FAILED if the scene cannot be read or a file cannot
+ * be written. */
 status pilot_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best);
 
-/* Reads a stored choice for the same scene and overrides. Returns false if there is none. */
+/* Reads the choice that an earlier pilot_keep stored for the same scene and overrides into *to. Returns false if there
+ * is none. */
 bool pilot_kept(struct pilot *to, const struct pilot_search *p);
 
 #endif

@@ -7,25 +7,27 @@
 /* ---- names (study_names.c) --------------------------------------------------------------------------------------- */
 
 #define STUDY_HASH_START 0xcbf29ce484222325u
-/* Continues the hash of a text with another one; begin with STUDY_HASH_START. */
+/* Returns the hash of a text that is appended to texts with the hash `hash`. Begin with STUDY_HASH_START. */
 uint64_t study_hash(uint64_t hash, const char *text);
 
-/* Enlarges the hash table for the name of one more run. */
+/* Enlarges the hash table of the names of runs if it has no room for one more name. */
 void study_names_grow(struct study *s);
 
-/* Chooses a name that no run of s has: `wanted` if possible, else case-HASH of the overrides o[n]. name:
- * [CASE_NAME_ROOM]. */
+/* Chooses a name that no run of s has and writes it to name[CASE_NAME_ROOM]: the text `wanted`, restricted to
+ * characters that every file system accepts, or if it is too long, reserved or taken, case-HASH with a hash of the
+ * overrides o[n]. */
 void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
 
-/* Adds the name of run `number` to the hash table. */
+/* Adds the name of the run with index `number` to the hash table of the names of runs. */
 void study_name_book(struct study *s, int number);
 
-/* Selects the keys with several values, in the order in which they appear in names. order: [keys]. Returns their
- * number. */
+/* Stores the indices of those of the keys key[keys] that have several values in order[], sorted as the keys appear in
+ * names of runs; order[] has room for `keys` entries. Returns their number. */
 int study_names_order(int *order, const struct varied_key *key, int keys);
 
-/* Composes a name such as `spacing=0.5mm,speed=20` from the value number at[k] of each of the n keys in `order`. name:
- * [CASE_NAME_ROOM]. */
+/* Composes the name of a run from its values, for example `spacing=0.5mm,speed=20`, and writes it to
+ * name[CASE_NAME_ROOM]. key[keys]: all keys of the study; order[n]: indices of those in the name, in order of
+ * appearance; at[k]: index of the value of key k in this run. */
 void study_name_compose(char *name, const struct varied_key *key, int keys, const int *order, int n, const int *at);
 
 /* ---- labels of pictures (study_labels.c) ------------------------------------------------------------------------- */
@@ -33,20 +35,21 @@ void study_name_compose(char *name, const struct varied_key *key, int keys, cons
 /* Capacity of a label [byte]. */
 enum { LABEL_ROOM = 40 };
 
-/* Writes the label of value v of a key; if the values are long, their common beginning and end are left out. text:
- * [LABEL_ROOM]. */
+/* Writes the label of the value with index v of a key to text[LABEL_ROOM]. If the values are long, the beginning and
+ * end that all of them share are left out. */
 void study_value_shown(char *text, const struct varied_key *key, int v);
 
-/* Returns the number of characters of the longest label of a key. */
+/* Returns the number of characters of the longest label of the values of a key. */
 int study_values_longest(const struct varied_key *key);
 
 /* Capacity of the name of a picture [byte]. */
 enum { PICTURE_NAME_ROOM = CASE_NAME_ROOM + 8 };
 
-/* Writes the name of the picture of a key, KEY.png. name: [PICTURE_NAME_ROOM]. */
+/* Writes the file name of the picture of a key, KEY.png, to name[PICTURE_NAME_ROOM]. */
 void study_picture_name(char *name, const char *key);
 
-/* Returns a round distance of tics that divides the range into at most `most` steps. */
+/* Returns a round distance between tics (1, 2 or 5 times a power of ten) that divides an axis of length `range` > 0
+ * into at most `most` intervals. */
 double study_tics_apart(double range, int most);
 
 #endif
