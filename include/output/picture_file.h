@@ -6,9 +6,10 @@
 
 enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTURE_GIF, PICTURE_FORMATS };
 
-/* Completes the picture PATH.tmp: checks that it is whole, writes a mark into it by which Cleave recognises its own
- * pictures, syncs it and renames it to `path`. Returns FAILED if the file is missing or incomplete, for example on a
- * full disk; PATH.tmp is removed then, and an existing file at `path` remains. */
+/* Completes the picture in the temporary file PATH.cleave.tmp: checks that it is whole, writes a mark into it by which
+ * Cleave recognises its own pictures, syncs it and renames it to `path`. Returns FAILED if the file is missing or
+ * incomplete, for example on a full disk; the temporary file is removed then, and an existing file at `path` remains.
+ */
 status picture_publish(const char *path, enum picture_format format);
 
 /* Returns true if the file `path` has the mark that picture_publish writes into pictures. */

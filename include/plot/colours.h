@@ -10,33 +10,37 @@ struct colour {
     uint8_t red, green, blue, alpha;
 };
 
-/* Returns a colour of a scale for `at` in 0 .. 1; values outside are clamped, NaN and infinity count as 1. Sequential
- * scale: dark to light, with uniformly increasing lightness. */
+/* Returns a colour of the sequential scale, which goes from dark at 0 to light at 1 with uniformly increasing
+ * lightness. at: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
 struct colour colour_sequential(double at);
 
-/* Returns a colour of a diverging scale for signed quantities: blue, grey at 0.5, red. at: as for colour_sequential. */
+/* Returns a colour of the diverging scale for signed quantities: blue at 0, grey at 0.5, red at 1. at: position on the
+ * scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
 struct colour colour_diverging(double at);
 
-/* Returns a colour of the damage scale: grey, orange, dark red. at: damage [1], as for colour_sequential. */
+/* Returns a colour of the scale for damage: grey at 0, then orange, dark red at 1. at: position on the scale, 0 .. 1;
+ * values outside are clamped, NaN and infinity count as 1. */
 struct colour colour_damage(double at);
 
-/* Returns the colour of a peridynamic particle in maps of the particle kind: light to dark blue with damage. at:
- * damage [1], as for colour_sequential. */
+/* Returns the colour of a peridynamic particle in maps of the particle kind, which darkens from light to dark blue
+ * with its damage. at: position on the scale, 0 .. 1; values outside are clamped, NaN and infinity count as 1. */
 struct colour colour_bonds(double at);
 
 /* Returns the colour of material points in maps of the particle kind. */
 struct colour colour_points(void);
 
-/* Returns the colour of a fragment by its index; -1: particles without bonds. */
+/* Returns the colour of the fragment with index `fragment`, 0 for the heaviest; -1: the colour of particles without
+ * bonds. */
 struct colour fragment_colour(int32_t fragment);
 
-/* Returns the colour of material or body k: light, so that marks drawn over it are visible. Colours repeat. */
+/* Returns the colour of the material or body with index k >= 0. The colours are light, so that symbols drawn on top
+ * are visible, and repeat after nine. */
 struct colour part_colour(int k);
 
-/* Mixes a colour with white. share: 1 returns c, 0 white. */
+/* Mixes the colour c with white. share: weight of c, 1 for c itself, 0 for white. */
 struct colour colour_faded(struct colour c, double share);
 
-/* Mixes a colour with black. share: 1 returns c, 0 black. */
+/* Mixes the colour c with black. share: weight of c, 1 for c itself, 0 for black. */
 struct colour colour_shaded(struct colour c, double share);
 
 #endif

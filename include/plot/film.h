@@ -4,11 +4,13 @@
 
 #include "plot/plot.h"
 
-/* Checks that ffmpeg can be started. REFUSED, with a message that names the package, if it cannot. */
+/* Checks that the program ffmpeg, which encodes films, can be started. Returns REFUSED if not; the message names the
+ * package to install. */
 status film_possible(void);
 
-/* Draws one picture per cloud and encodes the pictures as a film, sheet.path. title, map, view: as for maps_draw. The
- * pictures are drawn in a temporary folder beside the film, which is removed. FAILED if gnuplot or ffmpeg fails. */
+/* Draws one picture for each of the frames cloud[clouds] and encodes the pictures as a film, the file sheet.path.
+ * title, map, view: as for maps_draw. The pictures are drawn in a temporary folder beside the film, which is removed.
+ * Returns FAILED if gnuplot or ffmpeg fails, REFUSED if sheet.path must not be replaced (file_guard). */
 status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 

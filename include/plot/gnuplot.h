@@ -10,7 +10,7 @@
 /* Endings of the file names of the picture formats. */
 extern const char *const picture_ending[PICTURE_FORMATS];
 
-/* Returns true for the formats of films (plot/film.h), whose single pictures are PNG. */
+/* Returns true for the formats of films (plot/film.h), whose single pictures are PNG files. */
 static inline bool picture_moves(enum picture_format format) { return format >= PICTURE_MP4; }
 
 /* A running gnuplot. */
@@ -26,20 +26,21 @@ struct gnuplot {
 enum { CURVE_COLOURS = 7 };
 extern const char *const curve_colour[CURVE_COLOURS];
 
-/* Starts gnuplot for the picture `path` of width x height pixels and sends the common style: thin grey axes at the
- * bottom and left, sans-serif font, key outside on the right. FAILED if gnuplot is missing (the message names the
- * package) or cannot be started. Close with gnuplot_close. */
+/* Starts gnuplot to draw the picture `path` of width x height pixels and sends the style common to all pictures: thin
+ * grey axes at the bottom and left, sans-serif font, key outside on the right. Stores the process in *g. Returns
+ * REFUSED if the path has control characters, FAILED if gnuplot cannot be started. Close with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
-/* Ends the input of gnuplot, waits for the picture, syncs it and renames it to its final path. FAILED with gnuplot's
- * message if the picture is missing or incomplete; an existing picture stays then. */
+/* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if
+ * gnuplot is missing (the message names the package) or the picture is missing or incomplete (the message has that of
+ * gnuplot); an existing picture remains then. */
 status gnuplot_close(struct gnuplot *g);
 
-/* Reads the last non-blank line of a program's messages from `from` into text[size]; if there is none, writes `it gave
- * no reason`. */
+/* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`
+ * if there is none. from: file with the messages, read from its beginning. */
 void complaint_read(FILE *from, char *text, size_t size);
 
-/* Writes `text` as a quoted gnuplot string in which no character has a special meaning. */
+/* Writes `text` to the file `to` as a quoted gnuplot string in which no character has a special meaning. */
 void gnuplot_quote(FILE *to, const char *text);
 
 #endif

@@ -25,8 +25,8 @@ struct camera {
 /* Isometric view. */
 extern const struct camera camera_isometric;
 
-/* Returns the view along a coordinate axis (0 .. 2). side: +1, the viewer is on the side of larger coordinates; -1, on
- * the other. */
+/* Returns the directions of a view along the coordinate axis `axis`, 0 .. 2 for x, y, z. side: +1 if the viewer is on
+ * the side of larger coordinates, -1 if on the other side. */
 struct camera camera_along(int axis, int side);
 
 struct plot_field;
@@ -58,21 +58,26 @@ struct plot_request {
     bool overwrite;  /* replace `out` even if Cleave did not draw it */
 };
 
-/* Draws all standard pictures of a run and prints their names. */
+/* Draws all standard pictures of the run in r->folder and prints their names. Returns FAILED if a picture cannot be
+ * drawn; REFUSED if one would replace a file that Cleave did not draw, or if no frame is near a requested time. */
 status run_pictures(const struct plot_request *r);
 
-/* Draws a picture or film of one field and prints its name and the range of the colours. */
+/* Draws a picture or film of the field r->field of a run, and prints its file name and the range of the colours.
+ * Returns REFUSED if the run has no such field or frames, or if a file that Cleave did not draw would be replaced;
+ * FAILED if drawing fails. */
 status field_picture(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the folder of a run holds the file `name`. */
+/* Returns true if the folder of a run holds a file called `name`. */
 bool run_holds(const char *folder, const char *name);
 
-/* Returns the path of frame `number` of a run. */
+/* Returns the path of frame `number` in the folder of a run, frames/NNNNNN.hdf; an empty path if it would be too long.
+ */
 struct path run_frame_path(const char *folder, int number);
 
-/* Reads frame `number` of a run, as frame_read. */
+/* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
+ * be read or is damaged. Release with frame_free. */
 status run_frame(struct frame *f, const char *folder, int number);
 
 /* The frames of a run and the selected ones. */
@@ -83,35 +88,40 @@ struct run_frames {
     struct listed_frame *show; /* [shown] frames of the panels */
 };
 
-/* Lists the frames of a run and selects those that the request asks for. REFUSED for a time outside the range of the
- * frames. Release with run_frames_free. */
+/* Lists the frames of the run in r->folder, and selects those that the request r asks for by number or time. Stores
+ * both in *f. Returns REFUSED if a requested time is outside the range of the frames, FAILED if there is no readable
+ * list of frames. Release with run_frames_free. */
 status run_frames_choose(struct run_frames *f, const struct plot_request *r);
 
-/* Releases the lists. */
+/* Releases the lists of frames in *f. */
 void run_frames_free(struct run_frames *f);
 
-/* Reads all selected frames into an allocated array *f, [frames->shown], released with frames_free. */
+/* Reads all selected frames of a run into an allocated array *f, [frames->shown]. folder: folder of the run. Returns
+ * FAILED, with no memory to release, if a frame cannot be read. Release with frames_free. */
 status frames_read(struct frame **f, const char *folder, const struct run_frames *frames);
 
-/* Releases n frames and their array. */
+/* Releases the n frames f[n] and their array. */
 void frames_free(struct frame *f, int n);
 
-/* Creates the folder of pictures, DIR/pictures. REFUSED if a link has this name. */
+/* Creates the folder for pictures, `path`, unless it exists. Returns REFUSED if a link has this name or the folder
+ * holds a file with the name of a picture that Cleave did not draw; FAILED if the folder cannot be created. */
 status pictures_folder_make(const char *path);
 
-/* Determines the path of a picture from the option -o: `out` is a file, or a folder in which the file `name` is
- * created. Missing folders are created. REFUSED if the file exists and Cleave did not draw it, unless `overwrite` is
- * set. */
+/* Determines the path of a picture from the argument `out` of the option -o and stores it in *path. `out` is a file,
+ * or a folder (which exists or ends in /) in which the file `name` is created. Missing folders are created. Returns
+ * REFUSED if the name is empty or too long, or if the file exists, Cleave did not draw it, and `overwrite` is false. */
 status picture_destination(struct path *path, const char *out, const char *name, bool overwrite);
 
-/* Prints that a picture is not drawn and why, and removes the picture of an earlier command if Cleave drew it. */
+/* Prints that the picture `path` is not drawn, with the reason `why`, and removes an older picture of that name if
+ * Cleave drew it. Returns FAILED if standard output cannot be written. */
 status nothing_to_draw(const char *path, const char *why);
 
 enum { TITLE_LENGTH = 256 };
 struct cloud;
 
-/* Composes the title `name, method: what` of a picture into title[TITLE_LENGTH]; unknown parts are left out. c: adds
- * the position of its slice and its time; may be NULL. */
+/* Composes the title `name, method: what` of a picture in title[TITLE_LENGTH]. Name and method are read from the run
+ * in `folder`; unknown parts are left out. c: particles of the picture, whose time and position of the slice are
+ * added; may be NULL. */
 void compose_title(char *title, const char *folder, const char *what, const struct cloud *c);
 
 /* Unit for display: displayed value = SI value / factor. */
@@ -120,11 +130,12 @@ struct unit {
     char name[8];
 };
 
-/* Returns the unit with the SI prefix for which `largest` has one to three digits: microseconds for unit_for(2e-5,
- * "s"). */
+/* Returns the unit with the SI prefix in which the value `largest` (in SI units) has one to three digits before the
+ * decimal point. name: unit without prefix; unit_for(2e-5, "s") is microseconds. */
 struct unit unit_for(double largest, const char *name);
 
-/* Returns a unit of length for values up to `largest`: millimetres between 0.5 mm and 10 m. */
+/* Returns a unit of length suitable for values up to `largest` [m]: millimetres between 0.5 mm and 10 m, else metres
+ * with an SI prefix. */
 struct unit unit_for_length(double largest);
 
 /* ---- fields ------------------------------------------------------------------------------------------------------ */
@@ -141,12 +152,13 @@ struct plot_field {
     enum field_scale scale;
 };
 
-/* Finds a field by name. REFUSED, with the most similar name, if the name is unknown or the field does not exist in
- * this dimension. */
+/* Finds the field called `name` in the table of fields that can be drawn, and stores a pointer to its entry in *field.
+ * dim: dimension of the run. Returns REFUSED, with the most similar name in the message, if there is no field of this
+ * name, or if it has no meaning in this dimension. */
 status plot_field_find(const struct plot_field **field, const char *name, int dim);
 
-/* Reads the values of a field, allocated [f->n], at the particles of f, which was read from `path`. Release with
- * memory_free. */
+/* Reads the values of a field at the particles of the frame f, which was read from the file `path`, into an allocated
+ * array *value, [f->n], which the caller releases with memory_free. Returns FAILED if the frame lacks the field. */
 status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path);
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
@@ -177,18 +189,20 @@ struct cloud {
     double from[2], to[2]; /* bounding box of the reference positions [m] */
 };
 
-/* Fills the cloud from a frame. projection: NULL for the slice with the largest damage. Release with cloud_free. */
+/* Copies the particles of the frame f that a picture shows into *c. projection: slice or outside view of a body in
+ * three dimensions; NULL for the slice with the largest damage. Release with cloud_free. */
 void cloud_make(struct cloud *c, const struct frame *f, const struct projection *projection);
 
-/* Releases the arrays of c. */
+/* Releases the arrays of *c. */
 void cloud_free(struct cloud *c);
 
-/* Completes a slice from the particles of a frame: chooses the normal and the layer if they are not set, and moves a
- * given layer to the nearest particles. REFUSED if no particle is within one spacing of the given layer. */
+/* Completes a slice through a body in three dimensions from the particles of the frame f: sets normal and position of
+ * the slice if they are not set, else moves the given position to the nearest particles. Does nothing for outside
+ * views and lower dimensions. Returns REFUSED if no particle is within one spacing of the given position. */
 status projection_complete(struct projection *projection, const struct frame *f);
 
-/* Returns the particle spacing [m]: the median distance of neighbours in the reference positions of a sample of
- * particles. */
+/* Returns the particle spacing of a frame [m]: the smallest one if the frame stores spacings, else the median distance
+ * of nearest neighbours in the reference positions of a sample of particles; 0 if it is unknown. */
 double frame_spacing(const struct frame *f);
 
 /* Quantity that a map shows. */
@@ -208,12 +222,13 @@ struct categories {
     int n, more;
     struct category of[CATEGORIES_MOST];
 };
-/* Finds the named values of a field that occur in the clouds. Names of bodies and materials are read from the scene in
- * the run's folder. */
+/* Lists the named values (of bodies, materials and so on) of a field that occur in cloud[clouds], and stores them in
+ * *k. folder: folder of the run, from whose scene the names of bodies and materials are read. */
 void categories_find(struct categories *k, const struct plot_field *field, const char *folder,
                      const struct cloud *cloud, int clouds);
 
-/* Returns the colour of a named value. */
+/* Returns the colour in which a named value (body, material and so on) of the field is drawn. value: index of the
+ * body, material and so on. */
 struct colour category_colour(const struct plot_field *field, float value);
 
 /* Rectangle of a map and the options of its display. */
@@ -232,28 +247,30 @@ struct view {
  * causes damage 1/2. */
 #define CRACK_DAMAGE 0.35
 
-/* Returns the common rectangle of all clouds: the body with a margin. A few particles that are far from the others are
- * left outside. */
+/* Returns the rectangle in which all particle sets cloud[clouds] are shown: the bounding box of the body with a
+ * margin. A few particles that are far from all others may lie outside. */
 struct view view_of(const struct cloud *cloud, int clouds);
 
-/* Sets the field of a view and the values at the ends of its colour scale, by field->scale. Extreme values of a few
- * particles are ignored. */
+/* Sets the field that the view v shows and the values at the ends of its colour scale, by field->scale and the values
+ * in cloud[clouds]. Extreme values of a few particles are ignored. */
 void view_set_field(struct view *v, const struct plot_field *field, const struct cloud *cloud, int clouds);
 
-/* Returns the colour of particle i in a map. */
+/* Returns the colour of particle i of c in a map of the kind `map`. v: view with the range of the colour scale. */
 struct colour particle_colour(const struct view *v, const struct cloud *c, int64_t i, enum map map);
 
-/* Returns the colour at position `a`, 0 .. 1, of the colour scale of a map. */
+/* Returns the colour at position a, 0 .. 1, of the colour scale of a map of the kind `map`. v: view, whose field
+ * determines the scale of MAP_FIELD. */
 struct colour map_colour(const struct view *v, enum map map, double a);
 
-/* Paints the particles of a flat cloud into pixel[height][width], row 0 at the bottom: each on its own square, or disc
- * where the lattice is rotated; each pixel shows the nearest particle. Pixels without a particle are white and
- * transparent. */
+/* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. Each
+ * particle covers its own square, or a disc where the lattice is rotated; each pixel shows the nearest particle.
+ * Pixels without a particle are white and transparent. Outside views are painted by boxes_paint. */
 void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                   enum map map);
 
-/* Paints the particles of an outside view into pixel[height][width], row 0 at the bottom: each as a cube; each pixel
- * shows the cube nearest to the viewer. MAP_CRACKS paints the cubes of cracks in front of the faded body. */
+/* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. Each particle is drawn
+ * as a cube; each pixel shows the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in front
+ * of the body in faded colours. */
 void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                  enum map map);
 
@@ -263,8 +280,8 @@ struct sheet {
     enum picture_format format;
 };
 
-/* Draws one picture with a panel for each cloud, a common colour scale or key, and `title` above. FAILED if gnuplot
- * fails. */
+/* Draws one picture with a panel for each of cloud[clouds], a common colour scale or key, and `title` above. map:
+ * quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED if gnuplot fails. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 
@@ -278,54 +295,65 @@ struct series {
     enum picture_format format;
 };
 
-/* Returns the largest absolute value of a column; 0 if there is none. */
+/* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
+ * values. */
 double curves_largest(const struct history *h, int column);
 
-/* Sends the time and column[columns], each divided by its factor, as the data block $data. Long histories are thinned
- * to a few thousand rows that include the last one. */
+/* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
+ * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
 void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
 
-/* Writes the commands for a heading above the picture: `title` and `what`. */
+/* Writes the gnuplot commands for a heading above the picture, composed of `title` and `what`. */
 void curves_title(FILE *to, const char *title, const char *what);
 
-/* Writes the commands for the axis of time or load steps below the picture. */
+/* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.
+ */
 void curves_time_axis(FILE *to, const struct series *s);
 
-/* Draws sif.png: stress-intensity factors over time, and below the spread of the contours. Draws nothing for a run
- * without sif probes. title: as for curves_title. */
+/* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
+ * picture `sif` of the run in `folder`. title: as for curves_title. Returns OK without a picture if the run has no SIF
+ * probe, FAILED if gnuplot fails. */
 status sif_bench_draw(const char *folder, const char *title, const struct series *s);
 
-/* Draws path.png: paths of crack tips from growth probes, with the angle of an experiment if the scene states one.
- * Draws nothing for a run without such probes. */
+/* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
+ * measured in an experiment if the scene states one. title: as for curves_title. Returns OK without a picture if the
+ * run has no growth probe, FAILED if gnuplot fails. */
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
-/* Returns true if a run consists of load steps. */
+/* Returns true if the run in `folder` consists of load steps. */
 bool run_in_steps(const char *folder);
 
-/* Draws, for a run in load steps, the force over the displacement of each reaction probe, with its peak. */
+/* Draws, for a run with load steps, the force over the displacement of each reaction probe and marks its peak. h:
+ * history of the run. If there is no such probe or nothing moves, prints that instead. Returns FAILED if gnuplot
+ * fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h);
 
-/* Draws, for a run in load steps, the energy release rate over the new crack area (R-curve), with G_c of the
- * materials. */
+/* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
+ * fracture energy G_c of the materials. h: history of the run in `folder`. If no crack has grown, prints that instead.
+ * Returns FAILED if gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
 
-/* Draws the pictures of history.csv: crack, energy, sif and path; for load steps also load_displacement and r_curve
- * (names in output/pictures.h). format: one for still pictures. */
+/* Draws all pictures of history.csv of the run in `folder`: crack, energy, sif and path, for load steps also
+ * load_displacement and r_curve (names in output/pictures.h). format: a format of still pictures. Returns FAILED if
+ * history.csv cannot be read or gnuplot fails. */
 status curves_draw(const char *folder, const char *title, enum picture_format format);
 
-/* Draws velocity, stress and damage along a bar (1D) for `frames` frames. */
+/* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
+ * frame[frames]. Returns FAILED if gnuplot fails. */
 status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames);
 
-/* Draws one field along a bar (1D). value[frames]: its values in each frame. */
+/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames]. value[k]: values
+ * of the field at the particles of frame k. Returns FAILED if gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct frame *frame, int frames);
 
-/* Finds a probe of the run that compares a bar with a closed-form solution and stores its name. Returns false if there
- * is none. */
+/* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
+ * stores its name in `name`. Returns false if there is none. */
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
 
-/* Draws the profiles of such a probe at the frames show[frames]: stress, strain, velocity, and damage if there is any,
- * with the closed-form solution. */
+/* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
+ * the closed-form solution, at the frames show[frames] of the run in `folder`. Returns FAILED if a profile cannot be
+ * read or gnuplot fails. */
 status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
                 const struct listed_frame *show, int frames);
 

@@ -12,20 +12,24 @@ struct layout {
     int right;                     /* width of the colour bar or key on the right [pixel] */
 };
 
-/* Sets the margins of a panel from the position of its upper left corner [pixel]. */
+/* Writes the gnuplot commands that set the margins of a panel. left, above: position of its upper left corner, from
+ * the left and upper edge of the picture [pixel]. */
 void panel_place(FILE *to, const struct layout *l, double left, double above);
 
-/* Sets tics and labels of a flat panel. metre: unit of the axes. column: column of the panel; lowest: there is no panel
- * below it. */
+/* Writes the gnuplot commands for tics and labels of a panel with a flat map. metre: unit of the axes; column: column
+ * of the panel, from 0, the only one with labels at its left axis; lowest: no panel is below it, so that its lower
+ * axis has labels. */
 void panel_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                 const struct unit *metre, int column, bool lowest);
 
-/* Draws the axes of an outside view as arrows at the lower left corner of the panel, and a bar of known length. */
+/* Writes the gnuplot commands that draw the coordinate axes of an outside view as arrows at the lower left corner of a
+ * panel, and a bar of known length. metre: unit of the axes of the panel. */
 void panel_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                       const struct unit *metre);
 
-/* Plots an image. from: its lower left corner; step: size of a pixel, both in units of the axes. more: further elements
- * of the plot command, each preceded by a comma. */
+/* Writes the gnuplot commands and data that plot the image pixel[height][width], row 0 at the bottom. from: its lower
+ * left corner; step: width and height of a pixel, both in units of the axes. more: further elements of the plot
+ * command, each preceded by a comma. */
 void panel_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step,
                  const char *more);
 

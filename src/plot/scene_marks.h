@@ -16,35 +16,36 @@ struct marks {
     int blocks;                   /* number of data blocks so far */
 };
 
-/* Begins the data block of a mark. */
+/* Begins a gnuplot data block with the points or arrows of one kind of symbol. */
 void mark_begin(struct marks *m);
 
-/* Adds a line with the projected position X [m] and a projected vector [m]; vector: NULL for none. */
+/* Adds a line to the data block: the point X [m], projected onto the picture, and the projection of `vector` [m], NULL
+ * for none. */
 void mark_place(struct marks *m, const real *X, const double *vector);
 
-/* Ends the data block and adds its element to the plot command. how: the style in that element; text: the line of the
- * key, "" for none. */
+/* Ends the data block and adds the element that draws it to the plot command. how: style in that element; text: line
+ * of the key, "" for none. */
 void mark_end(struct marks *m, const char *how, const char *text);
 
-/* Draws loads, supports, mirrors and absorbing faces. */
+/* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
 void marks_loads(struct marks *m);
 
-/* Draws the initial velocities. */
+/* Draws arrows for the initial velocities of the bodies. */
 void marks_motion(struct marks *m);
 
-/* Draws pre-cracks and growing cracks. */
+/* Draws pre-cracks and cracks with prescribed growth as lines. */
 void marks_cracks(struct marks *m);
 
-/* Draws the positions of probes. */
+/* Draws symbols at the positions of the probes of the scene. */
 void marks_probes(struct marks *m);
 
-/* Draws the coarse cells of the levels. */
+/* Draws the outlines of coarse mesh cells, according to their refinement level. */
 void marks_levels(struct marks *m);
 
-/* Draws boxes around named regions. */
+/* Draws boxes around the named regions of the scene. */
 void marks_regions(struct marks *m);
 
-/* Adds a line with a coloured square to the key. */
+/* Adds a line with a square in the colour c and the text `text` to the key of the picture. */
 void marks_colour(struct marks *m, struct colour c, const char *text);
 
 #endif
