@@ -13,7 +13,7 @@
  * engine_free whatever is returned. */
 status engine_make(struct run *e, const struct scene *s, struct output *out);
 
-/* Releases the memory of a run. Waits first for the thread that may still be writing a frame. */
+/* Releases all memory of a run. Waits first for the thread that may still be writing a frame. */
 void engine_free(struct run *e);
 
 /* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;

@@ -28,7 +28,8 @@ extern const char *const curve_colour[CURVE_COLOURS];
 
 /* Starts gnuplot to draw the picture `path` of width x height pixels and sends the style common to all pictures: thin
  * grey axes at the bottom and left, sans-serif font, key outside on the right. Stores the process in *g. Returns
- * REFUSED if the path has control characters, FAILED if gnuplot cannot be started. Close with gnuplot_close. */
+ * REFUSED if the path has control characters or the file must not be replaced (file_guard), FAILED if gnuplot cannot
+ * be started. Close with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if

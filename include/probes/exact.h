@@ -7,9 +7,10 @@
  *                 each front carries v = -+ sigma/(rho c); displacements are the velocities of fronts times their age
  *   PLASTIC BAR   the same load beyond the yield stress sigma_y, bilinear with tangent modulus E_t: a precursor sigma_y
  *                 at speed c, the rest at sqrt(E_t/rho) (von Karman & Duwez 1950); valid until the precursor reaches
- * the far end PULSE         the waves from initial pulses (region.h): at rest ahead, displaced by sqrt(pi) V r/c
- * behind; the ends reflect by images, and a fixed end keeps its displacement MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi
- * (x - origin)/lambda), under the body force that makes it a solution */
+ *                 the far end
+ *   PULSE         the waves from initial pulses (region.h): at rest ahead, displaced by sqrt(pi) V r/c behind; the ends
+ *                 reflect by images, and a fixed end keeps its displacement
+ *   MANUFACTURED  u = U sin^2(pi t/T) sin(2 pi (x - origin)/lambda), under the body force that makes it a solution */
 #ifndef CLEAVE_EXACT
 #define CLEAVE_EXACT
 

@@ -85,11 +85,12 @@ struct velocity_time {
  * unsuitable contours. */
 status probes_make(struct probes *s, const struct probe_request *request, int n, const struct observed *o);
 
-/* Frees the arrays of all probes and clears *s. */
+/* Frees the arrays of all probes and clears *s. Does nothing to a cleared *s. */
 void probes_free(struct probes *s);
 
-/* Computes the values of a sample of history.csv that do not depend on velocities at the time of the sample, o->t, and
- * stores them in s->value. probes_sample_end computes the other values. */
+/* Computes the values of a sample of history.csv at the present positions, time o->t, and stores them in s->value.
+ * Values that depend on velocities at the time of the sample or on the forces of the time step are replaced by
+ * probes_sample_end. */
 void probes_sample(struct probes *s, const struct observed *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles, before the

@@ -64,14 +64,15 @@ int64_t report_frames(const struct scene *s, const struct run_clock *clock);
  * t = 0. clock: time step and number of steps of the run. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k);
 
-/* Returns the set of frame series that must be written after `step` time steps, one bit per series: bit 0 is the whole
- * body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). Scenes whose solver is
- * not `explicit` write frames at the start and at the end. */
+/* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
+ * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that
+ * finds a single equilibrium (`solver: cg, relaxation`) writes frames at its start and its end only. */
 unsigned report_frames_due(const struct output *out, const struct scene *s, const struct run_clock *clock,
                            int64_t step);
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
- * run; a scene without motion takes one at the start. */
+ * run. For a scene without time steps, returns true before the first step only; its equilibria are sampled by
+ * sample_rest. */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is

@@ -50,8 +50,8 @@ struct shock {
     real share; /* speed over the speed at which a front breaks or yields a body; 0 if viscosity would not help [1] */
 };
 
-/* Returns the fastest collision of two bodies within the duration of a scene, from their initial velocities and
- * positions. */
+/* Returns the fastest collision between two bodies, or between a body and a rigid body, within the duration of a
+ * scene, as far as their initial velocities and positions lead to expect. */
 struct shock shock_expected(const struct scene *s);
 
 #endif

@@ -76,7 +76,7 @@ struct convergence_request {
  * convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
-/* Releases the memory of *s. */
+/* Frees the scene, runs and table of the convergence study *s. */
 void convergence_study_free(struct convergence_study *s);
 
 /* Determines the convergence of the figures (scalar results) that describe the body and have values at all levels.

@@ -32,7 +32,7 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
 status pilot_scene_read(struct scene *s, struct pilot *p, const char *scene, const struct scene_override *override,
                         int overrides, const char *folder, struct study_options options);
 
-/* Releases the memory of *p. */
+/* Frees the overrides in *p. */
 void pilot_free(struct pilot *p);
 
 #endif

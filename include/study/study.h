@@ -50,7 +50,7 @@ struct study {
  * Returns REFUSED, with the reason, if the text is malformed. Release with varied_key_free. */
 status varied_key_read(struct varied_key *k, const char *text);
 
-/* Releases the memory of *k. */
+/* Frees the key and the values of *k. */
 void varied_key_free(struct varied_key *k);
 
 /* Returns the number at the start of the text `value`, NAN if there is none. *unit receives a pointer to the rest of
@@ -93,7 +93,7 @@ bool study_scene_same(const char *folder, const char *text);
  * scene. Returns FAILED if the file cannot be written. */
 status study_scene_put(const char *folder, const char *text);
 
-/* Releases the memory of *s. */
+/* Frees the runs, texts and tables of the study *s and unlocks its folder. */
 void study_free(struct study *s);
 
 /* Adds a run to the study, with copies of the overrides override[overrides] of keys of the scene. name: desired name
@@ -171,7 +171,7 @@ struct study_table {
  * read. Release with study_table_free. */
 status study_table_read(struct study_table *t, const struct study *s);
 
-/* Releases the memory of *t. */
+/* Frees the names and values of the table *t. */
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */

@@ -16,7 +16,8 @@ struct marks {
     int blocks;                   /* number of data blocks so far */
 };
 
-/* Begins a gnuplot data block with the points or arrows of one kind of symbol. */
+/* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with mark_place
+ * and end it with mark_end. */
 void mark_begin(struct marks *m);
 
 /* Adds a line to the data block: the point X [m], projected onto the picture, and the projection of `vector` [m], NULL
@@ -30,16 +31,16 @@ void mark_end(struct marks *m, const char *how, const char *text);
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
 void marks_loads(struct marks *m);
 
-/* Draws arrows for the initial velocities of the bodies. */
+/* Draws arrows for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
 void marks_motion(struct marks *m);
 
-/* Draws pre-cracks and cracks with prescribed growth as lines. */
+/* Draws the pre-cracks of the scene as lines, and an arrow where each crack with prescribed growth starts. */
 void marks_cracks(struct marks *m);
 
 /* Draws symbols at the positions of the probes of the scene. */
 void marks_probes(struct marks *m);
 
-/* Draws the outlines of coarse mesh cells, according to their refinement level. */
+/* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each refinement level. */
 void marks_levels(struct marks *m);
 
 /* Draws boxes around the named regions of the scene. */

@@ -29,7 +29,7 @@ status crack_increment_make_balanced(struct run *e);
 
 /* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body
  * in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion
- * diverges or no equilibrium is found. */
+ * diverges or no equilibrium is found, INTERRUPTED if the run is to stop. */
 status crack_increment_make_dynamic(struct run *e);
 
 #endif

@@ -7,7 +7,8 @@
 /* ---- names (study_names.c) --------------------------------------------------------------------------------------- */
 
 #define STUDY_HASH_START 0xcbf29ce484222325u
-/* Returns the hash of a text that is appended to texts with the hash `hash`. Begin with STUDY_HASH_START. */
+/* Returns the hash of a sequence of texts that ends with `text`. hash: hash of the preceding texts; STUDY_HASH_START
+ * if there are none. */
 uint64_t study_hash(uint64_t hash, const char *text);
 
 /* Enlarges the hash table of the names of runs if it has no room for one more name. */
