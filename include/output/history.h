@@ -16,8 +16,9 @@ struct history {
  * columns than the header. Release with history_free. */
 status history_read(struct history *h, const char *folder);
 
-/* Reads the file `path`, a table with one header line like history.csv (for example a profile of a probe), into *h.
- * Return value and release are those of history_read. */
+/* Reads the file `path`, a table with one header line like history.csv (for example a profile of a probe), into *h. An
+ * incomplete last line is skipped. Returns FAILED if there is no such file or header, or if a line has another number
+ * of columns than the header. Release with history_free. */
 status history_read_file(struct history *h, const char *path);
 
 /* Releases the names and values of the table *h. */

@@ -141,8 +141,8 @@ status output_frame(struct output *o, const struct particles *p, real t, int64_t
 /* Starts to write the next frame of series k (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
  * time steps, in a separate thread. Fields that change during the run, and those in *extra (NULL: none), are copied
  * before the function returns; p and scene_text must stay valid until output_wait. Only one frame is written at a
- * time: the next frame, checkpoints and output_close wait for it. The call that waits for the thread returns FAILED if
- * the frame could not be written. */
+ * time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress, for which
+ * it waits, could not be written; a failure of this frame is returned by the call that waits for it. */
 status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
                           int64_t step, const char *scene_text);
 

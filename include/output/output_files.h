@@ -77,8 +77,8 @@ bool file_holds(const char *path, const void *bytes, size_t length);
  * has these contents, else REFUSED. Returns FAILED if the file cannot be written. */
 status file_put(const char *path, const void *bytes, size_t length);
 
-/* Writes `length` bytes from `bytes` on as the complete file `path` as file_put does, but does not sync the folder.
- * After writing many files to one folder, call file_settle once for one of them. */
+/* Writes `length` bytes from `bytes` on as the complete file `path` as file_put does, with the same return values, but
+ * does not sync the folder. After writing many files to one folder, call file_settle once for one of them. */
 status file_put_unsettled(const char *path, const void *bytes, size_t length);
 
 /* Syncs the folder that holds the file `path`, so that a new name survives a crash of the machine. A folder that may

@@ -48,8 +48,9 @@ struct hdf_source {
 };
 
 /* Creates the virtual dataset `name`, which refers to data in other files instead of copying them: the rows of the
- * dataset of the same name in the files source[sources], one after another. Each file contributes its number of rows,
- * source[k].rows, plus `more` rows. A failure is stored in f->failed. */
+ * dataset of the same name in the files source[sources], one after another. type, columns: type of the numbers and
+ * numbers per row, equal in all files. Each file contributes its number of rows, source[k].rows, plus `more` rows. A
+ * failure is stored in f->failed. */
 void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
                  int sources, int more);
 

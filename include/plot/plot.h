@@ -262,15 +262,17 @@ struct colour particle_colour(const struct view *v, const struct cloud *c, int64
  * determines the scale of MAP_FIELD. */
 struct colour map_colour(const struct view *v, enum map map, double a);
 
-/* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. Each
- * particle covers its own square, or a disc where the lattice is rotated; each pixel shows the nearest particle.
- * Pixels without a particle are white and transparent. Outside views are painted by boxes_paint. */
+/* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
+ * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated; each
+ * pixel shows the nearest particle. Pixels without a particle are white and transparent. Outside views are painted by
+ * boxes_paint. */
 void raster_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                   enum map map);
 
-/* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. Each particle is drawn
- * as a cube; each pixel shows the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in front
- * of the body in faded colours. */
+/* Paints the particles of c in an outside view into pixel[height][width], row 0 at the bottom. map: quantity that the
+ * colours show; view: visible rectangle and range of the colours. Each particle is drawn as a cube; each pixel shows
+ * the cube nearest to the viewer. In MAP_CRACKS the cubes of cracks are painted in front of the body in faded colours.
+ */
 void boxes_paint(struct colour *pixel, int width, int height, const struct view *view, const struct cloud *c,
                  enum map map);
 
@@ -280,8 +282,9 @@ struct sheet {
     enum picture_format format;
 };
 
-/* Draws one picture with a panel for each of cloud[clouds], a common colour scale or key, and `title` above. map:
- * quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED if gnuplot fails. */
+/* Draws one picture, the file `sheet`, with a panel for each of cloud[clouds], a common colour scale or key, and
+ * `title` above. map: quantity that the colours show; view: common rectangle and range of the colours. Returns FAILED
+ * if gnuplot fails. */
 status maps_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 
@@ -311,39 +314,40 @@ void curves_title(FILE *to, const char *title, const char *what);
 void curves_time_axis(FILE *to, const struct series *s);
 
 /* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
- * picture `sif` of the run in `folder`. title: as for curves_title. Returns OK without a picture if the run has no SIF
- * probe, FAILED if gnuplot fails. */
+ * picture `sif` of the run in `folder`. title: heading of the picture; s: history of the run. Returns OK without a
+ * picture if the run has no SIF probe, FAILED if gnuplot fails. */
 status sif_bench_draw(const char *folder, const char *title, const struct series *s);
 
 /* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
- * measured in an experiment if the scene states one. title: as for curves_title. Returns OK without a picture if the
- * run has no growth probe, FAILED if gnuplot fails. */
+ * measured in an experiment if the scene states one. title: heading of the picture; s: history of the run. Returns OK
+ * without a picture if the run has no growth probe, FAILED if gnuplot fails. */
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
 /* Returns true if the run in `folder` consists of load steps. */
 bool run_in_steps(const char *folder);
 
-/* Draws, for a run with load steps, the force over the displacement of each reaction probe and marks its peak. h:
- * history of the run. If there is no such probe or nothing moves, prints that instead. Returns FAILED if gnuplot
- * fails. */
+/* Draws, for a run with load steps, the force over the displacement of each reaction probe, with its peak marked, to
+ * the file `sheet`. title: heading of the picture; h: history of the run. If there is no such probe or nothing moves,
+ * prints that instead. Returns FAILED if gnuplot fails. */
 status load_displacement_draw(struct sheet sheet, const char *title, const struct history *h);
 
 /* Draws, for a run with load steps, the energy release rate over the new crack area (R-curve), with lines at the
- * fracture energy G_c of the materials. h: history of the run in `folder`. If no crack has grown, prints that instead.
- * Returns FAILED if gnuplot fails. */
+ * fracture energy G_c of the materials, to the file `sheet`. folder: folder of the run; title: heading of the picture;
+ * h: history of the run. If no crack has grown, prints that instead. Returns FAILED if gnuplot fails. */
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h);
 
 /* Draws all pictures of history.csv of the run in `folder`: crack, energy, sif and path, for load steps also
- * load_displacement and r_curve (names in output/pictures.h). format: a format of still pictures. Returns FAILED if
- * history.csv cannot be read or gnuplot fails. */
+ * load_displacement and r_curve (names in output/pictures.h). title: heading of each picture; format: a format of
+ * still pictures. Returns FAILED if history.csv cannot be read or gnuplot fails. */
 status curves_draw(const char *folder, const char *title, enum picture_format format);
 
 /* Draws velocity, stress and damage over the position along a one-dimensional bar, one curve for each of
- * frame[frames]. Returns FAILED if gnuplot fails. */
+ * frame[frames], to the file `sheet`. title: heading of the picture. Returns FAILED if gnuplot fails. */
 status profiles_draw(struct sheet sheet, const char *title, const struct frame *frame, int frames);
 
-/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames]. value[k]: values
- * of the field at the particles of frame k. Returns FAILED if gnuplot fails. */
+/* Draws one field over the position along a one-dimensional bar, one curve for each of frame[frames], to the file
+ * `sheet`. title: heading of the picture; value[k]: values of the field at the particles of frame k. Returns FAILED if
+ * gnuplot fails. */
 status field_profiles_draw(struct sheet sheet, const char *title, const struct plot_field *field, float *const *value,
                            const struct frame *frame, int frames);
 
@@ -352,8 +356,8 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
 bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
- * the closed-form solution, at the frames show[frames] of the run in `folder`. Returns FAILED if a profile cannot be
- * read or gnuplot fails. */
+ * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in
+ * `folder` that are drawn. Returns FAILED if a profile cannot be read or gnuplot fails. */
 status bar_draw(struct sheet sheet, const char *title, const char *folder, const char *probe,
                 const struct listed_frame *show, int frames);
 

@@ -36,7 +36,8 @@ struct diagnostics {
     int64_t bonds_broken;         /* directed bonds broken by load */
 };
 
-/* Initialises the diagnostics *w before the first time step: sums are 0, times of breaks are NAN (no break yet). */
+/* Initialises the diagnostics *w before the first time step: sums are 0, the times and positions of breaks NAN (no
+ * break yet). */
 void diagnostics_make(struct diagnostics *w);
 
 /* Computes the total momentum of the particles and of the mesh nodes, stores it in w->now.momentum, and updates

@@ -93,8 +93,8 @@ void probes_free(struct probes *s);
  * probes_sample_end. */
 void probes_sample(struct probes *s, const struct observed *o);
 
-/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles, before the
- * time step. probes_sample_end interpolates between them and the velocities after the step. */
+/* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
+ * *s, before the time step. probes_sample_end interpolates between them and the velocities after the step. */
 void probes_keep(struct probes *s, const struct observed *o);
 
 /* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and

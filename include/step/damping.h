@@ -23,7 +23,8 @@ real damping_start(struct particles *p, const struct mesh *mesh, struct loads *l
 void damping_keep(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
 
 /* Returns the energy that bulk damping has taken since the previous time step [J], computed from the velocities that
- * damping_keep stored in this step and the present ones. decay: c dt [1]. Valid from the second step on. */
+ * damping_keep stored in *s in this step and the present ones of particles and mesh nodes. decay: c dt [1], c being
+ * the damping rate and dt the time step. Valid from the second step on. */
 real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the

@@ -90,15 +90,16 @@ status report_step(struct run *e);
  * writes the last checkpoint. Returns FAILED if a file cannot be written. */
 status report_end(struct run *e);
 
-/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]. */
+/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]:
+ * peridynamic particles by the bonds b, material points by the mesh. */
 real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p);
 
 /* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping took much energy, or
  * if bonds broke in a collision that is too fast for the particle spacing. */
 void say_balance(struct run *e);
 
-/* Warns, at the first call after a bond has yielded, how the yielding of bonds differs from von Mises' law. The
- * warning is added to *to and printed; r stores that it has been given. */
+/* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
+ * warning is added to *to and printed; *r stores that it has been given, so that later calls do nothing. */
 void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores

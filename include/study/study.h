@@ -65,8 +65,8 @@ double value_number(const char *value, const char **unit);
 status study_make(struct study *s, const char *scene, const char *folder, const char *kind);
 
 /* Initialises a study as study_make does, and stores the text of the scene in s->text, without the keys that vary.
- * key[keys]: keys of the study and their values; a key with a single value overrides the scene in all runs. Returns as
- * study_make does. */
+ * folder, kind: as for study_make. key[keys]: keys of the study and their values; a key with a single value overrides
+ * the scene in all runs. Returns FAILED or REFUSED if the scene cannot be read, as study_make does. */
 status study_make_of(struct study *s, const char *scene, const char *folder, const char *kind,
                      const struct varied_key *key, int keys);
 
@@ -83,7 +83,8 @@ status study_folder_fits(const char *folder, const char *text);
  * link; FAILED if the file cannot be written. */
 status study_folder_claim(const char *folder);
 
-/* Checks `folder` as study_folder_claim does, with the same return values, but writes nothing. */
+/* Checks `folder` as study_folder_claim does, but writes nothing. Returns REFUSED if the folder holds files that
+ * Cleave did not write, or if its subfolder `logs` or `pictures` is a link. */
 status study_folder_guard(const char *folder);
 
 /* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */

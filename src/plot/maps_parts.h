@@ -12,8 +12,8 @@ struct layout {
     int right;                     /* width of the colour bar or key on the right [pixel] */
 };
 
-/* Writes the gnuplot commands that set the margins of a panel. left, above: position of its upper left corner, from
- * the left and upper edge of the picture [pixel]. */
+/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout l. left, above:
+ * position of its upper left corner, from the left and upper edge of the picture [pixel]. */
 void panel_place(FILE *to, const struct layout *l, double left, double above);
 
 /* Writes the gnuplot commands for tics and labels of a panel with a flat map. metre: unit of the axes; column: column

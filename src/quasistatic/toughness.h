@@ -5,9 +5,9 @@
 #include "bonds/family.h"
 #include "scene/scene.h"
 
-/* Returns the crack energy per area of a material [J/m^2]. For bond-based models it is the energy of all bonds that
- * cross a plane of the lattice, each at its critical stretch, per area; for state-based models the fracture energy G_c
- * of the material. */
+/* Returns the crack energy per area of a material [J/m^2]. For a bond-based `model` it is the energy of all bonds of
+ * the lattice family that cross a plane of the lattice, each at its critical stretch, per area; for state-based models
+ * the fracture energy G_c of the material. */
 real toughness_of(const struct family *family, enum model model, const struct material *m);
 
 /* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
