@@ -71,9 +71,9 @@ struct convergence_request {
 };
 
 /* Runs a convergence study as requested by *w and stores its runs and results in *s. Figures of failed runs are NAN in
- * the table. Returns REFUSED if the scene cannot be refined or if the time budget is too small (the message states the
- * required one), FAILED if the coarsest run fails, INTERRUPTED if options.stop is set. Release with
- * convergence_study_free. */
+ * the table. Returns REFUSED if the scene cannot be refined, if its runs cannot have a requested figure, or if the
+ * time budget is too small (the message states the required one); FAILED if the coarsest run fails; INTERRUPTED if
+ * options.stop is set. Release with convergence_study_free. */
 status convergence_study_run(struct convergence_study *s, const struct convergence_request *w);
 
 /* Frees the scene, runs and table of the convergence study *s. */
