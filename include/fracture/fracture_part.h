@@ -14,7 +14,8 @@ struct fracture_state {
     struct growth *growth; /* [growths] */
 };
 
-/* Returns true if bonds fade along a growing crack. */
+/* Returns true if the run has a growing crack whose bonds lose their strength gradually over a length of crack growth,
+ * instead of at once. */
 bool cracks_fade(const struct fracture_state *f);
 
 #endif

@@ -19,10 +19,12 @@ struct fragments {
     real mass_singles; /* ... and their mass [kg] */
 };
 
-/* Finds the fragments of all peridynamic particles by their unbroken bonds. Release with fragments_free. */
+/* Finds the fragments of a body: sets of peridynamic particles that unbroken bonds of b connect. Writes them to f,
+ * which is initialised here, sorted by decreasing mass; particles without a bond are only counted. Release with
+ * fragments_free. */
 void fragments_find(struct fragments *f, const struct bonds *b, const struct particles *p);
 
-/* Releases all arrays. */
+/* Frees the arrays of f. */
 void fragments_free(struct fragments *f);
 
 #endif

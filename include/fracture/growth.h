@@ -72,23 +72,28 @@ struct growth {
     struct fading *fading;
 };
 
-/* Initialises a crack at its start. rule: kept by reference. */
+/* Initialises a growing crack at its start position, without growth. rule: start, direction, speed or toughness of the
+ * crack; kept by reference and must outlive g. */
 void growth_make(struct growth *g, const struct growth_rule *rule);
 
-/* Releases the fading bonds and resets the crack. */
+/* Frees the list of fading bonds of g and sets all its members to 0. */
 void growth_free(struct growth *g);
 
-/* Advances a crack by a step dt at time t [s]: moves the tip, adds the bonds that it crosses to the fading ones, and
- * reduces their weights. control: present factors, NULL: unknown; they turn the tip to the direction of the largest
- * hoop stress. Returns the number of directed bonds released. */
+/* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
+ * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. source: bond law and
+ * neighbour search. control: present stress-intensity factors, which turn the tip to the direction of the largest hoop
+ * stress and may set its speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts
+ * twice) whose weight became 0. */
 int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
                     const struct control *control, real t, real dt);
 
-/* Returns the angle between the chord from the start to the tip and the initial direction, 0..180 [degree]; NAN before
- * the first growth. */
+/* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
+ * 0 to 180 [degree], or NAN if the crack has not grown. */
 real growth_angle(const struct growth *g);
 
-/* Saves or restores crack number `which` and its fading bonds. */
+/* Saves the state of a growing crack and its fading bonds to the archive if a->saving, else restores them. which:
+ * number of the crack, which names its entries. Returns FAILED if the archive cannot be read or written or a stored
+ * size differs. */
 status growth_archive(struct growth *g, int which, struct archive *a);
 
 #endif

@@ -48,15 +48,18 @@ struct gradient_stencil {
     int order;
 };
 
-/* Computes the stencil of particle i by the rule. *s is reused; release it with gradient_stencil_free. */
+/* Computes the weights by which values at neighbours give the gradient of a field at particle i. rule: method, range
+ * and visibility of neighbours; c: neighbour search over the reference positions. s must be 0 or the result of an
+ * earlier call, whose arrays are reused. If i has too few visible neighbours, s->order is 0 and there are no weights.
+ * Release with gradient_stencil_free. */
 void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
                          const struct cells *c, int64_t i);
 
-/* Releases all arrays. */
+/* Frees the arrays of a stencil. */
 void gradient_stencil_free(struct gradient_stencil *s);
 
-/* Computes gradient[a][b] = d field_a/dX_b at particle i. field[0], field[1]: values of all particles, images
- * included. */
+/* Computes the gradient of a plane vector field at particle i: gradient[a][b] = d field_a/dX_b. s: stencil of particle
+ * i (gradient_stencil_at); field[a]: component a for every particle, mirror images included. */
 void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
@@ -91,21 +94,27 @@ struct sif {
     real K[MODES], J;
 }; /* [Pa m^(1/2)], [J/m^2] */
 
-/* Computes the weight q at distance r and its slope dq/dr. */
+/* Computes the weight q of the interaction integral at distance r from the crack tip [m]: *q receives the weight, 1
+ * inside c->inner and 0 outside c->outer; *slope receives dq/dr [1/m]. form: function that decreases between the two
+ * radii. */
 void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope);
 
-/* Returns the contribution to I of a point at x (local frame) over its area [N/m / m^2]; inside: share of the second
- * sum that counts [1]. The sums above are symmetric in the two motions except for sigma u^a. */
+/* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
+ * frame of the crack tip, x[0] ahead of the tip [m]; c: contour with the weight q; actual, auxiliary: the two motions
+ * at the point, in the same frame; inside: factor 0 to 1 on the second sum of I, which has the inertia terms [1]. */
 real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
                  const struct crack_state *auxiliary, real inside);
 
-/* Computes the factors for each of n contours with one pass over the particles for their gradients. found: [n]. */
+/* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for n contours in one pass
+ * over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how gradients are
+ * computed; c: neighbour search over the reference positions. found: receives n results, K [Pa m^(1/2)] and J [J/m^2].
+ */
 void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int n, const struct sif_motion *motion,
                    const struct gradient_rule *rule, const struct particles *p, const struct cells *c,
                    struct sif *found);
 
-/* Returns the largest difference between contours: of K_I or K_II over |K|, or of J over J, with means over the
- * contours in the denominators; NAN if these are 0. */
+/* Returns the largest relative difference between the results of n contours [1]: of K_I or K_II over |K|, or of J over
+ * J, with means over the contours in the denominators; NAN if one of them is 0. found: n results of sif_integrate. */
 real sif_spread(const struct sif *found, int n);
 
 #endif

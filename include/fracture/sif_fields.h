@@ -17,7 +17,8 @@ struct crack_medium {
     real longitudinal, shear_speed, rayleigh; /* c_d, c_s, c_R [m/s] */
 };
 
-/* Returns the constants of a material in a space. */
+/* Returns the elastic constants and wave speeds of material m, as crack-tip fields need them. space: plane stress,
+ * plane strain or 3D. */
 struct crack_medium crack_medium_of(const struct material *m, enum space space);
 
 /* Motion at a point as the interaction integral needs it, in the local frame. */
@@ -34,45 +35,55 @@ struct crack_field {
     struct crack_state state;
 }; /* [m] */
 
-/* Computes the stress from the displacement gradient by Hooke's law in the plane. */
+/* Computes the plane stress tensor from the displacement gradient by Hooke's law. gradient: du_i/dx_j [1]; stress:
+ * receives sigma_ij [Pa]. */
 void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
 
-/* Computes the field of a crack at rest with K = 1 Pa m^(1/2) at x (Williams 1957). On the crack the sign of a zero
- * x[1] selects the face. */
+/* Computes the field at x round the tip of a crack at rest with K = 1 Pa m^(1/2) in one mode (Williams 1957). x:
+ * position in the frame of the tip, x[0] ahead of the tip [m]; on the crack faces the sign of x[1], also of a zero,
+ * selects the face. f: receives displacement, its gradient and stress; velocities and accelerations are 0. */
 void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, const real x[2], struct crack_field *f);
 
-/* Computes the field of a crack that moves at the constant speed v with K = 1 Pa m^(1/2), 0 < v < c_R (Freund 1990);
- * ill-conditioned as v -> 0. */
+/* Computes the field at x round the tip of a crack that moves at constant speed v with K = 1 Pa m^(1/2) in one mode
+ * (Freund 1990, chapter 4). v: 0 < v < c_R, the Rayleigh speed [m/s]; the formulas are ill-conditioned as v -> 0. x:
+ * position in the frame of the tip, x[0] ahead of the tip [m]. f: receives displacement and motion. */
 void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2],
                         struct crack_field *f);
 
-/* Computes the field at any speed 0 <= v < c_R: that of a crack at rest below 0.01 c_s, where the two fields differ by
- * 1e-4, else the moving one. */
+/* Computes the field at x round a crack tip of speed v with K = 1 Pa m^(1/2) in one mode, for 0 <= v < c_R, the
+ * Rayleigh speed [m/s]. Below 1 % of the shear wave speed the field of a crack at rest is used (crack_field_at_rest),
+ * which differs there by 1e-4, else that of a moving crack. x: position in the frame of the tip [m]; f: receives the
+ * field. */
 void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, const real x[2], struct crack_field *f);
 
-/* Returns the universal function A_I or A_II of the energy release rate (A_I K_I^2 + A_II K_II^2)/E*; 1 at rest. A_II
- * contains 1 - a_s^2 like A_I; with 1 - a_d^2, as sometimes printed, it would not tend to 1. */
+/* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
+ * 1990, chapter 5) [1]; 1 at v = 0. v: speed of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does; with 1
+ * - a_d^2, as sometimes printed, A_II would not tend to 1 at rest. */
 real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v);
 
 /* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:
  * exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 - v/c_R)/sqrt(1 - v/c_d). */
 enum speed_factor { SPEED_EXACT, SPEED_ROSE, SPEED_APPROXIMATE };
 
-/* Returns k(v) [1]. */
+/* Returns k(v), the ratio of K_I of a semi-infinite crack growing at constant speed v [m/s] to K_I of the crack at
+ * rest under the same load [1]. form: exact solution or one of two approximations. */
 real crack_speed_factor(const struct crack_medium *m, enum speed_factor form, real v);
 
-/* Returns the speed v <= most (below c_R) at which the exact k(v) equals `factor` [m/s]; 0 if factor >= 1. */
+/* Returns the crack speed v at which the exact ratio k(v) = K_I/K_I at rest (crack_speed_factor) equals `factor`
+ * [m/s], limited to `most` [m/s], which must be below the Rayleigh speed. Returns 0 if factor >= 1. */
 real crack_speed_of_factor(const struct crack_medium *m, real factor, real most);
 
-/* Returns K_I of a semi-infinite crack at rest in plane strain [Pa m^(1/2)], `age` [s] after the arrival of a plane
- * wave with the normal stress `stress` [Pa] on the plane of the crack. */
+/* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
+ * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; age: time since its arrival [s].
+ */
 real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age);
 
-/* Returns the direction of the largest circumferential stress (Erdogan & Sih 1963) relative to the crack, in a form
- * that is accurate as K_II -> 0 [rad]. */
+/* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
+ * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. K: K_I and K_II [Pa m^(1/2)]. */
 real crack_direction(const real K[MODES]);
 
-/* Returns K_eq, the mode-I intensity in that direction [Pa m^(1/2)]. */
+/* Returns the equivalent mode-I stress-intensity factor K_eq in the direction of the largest circumferential stress
+ * (crack_direction) [Pa m^(1/2)]. K: K_I and K_II [Pa m^(1/2)]. */
 real crack_equivalent(const real K[MODES]);
 
 #endif

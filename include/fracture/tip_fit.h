@@ -30,7 +30,10 @@ struct tip_view {
     int cracks;
 };
 
-/* Fits the factors in the frame of the view. Returns false, with K = 0, if the tip has too few visible particles. */
+/* Computes K_I and K_II of a crack tip by a least-squares fit of the series of Williams to the displacements of the
+ * particles round the tip. view: tip position, frame, range of particles and cracks that hide particles; K: receives
+ * the factors in the frame of the view [Pa m^(1/2)]. Returns false, with K = 0, if too few particles are visible from
+ * the tip. */
 bool tip_fit(const struct tip_view *view, const struct particles *p, real K[MODES]);
 
 #endif

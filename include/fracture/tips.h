@@ -51,32 +51,38 @@ struct tips {
     real *growth; /* [samples][TIPS_MAX] growth of every tip, without `joined` [m] */
 };
 
-/* Excludes the particles that slits damage from all cracks. lost: [particles] share of damage by pre-cracks alone, once
- * the particles have bonds [1]. */
+/* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
+ * pre-cracks represented as slits of the mesh. lost: for each particle, the share of its bonds that pre-cracks cut
+ * once the particle has bonds [1]. */
 void tips_before(struct tips *t, const real *lost);
 
-/* Finds the tips of pre-cracks, whose damage the particles must already have. c: kept by reference; window: of the
- * speed [s]. */
+/* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
+ * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of
+ * the particles [m]; window: time interval over which tip speeds are averaged [s]. Release with tips_free. */
 void tips_make(struct tips *t, const struct particles *p, const struct cells *c, const struct crack *crack, int cracks,
                real spacing, real window);
 
-/* Updates all tips from the damage of the particles at time `time` [s]. */
+/* Assigns newly damaged particles to cracks and updates position, growth and speed of all tips; new tips may be added.
+ * time: present time [s]; p: particles with their present damage; c: neighbour search over the reference positions. */
 void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time);
 
-/* Returns the angle between the chord from the start to the tip and the direction of the pre-crack, 0..180 [degree];
- * NAN before the first growth. */
+/* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
+ * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
 real tip_angle(const struct tip *tip, int dim);
 
-/* Returns the slope of the growth of tip k over the last window [m/s]; 0 before there are two samples. */
+/* Returns the speed of tip number k [m/s]: the regression slope of its growth over the last t->window seconds, or 0 if
+ * fewer than two samples have been taken. */
 real tips_speed(const struct tips *t, int k);
 
-/* Returns the tip with the largest growth, NULL if none has grown. */
+/* Returns the tip with the largest growth, a pointer into t, or NULL if no tip has grown. */
 const struct tip *tips_longest(const struct tips *t);
 
-/* Returns the number of ends, over all tips, whose growth equals the largest within a spacing; 0 if none has grown. */
+/* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
+ * tip has grown. */
 int64_t tips_tied(const struct tips *t);
 
-/* Returns true if a crack grows along a plane of symmetry, so that the body has only one of its faces. */
+/* Returns true if a crack grows along a plane of symmetry, so that the modelled body has only one face of the crack.
+ * mirror: `mirrors` planes of symmetry. */
 bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
 
 /* Quantities besides tips on which areas of cracks depend. */
@@ -87,15 +93,17 @@ struct tip_surroundings {
     real half;    /* half of the damage of particles beside a plane cut [1] */
 };
 
-/* Returns the area of the faces that cracks have made, at the last sample [m^2]. Along the front of a pre-crack: growth
- * in strips one spacing wide, at least one spacing, without branches; of other cracks: half of their particles; of a
- * crack in a plane of symmetry: half, like its energy. */
+/* Returns the crack area created up to the last sample [m^2]. A crack along the front of a pre-crack: growth in strips
+ * one spacing wide, at least one spacing in total, without branches. Any other crack: half the number of its particles
+ * times the area of a particle. A crack in a plane of symmetry: half of this area, as half of its energy is in the
+ * body. s: planes of symmetry and thickness. */
 real tips_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
 
-/* Releases all arrays. */
+/* Frees the arrays of t. */
 void tips_free(struct tips *t);
 
-/* Saves or restores tips, labels and recorded samples. */
+/* Saves the tips, the crack of each particle and the recorded samples to the archive if a->saving, else restores them.
+ * Returns FAILED if the archive cannot be read or written or a stored size differs. */
 status tips_archive(struct tips *t, struct archive *a);
 
 #endif

@@ -53,10 +53,10 @@ struct ledger_row {
 enum { LEDGER_WORK = ENERGIES, LEDGER_ROWS };
 extern const struct ledger_row ledger[LEDGER_ROWS];
 
-/* Returns the sum of all energies [J]. */
+/* Returns the sum of all energies of u, in the order of ENERGY_ROWS [J]. */
 real energy_sum(const struct energy *u);
 
-/* Returns the sum of the magnitudes of all energies [J]. */
+/* Returns the sum of the magnitudes of all energies of u [J], a scale for errors of their balance. */
 real energy_size(const struct energy *u);
 
 #endif

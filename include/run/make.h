@@ -4,35 +4,45 @@
 
 #include "run/run.h"
 
-/* Lowers the triggers of materials [materials] whose strength scatters to those of their weakest particles. */
+/* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
+ * particles is random (p->strength). Does nothing if strength is uniform. elastic: constants by material number,
+ * changed in place. */
 void strength_found(struct elastic *elastic, const struct particles *p);
 
-/* Returns the impedances of absorbing faces [MOVERS][materials], by the constants of what moves their particles; NULL:
- * there are no such faces. The caller frees them. */
+/* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
+ * each material and each method that moves its particles (bonds, grid or mesh). Returns NULL if the scene has no
+ * absorbing boundary or is static. source: bond law. */
 struct impedance *absorbing_impedances(const struct scene *s, const struct bond_source *source);
 
-/* Lists the bodies whose shapes may have voids (tables->voids), and the mirrors of the scene, beyond which bodies have
- * images. Returns false if there are none. */
+/* Lists in tables->voids the shapes of bodies that may contain voids, and in tables->void_mirror the planes of the
+ * mirror boundaries. Bodies made from particle lists or images are left out. loads: boundary conditions. Returns true
+ * if at least one shape was listed. */
 bool run_voids_list(struct material_tables *tables, const struct scene *s, const struct loads *loads);
 
-/* Returns the distance up to which bonds (of reach `cutoff` [m]) or cells join particles [m]. */
+/* Returns the largest distance across which particles interact [m], through bonds shorter than `cutoff` [m] or through
+ * common cells of the mesh; voids narrower than this distance must be handled explicitly. */
 real voids_reach(const struct scene *s, real cutoff);
 
-/* Returns true if the surface of a body and of all bodies joined to it is known: no body is made from a list or an
- * image. */
+/* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
+ * particle list or an image. body: number of the first of the joined bodies. */
 bool surface_known(const struct scene *s, int body);
 
-/* Computes the weights w of bonds near faces (pd.surface moments), which `source` refers to afterwards. REFUSED if the
- * particles of a body are not on one lattice. */
+/* Computes correction weights of the bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
+ * w; w must therefore outlive `source`. loads: boundary conditions, whose mirrors are named in messages. Returns
+ * REFUSED, with a message, if the particles of a body are not on one lattice. */
 status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                         const struct loads *loads, const struct scene *s);
 
-/* Returns REFUSED if two bodies that the scene joins are farther apart than `cutoff` [m]. */
+/* Checks that bodies which the scene joins by an interface are close enough for bonds. cells: neighbour search over
+ * the particles; cutoff: largest length of a bond [m]. Returns REFUSED, with a message, if no particle of one body is
+ * within `cutoff` of a particle of the other. */
 status joined_check(const struct scene *s, const struct particles *p, const struct cells *cells, real cutoff);
 
-/* Checks prescribed velocities and displacements. REFUSED for values that depend on reference positions, which the grid
- * of the current frame does not store; for displacements that jump or grow faster than waves; and, at the `start` of a
- * run, for displacements of particles that are not at their reference positions. */
+/* Checks prescribed velocities and displacements of the boundaries. Returns REFUSED, with a message, if a value
+ * depends on the reference position of particles on the grid of the current frame, which does not store it; if, with
+ * the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with `start` (the
+ * beginning of a run, not a restart), if particles with a prescribed displacement are not at their reference positions.
+ */
 status driving_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start);
 
 #endif

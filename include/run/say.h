@@ -5,7 +5,8 @@
 #include "base/warnings.h"
 #include "scene/scene.h"
 
-/* Warns how yielding bonds of the materials of s differ from von Mises plasticity. */
+/* Adds warnings to `to` for the materials of scene s whose bonds yield: how their plasticity differs from von Mises
+ * plasticity. */
 void warn_of_yielding(const struct scene *s, struct warnings *to);
 
 #endif

@@ -14,7 +14,8 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
  * afterwards, so that their list suffices; most of them are neither damaged nor part of a crack. */
 enum { TIP_PIECE = 64 };
 
-/* Returns the end of the piece of the list that starts at `first`. */
+/* Returns the index after the last element of a piece of at most TIP_PIECE elements that starts at element `first` of
+ * the list of peridynamic particles of p. */
 static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
 {
     return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];
@@ -30,7 +31,8 @@ struct tip_reach {
     int64_t ends, particles;
 };
 
-/* Measures the extents of all cracks. reach: [TIPS_MAX], 0 on entry. */
+/* Computes the extent of every crack from its start: farthest distance, position of its end, number of particles and
+ * of equally far groups. reach: receives an element for each of TIPS_MAX tips; must be 0 on entry. */
 void tip_reaches(const struct tips *t, const struct particles *p, struct tip_reach *reach);
 
 struct tip_search {
@@ -40,14 +42,17 @@ struct tip_search {
     int room;
 };
 
-/* Finds the particles and images within `radius` of X [m]; s->found grows as needed and is freed by the caller at the
- * end. Returns their number. */
+/* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. The indices are written to
+ * s->found, which grows as needed and which the caller frees after the last search. Returns the number of particles
+ * found. */
 int tip_search_near(struct tip_search *s, const real *X, real radius);
 
-/* Computes the vector from the nearest point of the segment centre -+ half to X. Returns its length [m]. */
+/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
+ * vector from the middle to one end [m]; offset: receives dim components [m]. Returns the length of the vector [m]. */
 real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset);
 
-/* Adds a tip at `origin` without growth. along: direction, NULL: x axis. Returns the tip. */
+/* Adds a crack tip without growth to t. body: number of the body; origin: start position [m]; along: unit vector of
+ * the direction of the crack, NULL for the x axis. Returns the new tip, an element of t->tip. */
 struct tip *tip_add(struct tips *t, int body, const real *origin, const real *along);
 
 #endif
