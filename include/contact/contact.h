@@ -142,85 +142,103 @@ struct contact {
     real *push[DIM_MAX];       /* [particles of the body] recorded contact forces; NULL: not recorded [N] */
 };
 
-/* Initialises the contact law. law: form, contact distance and friction; its stiffness k follows from the bonds'
- * materials times `stiffness` [1]. shape[bodies] and rigid[rigids] are kept by reference and must outlive c. */
+/* Initialises the contact of a run; no pairs are searched yet. between: which bodies can be in contact; law: form,
+ * contact distance and friction, whose stiffness array is computed here from the elastic constants of the bonds times
+ * `stiffness` [1]; source: bond law with spacing and pre-cracks; shape: region of each body; rigid: `rigids` rigid
+ * bodies. shape and rigid are kept by reference and must outlive c. Release with contact_free. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids);
 
-/* Releases all arrays. */
+/* Frees the arrays of c; rigid bodies and shapes stay with the caller. */
 void contact_free(struct contact *c);
 
-/* Returns the critical time step of particles that contact pushes on one side and bonds hold on the other [s]. m:
- * [materials]; bonds: critical step of the bonds [s]. */
+/* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s]. m:
+ * by material number; bonds: critical time step of the bonds alone [s]. */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);
 
-/* Updates the list of pairs before a step: searches anew if particles have moved by more than the skin allows since the
- * last search, if bonds have been broken for BREAKS_WAIT steps, or if a search is due. Marks particles that contact may
- * push as loaded and their row blocks as active. broken: directed bonds broken so far; changed: conversions and
- * reversions so far. */
+/* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
+ * have moved farther than the list allows since the last search, if bonds have been broken and BREAKS_WAIT steps have
+ * passed since, or if a search was requested (c->due). Particles on which contact forces may act are marked as loaded
+ * in l, and their bonds as active in b. family: horizon and lattice; step: number of the step; broken: number of
+ * directed bonds broken so far; changed: number of conversions and reversions so far. */
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed);
 
-/* Requests a search if one of n listed particles, which have become peridynamic, is at a face. */
+/* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
+ * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
+ * Does nothing if contact is not possible in this run. */
 void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n);
 
-/* Marks the particles that contact may push as loaded and their row blocks as active; also to be called after a
- * restart. */
+/* Marks the particles on which contact forces may act as loaded in l, and their bonds as active in b. Called by
+ * contact_update; to be called by the user only after a restart. */
 void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Adds the contact forces to p->f and to the rigid bodies and finds the largest overlap; to be called after the forces
- * of bonds and before loads. dt: duration of the motion with the velocities p->v since the last call [s]. */
+/* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
+ * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
+ * for which particles have moved with p->v since the last call [s], by which friction springs are stretched. */
 void contact_force(struct contact *c, struct particles *p, real dt);
 
-/* Allocates `push` if contact is possible: while c->recorded is set, contact forces are recorded. */
+/* Allocates c->push, in which contact_force stores the contact force on each particle while c->recorded is set. Does
+ * nothing if contact is not possible in this run, or if the array exists. */
 void contact_record(struct contact *c, const struct particles *p);
 
-/* Records t [s] as time of contact if particles are in contact. */
+/* Sets the last time of contact, and the first one if there is none yet, to t [s], if particles were in contact at the
+ * last call of contact_force. */
 void contact_clock(struct contact *c, real t);
 
-/* Returns the energy of all contacts at the present positions [J]; pairs with an image count half. */
+/* Returns the elastic energy of all contacts at the present positions, with rigid bodies included [J]. A pair with a
+ * mirror image of a particle counts half. */
 real contact_energy(const struct contact *c, const struct particles *p);
 
-/* Returns the diagonal of the bounding box of the particles in contact with rigid body `body` [m], 0 without
- * contact. */
+/* Returns the diagonal of the bounding box of all particles in contact with rigid body number `body` [m], or 0 if
+ * there is none. */
 real contact_patch(const struct contact *c, const struct particles *p, int body);
 
-/* Returns the work of friction so far [J]. */
+/* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
 
-/* Contact in equilibria (contact_touch.c): the marked contacts act as linear springs, so that forces are smooth; an
- * equilibrium satisfies the contact law if exactly the overlapping contacts are marked. contact_search finds pairs anew
- * (contact_update) and marks all contacts that overlap, and those whose gap to another body is less than `close`
- * [spacings]. Returns the number of changed marks. Clears the forces of contact_balance. */
+/* Searches for pairs (contact_update) and selects the contacts that act in an equilibrium solution: those that
+ * overlap, and those between bodies whose gap is less than `close` [spacings]. Selected contacts act as linear
+ * springs, also with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the
+ * contact law if exactly the overlapping contacts are selected. Forces left by contact_balance are set to 0. family:
+ * horizon and lattice. Returns the number of contacts whose selection changed. */
 int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                        const struct family *family, real close);
 
-/* Marks contacts as contact_search without a new search; gaps within round-off change no mark. Returns the number of
- * changed marks. */
+/* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A
+ * gap within round-off of 0 does not change the selection. close: gap between bodies below which a contact is selected
+ * [spacings]. Returns the number of contacts whose selection changed. */
 int64_t contact_mark(struct contact *c, const struct particles *p, real close);
 
-/* Selects whether marks decide which contacts act, or overlaps. */
+/* Selects which contacts act in the next forces: with `use` those selected by contact_mark, as linear springs;
+ * otherwise those that overlap. */
 void contact_marks_use(struct contact *c, bool use);
 
-/* Removes all marks and requests a search. */
+/* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
+ * requested. */
 void contact_unmark(struct contact *c);
 
-/* Returns true if particles or rigid bodies have moved farther than the list of pairs allows. */
+/* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
+ * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
+ * search. */
 bool contact_has_come(struct contact *c, const struct particles *p);
 
-/* Returns the largest displacement of a particle for which the list of pairs remains complete [m]. */
+/* Returns the largest displacement of particles since the last search for which the list of pairs is certainly
+ * complete [m]. */
 real contact_sight(const struct contact *c);
 
-/* Calls visit(context, term) for all marked contacts, row by row. */
+/* Calls visit(context, term) for each contact selected by contact_mark, with the contact as a linear spring; term is
+ * valid during the call only. Does nothing if no contacts have been selected. */
 void contact_terms(const struct contact *c, const struct particles *p,
                    void (*visit)(void *context, const struct contact_term *term), void *context);
 
-/* Returns the norm of the forces of rigid bodies on particles [N]. */
+/* Returns the Euclidean norm of the forces of rigid bodies on all particles [N]. */
 real contact_rigid_norm(const struct contact *c, const struct particles *p);
 
-/* Saves or restores the list of pairs with its distances, springs and accounts. FAILED if a restored list does not fit
- * the particles. */
+/* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else
+ * restores them. Returns FAILED, with a message, if the archive cannot be read or written, or if a restored list has
+ * indices or counts that do not fit the particles. */
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a);
 
 #endif

@@ -4,8 +4,9 @@
 
 #include "run/run.h"
 
-/* Warns, once in a run, if the largest overlap exceeds 0.3 spacings. Returns FAILED if it exceeds 0.9 spacings, where
- * particles are about to pass each other. */
+/* Checks the largest overlap of two particles in contact in the last step. Adds a warning to the run, at most once, if
+ * it exceeds 0.3 spacings. Returns FAILED, with a message, if it exceeds 0.9 spacings, where particles are about to
+ * pass each other. */
 status contact_overlap_check(struct run *e);
 
 #endif

@@ -41,30 +41,37 @@ struct grid_contact {
     real began, ended;            /* first and last time of contact, NAN: none so far [s] */
 };
 
-/* Allocates the energy accounts for contact between `sides` bodies. */
+/* Allocates the sums of the energy dissipated by contact, for each pair of `sides` bodies. The other members of c are
+ * set by the caller. Release with grid_contact_free. */
 void grid_contact_make(struct grid_contact *c, int sides);
 
-/* Initialises *a with the grid, the sorted points and their range of nodes. g and order are kept by reference. */
+/* Initialises *a with the background grid g of one body, the cell order of its points, and the range of nodes that the
+ * points reach. g and order are kept by reference. */
 void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_order *order, const struct particles *p);
 
-/* Lists the nodes that points of any two of the sides [c->sides] reach, with normals and gaps. */
+/* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
+ * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
 void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
 
-/* Exchanges momentum at listed nodes whose bodies touch and approach: changes the nodal velocities and their
- * increments. Returns the energy dissipated [J]. */
+/* Exchanges momentum between two bodies at each node of grid_contact_find where they touch and approach: normal
+ * momentum without rebound, tangential momentum by friction. Changes the nodal velocities, and the velocity increments
+ * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
 real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side);
 
-/* Returns the energy that contact dissipates further [J] because FLIP strains points by the velocities of the second
- * map. */
+/* Returns the additional energy that contact dissipates in this step with the FLIP transfer [J], in which points are
+ * strained by velocities that are mapped from the points to the nodes again after they have moved. side: grids of the
+ * bodies, c->sides elements. */
 real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side);
 
-/* Records t [s] as time of contact if nodes are in contact. */
+/* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the
+ * last step. */
 void grid_contact_clock(struct grid_contact *c, real t);
 
-/* Saves or restores accounts and times of contact. */
+/* Saves energies and times of contact to the archive if a->saving, else restores them. Returns FAILED if the archive
+ * cannot be read or written or a stored size differs. */
 status grid_contact_archive(struct grid_contact *c, struct archive *a);
 
-/* Releases all arrays. */
+/* Frees the arrays of c. */
 void grid_contact_free(struct grid_contact *c);
 
 #endif

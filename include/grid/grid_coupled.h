@@ -16,16 +16,16 @@ struct grid_coupled {
     int64_t n;
 };
 
-/* Selects the peridynamic particles that the grid moves in this step, before its forces: lists, flags
- * (FLAG_GRID_COUPLED) and sorts them. At the interface these are the particles in cells that share a node with a cell
- * holding a material point, whatever the shape functions. g must cover all material points, in a unified grid all
- * particles. */
+/* Selects the peridynamic particles that the background grid moves in this step: lists them, sets FLAG_GRID_COUPLED
+ * and sorts them into cells. coupling: at the interface (pm, pg) the particles in cells that share a node with a cell
+ * holding a material point, else (pmg, pgg) all particles. g: grid that covers all material points, in the second case
+ * all particles. To be called before the forces. */
 void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
 
-/* Clears the selection, if no material points are left. */
+/* Clears the selection of grid_coupled_select and the flags of its particles, if no material points are left. */
 void grid_coupled_none(struct grid_coupled *c, struct particles *p);
 
-/* Releases all arrays. */
+/* Frees the arrays of c. */
 void grid_coupled_free(struct grid_coupled *c);
 
 #endif

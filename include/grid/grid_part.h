@@ -34,38 +34,47 @@ struct grid_method {
     real spacing;       /* of particles [m] */
 };
 
-/* Makes the grids with nodes at the positions that the scene requires; a second call moves the nodes. meshed: bodies
- * are in the reference frame, particles must be midway between nodes. */
+/* Makes the background grids of a run: one, or one for each body if material points of several bodies can be in
+ * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort). A second call moves the
+ * nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway between nodes. */
 void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 
-/* Makes the groups of points with a common rotation, if a body is free to rotate (FLIP only; data/turning.h). */
+/* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum.
+ * Does nothing if no body is free to rotate, in 1D, and for transfers other than FLIP. loads: boundary conditions; s:
+ * scene. */
 void grid_turning_make(struct grid_method *mpm, const struct particles *p, const struct loads *loads,
                        const struct scene *s, enum coupling coupling);
 
-/* Computes the position `anchor` of a node [dim, m] for a body whose lower corner is `from`. meshed: nodes midway
- * between particles of a lattice with a particle at `site`. */
+/* Computes the position of one node of the background grid, from which all others follow, into `anchor`, dim
+ * components [m]. from: lower corner of the first body [m]; site: position of one particle of its lattice [m]; meshed:
+ * true to place nodes midway between particles. */
 void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
 
-/* Returns the number of the k-th body, joined bodies counted once under the first of them, or -1. */
+/* Returns the number in the scene of the k-th body, k = 0, 1, ..., where bodies joined to each other count once, under
+ * the first of them. Returns -1 if there are no more than k. */
 int body_apart(const struct scene *s, int k);
 
-/* Returns true if a mirror is not on a node of g. (Nodes beyond mirrors follow the nodes that they mirror; extra nodes
- * of slits cannot.) */
+/* Returns true if a mirror plane of the scene does not pass through nodes of g. Mirror nodes beyond such a plane
+ * follow the nodes that they mirror, but the doubled nodes at slits cannot. */
 bool grid_mirror_between(const struct grid *g, const struct scene *s);
 
-/* Sorts the points on the grid into cells. Sets *lost if a position is not finite; nothing is sorted then. FAILED if
- * the grid would have too many nodes. */
+/* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the
+ * peridynamic particles that a grid moves. lost: receives true if the position of a point is not finite; nothing is
+ * sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
 status grid_sort(struct run *e, bool *lost);
 
-/* Steps 1 and 3 of the algorithm (step.c): maps mass, momentum and forces of points to the nodes. */
+/* Maps mass, momentum and forces of the material points to the nodes of the background grids. kernels: compiled loops
+ * for the vector instructions of this machine; timers: receives the time spent. */
 void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers);
 
-/* Steps 3, 4, 6 and 7 of the algorithm: moves the nodes, then the points, and updates strain and stress. middle: time
+/* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
+ * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. middle: time
  * in the middle of the step [s]. */
 void grid_step(struct run *e, real middle);
 
-/* Returns the sum of v . f over the points on the grid at the present positions, without motion [W]. middle: present
- * time plus half a step [s]. Changes the accounts of the loads. */
+/* Returns the power of all forces on the material points on the background grids, the sum of v . f over the nodes at
+ * the present positions [W], without moving anything. middle: present time plus half a time step [s]. Changes the
+ * recorded reactions and work of the loads. Returns 0 if no particles are on a grid. */
 real grid_power(struct run *e, real middle);
 
 #endif

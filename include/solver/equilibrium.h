@@ -53,16 +53,19 @@ struct equilibrium {
     int64_t worst;     /* node with the largest residual */
 };
 
-/* Allocates the vectors for n nodes in dim dimensions, all 0. */
+/* Allocates all vectors of q for n nodes in dim space dimensions and sets them to 0. Functions and tolerances are set
+ * by the caller. Release with equilibrium_free. */
 void equilibrium_make(struct equilibrium *q, int dim, int64_t n);
 
-/* Frees the vectors. */
+/* Frees the vectors of q. */
 void equilibrium_free(struct equilibrium *q);
 
-/* Finds the equilibrium under the present forces, starting from u + increment. On entry, q->u and q->f are the
- * previous equilibrium and its forces. increment [n, m]: its held components are the motion of supports, the others
- * an initial guess. moved: loads or supports have changed since; else the body has, for example by broken bonds.
- * Returns FAILED if there is no equilibrium within reach; u is then the state with the smallest residual found. */
+/* Finds the static equilibrium under the present forces by Newton's method, starting from the displacement q->u +
+ * increment. On entry q->u and q->f are displacement and forces of the previous equilibrium, on return of the new one.
+ * increment: n vectors [m]; its prescribed components are the motion of supports, the others an initial guess. moved:
+ * true if loads or supports have changed since the previous equilibrium, false if only the body has, for example by
+ * broken bonds. Returns FAILED, with a message, if the residual stays above the tolerance; q->u is then the state with
+ * the smallest residual found. */
 status equilibrium_find(struct equilibrium *q, const struct field *increment, bool moved);
 
 #endif

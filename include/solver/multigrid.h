@@ -17,19 +17,21 @@ struct block_matrix {
 
 struct multigrid;
 
-/* Builds the preconditioner M of a matrix. position [dim][n]: of the nodes [m]; held [n]: bit d is set if component
- * d is constrained. Constrained components and nodes without stiffness are left out. Unconstrained fragments are
- * allowed: M adds no resistance to their rigid motions. The matrix is kept by reference until multigrid_free,
- * position and held are copied. While bonds break, the caller may set their entries to 0 and correct the diagonal: M
- * stays positive definite, but solvers need a few more iterations (3 for a crack that grew by 8 spacings). Returns
- * FAILED, and *m is NULL, if an entry is not finite or a diagonal stiffness is negative. */
+/* Builds a preconditioner M of a stiffness matrix and stores it in *m. a: symmetric matrix, kept by reference until
+ * multigrid_free; position: of the nodes, dim arrays of n [m], copied; held: n bytes, copied, with bit d set if
+ * component d of a node is constrained. Constrained components and nodes without stiffness are left out. Parts of the
+ * body without constraints are allowed: M adds no resistance to their rigid motions. While bonds break, the caller may
+ * set their matrix entries to 0 and correct the diagonal: M stays positive definite, but solvers need a few more
+ * iterations (3 for a crack that grew by 8 spacings). Returns FAILED, with *m = NULL and a message, if an entry is not
+ * finite or a diagonal stiffness is negative. */
 status multigrid_make(struct multigrid **m, const struct block_matrix *a, real *const *position, const uint8_t *held);
 
-/* Computes z = M^-1 r by one V-cycle. r [dim][n, N] is not changed; z [dim][n, m] is 0 on held components. M is
- * symmetric and positive definite on the others, and bit-identical for any number of threads. */
+/* Computes z = M^-1 r by one V-cycle of the preconditioner m. r: dim arrays of n forces [N], unchanged; z: dim arrays
+ * of n displacements [m], 0 on constrained components. M is symmetric and positive definite on all others. The result
+ * is bit-identical for any number of threads. */
 void multigrid_apply(struct multigrid *m, real *const *r, real *const *z);
 
-/* Frees a preconditioner, which may be NULL. */
+/* Frees a preconditioner of multigrid_make; does nothing if m is NULL. The matrix stays with the caller. */
 void multigrid_free(struct multigrid *m);
 
 #endif

@@ -49,15 +49,18 @@ struct static_body {
     int bodies;
 };
 
-/* Sets driven components and applied forces to their values after `ramp_time` of the loads [s], and velocities to 0.
- * Sufficient for relaxation on the grid (relaxation.c). Returns REFUSED for loads that have no equilibrium. */
+/* Initialises a static solution: sets the displacements of driven particles and the applied forces to their values
+ * after `ramp_time` [s] of the loads, and the velocities of all particles to 0. Relaxation on the background grid
+ * needs no more; other iterations also need solver_iteration_make. Returns REFUSED, with a message, if applied forces
+ * or moments are neither balanced nor carried by supports. Release with solver_free. */
 status solver_make(struct solver *s, const struct static_body *body, real ramp_time);
 
-/* Makes the weights, the diagonal and the vectors that relaxation_step or, if conjugate_gradients is true, cg_step
- * needs. */
+/* Allocates and computes the vectors that the iterations of a static solution need, after solver_make: weights of
+ * particles on mirror planes, diagonal stiffness, round-off of the forces. conjugate_gradients: true to use cg_step,
+ * false to use relaxation_step afterwards. */
 void solver_iteration_make(struct solver *s, const struct static_body *body, bool conjugate_gradients);
 
-/* Frees what the solver owns. */
+/* Frees the vectors of s and sets all members to 0. */
 void solver_free(struct solver *s);
 
 /* Makes step number `step` of an iteration; sets *done if the residual is below the tolerance. Returns FAILED if
@@ -65,13 +68,16 @@ void solver_free(struct solver *s);
 typedef status solver_step_fn(struct solver *s, const struct static_body *body, int64_t step, bool *done);
 solver_step_fn relaxation_step, cg_step;
 
-/* Returns the largest |component| of v. */
+/* Returns the largest magnitude of a component of the vectors v, in their unit. dim: number of components of a vector;
+ * n: number of vectors. */
 real solver_largest(const struct field *v, int dim, int64_t n);
 
-/* Computes residual and scale from the norms of reactions and of residual forces, `left` [N]. */
+/* Sets s->residual [1] and s->scale [N] from norms of forces. reaction: norm of the forces on constrained components
+ * [N]; left: norm of the forces on free components, which vanish in equilibrium [N]. */
 void solver_scale(struct solver *s, real reaction, real left);
 
-/* Saves or restores the state of an iteration. */
+/* Saves the state of a static iteration to the archive if a->saving, else restores it. Returns FAILED if the archive
+ * cannot be read or written or a stored size differs. */
 status solver_archive(struct solver *s, struct archive *a);
 
 #endif

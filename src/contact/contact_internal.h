@@ -23,7 +23,8 @@ struct contact_found {
     int32_t deepest;
 };
 
-/* Adds a contact with this overlap [m] of a particle. */
+/* Adds one contact of particle i to the sums of a step: counts it, and stores overlap and particle if the overlap [m]
+ * is the largest so far; of equal overlaps the particle with the lowest index is stored. */
 static inline void contact_found_add(struct contact_found *to, real overlap, int32_t i)
 {
     const bool first = overlap == to->overlap && i < to->deepest;
@@ -31,7 +32,8 @@ static inline void contact_found_add(struct contact_found *to, real overlap, int
     to->touching++;
 }
 
-/* Computes the vector from entry l of the list to entry k [m]. Returns its square [m^2]. */
+/* Computes the vector between the present positions of two listed particles, from entry l to entry k of c->particle,
+ * dim components [m]. Returns its square [m^2]. */
 static inline real contact_apart(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real *apart)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -43,104 +45,129 @@ static inline real contact_apart(const struct contact *c, const struct particles
     return r2;
 }
 
-/* Returns the stiffness k of the pair of entries k, l [N/m]. */
+/* Returns the contact stiffness k of the pair of listed particles k and l (entries of c->particle) [N/m], from their
+ * materials and volumes. */
 static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     return c->law.stiffness[p->material[i] * c->law.materials + p->material[j]] * (p->volume0[i] * p->volume0[j]);
 }
 
-/* Returns true if contact is possible in this run. */
+/* Returns true if contact is possible in this run: between particles or with rigid bodies. */
 static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
 
-/* Returns true if contact may push the particle of the row (contact_follow_more marks rows before each step). */
+/* Returns true if contact forces may act on the listed particle number `row` in this step, as contact_follow_more and
+ * contact_follow have determined. */
 static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
 
-/* Marks further rows as active after particles at rest have moved; to be called in steps without a search. */
+/* Activates further listed particles, after neighbours that were at rest have started to move: marks them as loaded in
+ * l and their bonds as active in b. To be called in steps without a search for pairs. */
 void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Returns the marks that decide which contacts act, of faces, pairs or entries near a rigid body; NULL: overlaps
- * decide. */
+/* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_mark): one
+ * per listed particle for the form `surface`, one per pair for the form `pair`. Returns NULL if overlapping contacts
+ * act. */
 static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
 
-/* Returns the marks of the entries near a rigid body; NULL: overlaps decide. */
+/* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
+ * (contact_mark), one per particle listed near this body. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_near_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
 }
 
-/* Returns true if contact k acts, by its mark or, without marks, by its overlap. */
+/* Returns true if contact number k acts: if marks[k] is not 0, or, if marks is NULL, if the contact `overlaps`. */
 static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlaps)
 {
     return marks ? marks[k] != 0 : overlaps;
 }
 
-/* Returns the gap of a row of form `surface` by which its mark is set [spacings]. */
+/* Returns the gap between listed particle number `row` and the faces beside it, negative if they overlap [spacings],
+ * by the contact law of form `surface`. */
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the gap of pair q of a row [m]. */
+/* Returns the distance of the particles of pair q minus their contact distance [m], negative if they overlap. row:
+ * listed particle to which the pair belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q);
 
-/* Returns the gap of entry q near a rigid body [m]. normal: of the surface of the body. */
+/* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m]. q:
+ * entry of the particle in the list near this body; normal: receives the outward unit vector normal to the surface. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
 
-/* Computes the spring term of a row of form `surface`; term has room for all pairs of the row. */
+/* Computes the linear spring that represents the contact of listed particle number `row` with the faces beside it, by
+ * the contact law of form `surface`. term: its arrays must have a capacity of one element more than the pairs of the
+ * particle. */
 void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
 
-/* Marks all listed rows as active. */
+/* Lets contact forces act on all listed particles, whether they move or not, as an equilibrium requires. */
 void contact_marks_follow(struct contact *c);
 
-/* Saves or restores the marks. */
+/* Saves the selection of contacts for equilibria (contact_mark) to the archive if a->saving, else restores it. Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
 status contact_marks_archive(struct contact *c, struct archive *a);
 
-/* Returns the skin of the list [m]. */
+/* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
+ * while particles move by less than half of it. */
 static inline real contact_skin(const struct contact *c)
 {
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
 
-/* Returns the row of particle i, or -1. */
+/* Returns the entry of particle i among the listed particles of the body, by bisection, or -1 if i is not listed. */
 int64_t contact_row_of(const struct contact *c, int64_t i);
 
-/* Returns the width of the notch between two entries in the reference configuration [m], 0 without a notch. */
+/* Returns the width of the widest notch (a pre-crack with a width) that separates the listed particles k and l in the
+ * reference configuration [m]; 0 if there is none or if they belong to different bodies. */
 real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
 
-/* Computes root, size and rise of all entries of the list. */
+/* Computes three arrays for all listed particles: c->root, the entry of which a mirror image is made; c->size, the
+ * spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
 void contact_list_describe(struct contact *c, const struct particles *p);
 
-/* Adds the force of the pairs of a row to p->f. */
+/* Adds the contact forces of all pairs of listed particle number `row` to p->f of this particle, by the contact law of
+ * form `pair`. found: receives largest overlap and number of contacts. */
 void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
 
-/* Returns half the energy of the pairs of a row [J]. */
+/* Returns half the elastic energy of all pairs of listed particle number `row` [J], by the contact law of form `pair`;
+ * each pair belongs to two particles. */
 real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the contact distance d of a pair [m]. was: its distance on the previous list, NAN if it was not listed. */
+/* Returns the distance at which contact of the listed particles k and l begins [m]: the contact distance, reduced if
+ * they are closer in the reference configuration or at present. was: contact distance on the previous list of pairs
+ * [m], NAN if the pair was not on it. */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was);
 
-/* Computes the table of depth by density for a square lattice. */
+/* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
+ * particle, for particles on a square or cubic lattice. dim: space dimension. */
 void contact_profile_make(struct contact_profile *profile, int dim);
 
-/* Evaluates the contact of a row with the faces beside it: gap, derivatives of its energy. First of two passes, before
- * contact_face_row. dt: step since the last call [s]. */
+/* Computes gap and energy derivatives of the contact between listed particle number `row` and the faces beside it, by
+ * the contact law of form `surface`, into c->face[row]. First of two passes over the particles; contact_face_row adds
+ * the forces. dt: time since the last call [s]; found: receives largest overlap and number of contacts. */
 void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
                            struct contact_found *found);
 
-/* Adds the contact force on the particle of a row to p->f: second of two passes. */
+/* Adds the contact force on listed particle number `row` to p->f, by the contact law of form `surface`. Second of two
+ * passes: contact_face_evaluate must have been called for all listed particles. */
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the contact energy of a row [J]. */
+/* Returns the elastic contact energy of listed particle number `row` [J], by the contact law of form `surface`. */
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Determines where contact begins for a row. was: its row on the list `before`, -1: not listed. The energy of a row
- * that was listed does not change. */
+/* Determines the height above the face at which contact of listed particle number `row` begins, after a search, by the
+ * contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was not listed.
+ * The contact energy of a particle that was listed does not change. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
 
-/* Returns the force along the rate of the gap for a row of stiffness K and energy 1/4 K gap^2, in the units of K gap.
- * advance: a step was done since the last call. */
+/* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when
+ * contact begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy
+ * 1/4 stiffness gap^2. b: state of this contact, updated if `advance`, i.e. if a time step was done since the last
+ * call; otherwise the last force is returned again. */
 real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance);
 
-/* Returns the account of a row with gap `gap`. before: its account on the previous list, NULL: new on the list. */
+/* Returns the initial state of contact_balance for a contact with the present gap on a new list. before: its state on
+ * the previous list, whose energy error is carried over; NULL if it was not listed. */
 struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
 
 /* Contribution of entry l to the field at entry k: weight; derivative of the energy of k by r over r [N/m]; vector from
@@ -149,56 +176,69 @@ struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Computes the contribution at the positions x - lag v [s]; the energy is that of the present positions. */
+/* Computes the contribution of listed particle l to the density of the face at listed particle k, at the positions x -
+ * lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
 struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                                      real lag);
 
-/* Advances a friction spring by a step. normal: of the face (0: contact ended); slid: displacement of the particle
- * relative to the face [m]; k [N/m]; most: force at which the spring slides [N], 0 after separation. */
+/* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slid:
+ * displacement of the particle relative to the face in the step, dim components [m]; k: stiffness of the spring [N/m];
+ * most: force at which the spring slides [N], 0 after separation. */
 void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
 
-/* Advances the friction spring of a row by a step dt [s]; first of two passes, before contact_face_drag. */
+/* Advances the friction spring of listed particle number `row` by a time step dt [s], by the contact law of form
+ * `surface`. First of two passes over the particles; contact_face_drag adds the forces. */
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
 
-/* Adds friction on the particle of a row and the reactions of rows whose face contains it to p->f: second of two
- * passes. */
+/* Adds friction forces on listed particle number `row` to p->f: the force of its own spring, and the reactions to
+ * springs of particles that slide on a face to which it belongs. Second of two passes, after contact_face_slide for
+ * all particles. */
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the energy stored in all friction springs [J]. */
+/* Returns the elastic energy stored in all friction springs [J]. */
 real contact_friction_stored(const struct contact *c);
 
-/* Allocates the reactions of all rows; they are computed with the next forces. */
+/* Allocates the reactions to friction springs, one for each listed particle. Their values are computed with the next
+ * contact forces. */
 void contact_reactions_make(struct contact *c);
 
-/* Allocates the springs of a new list and copies those of rows that were listed before. */
+/* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
+ * previous list `before`. */
 void contact_springs_begin(struct contact *c, const struct contact *before);
 
-/* Copies spring number `at` of a previous list (NULL or -1: none) to *to. */
+/* Copies friction spring number `at` of the previous list `before` to *to. Leaves *to unchanged if `before` is NULL or
+ * `at` is -1, i.e. if the particle was not listed. */
 void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at);
 
-/* Sets the work of friction of a new list to that of the list before, plus the energy of springs that no longer
- * exist. */
+/* Sets the friction work of a new list of particles to that of the previous list `before` plus the elastic energy of
+ * springs that are not on the new list. */
 void contact_friction_settle(struct contact *c, const struct contact *before);
 
-/* Lists the particles within `skin` [m] of each rigid body. before: the previous list. */
+/* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
+ * the friction springs. before: the previous list, from which known particles keep gap and spring. */
 void contact_rigid_find(struct contact *c, const struct contact *before, const struct particles *p, real skin);
 
-/* Releases the lists near rigid bodies. */
+/* Frees the lists of particles near rigid bodies. */
 void contact_rigid_free(struct contact *c);
 
-/* Returns true if a point of a rigid body has moved by `far` [m] or more since the last search. */
+/* Returns true if some point of a rigid body has been displaced by `far` [m] or more since the last search for pairs.
+ */
 bool contact_rigid_has_moved(const struct contact *c, real far);
 
-/* Computes the contact forces of all rigid bodies on particles and the reactions on the bodies. */
+/* Adds the contact forces of all rigid bodies on particles to p->f, and the opposite forces and moments to the rigid
+ * bodies. dt: time since the last call [s], by which friction springs are stretched; all: receives largest overlap and
+ * number of contacts. */
 void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct contact_found *all);
 
-/* Saves or restores the lists near rigid bodies. */
+/* Saves the lists of particles near rigid bodies to the archive if a->saving, else restores them. Returns FAILED, with
+ * a message, if the archive cannot be read or written, or if a restored list has indices or counts that do not fit. */
 status contact_rigid_archive(struct contact *c, struct archive *a);
 
-/* Saves an array [count] of elements of `size` bytes, or allocates and restores it. */
+/* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
+ * of elements of `size` bytes. Returns FAILED if the archive cannot be read or written or the stored size differs. */
 status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
-/* Returns the energy of contact with all rigid bodies [J]. */
+/* Returns the elastic energy of the contacts with all rigid bodies at the present positions [J]. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);
 
 #endif

@@ -57,7 +57,8 @@ static ALWAYS_INLINE pair pair_load(const real *from)
     return a;
 }
 
-/* Copies the block of entry q of row i to entry [w][w]. */
+/* Copies the matrix block of entry q in row of blocks i to `entry`, w x w values row by row [N/m]. Entry q is an index
+ * in l->column; w: components of a node of this level. */
 static ALWAYS_INLINE void level_entry(const struct level *l, int64_t i, int64_t q, const int w, real *entry)
 {
     const bool own = l->column[q] == i;
@@ -92,56 +93,64 @@ enum { ROWS_MANY = 200 };
             ROWS(N, NAME(__VA_ARGS__, 6, 6));                                                                          \
     } while (0)
 
-/* Returns the share of `scale` below which a pivot is a motion without stiffness. It is larger for unconstrained
- * fragments: springs rounded to floats resist rotations by 6e-8 of their stiffness. */
+/* Returns the share of the mean stiffness l->scale below which a pivot of the diagonal block of node i counts as 0,
+ * i.e. as a motion without stiffness [1]. The share is larger for the finest level and for unconstrained fragments, as
+ * stiffnesses rounded to floats resist rotations by 6e-8 of their value. */
 static inline real pivot_least(const struct level *l, int64_t i)
 {
     return l->unconstrained[i] || l->single ? 1e-6 : 1e-13;
 }
 
-/* Inverts the diagonal blocks. Pivots without stiffness are replaced by `scale`. */
+/* Computes l->inverse, the inverse of the diagonal block of each node of a level. Pivots without stiffness
+ * (pivot_least) are replaced by the mean stiffness l->scale. */
 void level_invert(struct level *l);
 
-/* Marks the nodes of the next level that belong to fragments without constrained nodes (next->unconstrained). */
+/* Finds the nodes of the next coarser level that belong to fragments without constrained nodes, from those of level l,
+ * and stores them in next->unconstrained. */
 void level_unconstrained(const struct level *l, struct level *next);
 
-/* Estimates `largest` by Lanczos iterations. */
+/* Estimates l->largest, the largest eigenvalue of D^-1 K with the matrix K of level l and its diagonal blocks D, from
+ * below by Lanczos iterations. */
 void level_largest(struct level *l);
 
-/* Groups the nodes of a level and their neighbours into aggregates, the nodes of the next level: sets aggregate and
- * coarse. */
+/* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the
+ * next coarser level: sets l->aggregate and l->coarse, the number of aggregates. */
 void level_aggregate(struct level *l);
 
-/* Makes the rigid motions of `l` orthonormal in each aggregate (l->tentative), and sets n, width, scale and mode of the
- * next level. */
+/* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
+ * width, scale and rigid motions of the nodes of the next coarser level. */
 void level_modes(struct level *l, struct level *next);
 
-/* Computes down and up: the tentative motions, smoothed by a step with the scaled matrix. */
+/* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction:
+ * the orthonormal rigid motions of aggregates, smoothed by one step with the matrix scaled by its diagonal. */
 void level_transfer(struct level *l);
 
-/* Computes the matrix of the next level, up x matrix x down. */
+/* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
+ * l->down. */
 void level_galerkin(const struct level *l, struct level *next);
 
-/* Factorises the matrix of level l. Pivots without stiffness are replaced by its `scale`. */
+/* Factorises the matrix K of level l as U'DU into d. Pivots without stiffness are replaced by the mean stiffness
+ * l->scale. Release with dense_free. */
 void dense_make(struct dense *d, const struct level *l);
 
-/* Solves for x [n] with load b [n]. */
+/* Solves K x = b with the factorisation d of dense_make. b: d->n loads; x: receives d->n values. */
 void dense_solve(const struct dense *d, const real *b, real *x);
 
-/* Frees the factorisation. */
+/* Frees the arrays of a factorisation. */
 void dense_free(struct dense *d);
 
-/* Computes t = b - K x. */
+/* Computes the residual l->t = l->b - K l->x of level l with its matrix K. */
 void level_residual(struct level *l);
 
-/* Computes d = keep d + step D^-1 (b - K x) and y = x + d, with D the diagonal blocks, and swaps x and y. zero: x
- * and d are 0 on entry. */
+/* Does one step of a polynomial smoother on level l: d = keep d + step D^-1 (b - K x) and x = x + d, with the matrix K
+ * of the level and its diagonal blocks D. keep, step: coefficients of the step [1]; zero: true if x and d are 0 on
+ * entry, which saves the product. */
 void level_relax(struct level *l, real keep, real step, bool zero);
 
-/* Computes next->b = up t. */
+/* Computes the load of the next coarser level from the residual of level l: next->b = l->up l->t. */
 void level_restrict(const struct level *l, struct level *next);
 
-/* Computes x += down next->x. */
+/* Adds the solution of the next coarser level to that of level l: l->x += l->down next->x. */
 void level_prolong(struct level *l, const struct level *next);
 
 #endif

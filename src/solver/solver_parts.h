@@ -4,17 +4,22 @@
 
 #include "solver/solver.h"
 
-/* Computes the bond forces at the present positions into part.f; bonds do not break. */
+/* Computes the bond forces at the present positions of the particles, mirror images updated first, into part.f [N]. No
+ * bond breaks. */
 void solver_bond_force(const struct static_body *body);
 
-/* Computes out = K in: the decrease of bond forces along `in` from the reference positions, by central differences.
- * strain_ratio: largest strain of `in` over its largest component [1/m]. */
+/* Computes out = K in, the product of the tangent stiffness K of the bonds at the reference positions with a
+ * displacement [N]: the decrease of the bond forces along `in`, by central differences. in: a vector for each particle
+ * [m]; strain_ratio: largest strain of `in` over its largest component [1/m]. Overwrites positions and forces of the
+ * particles. */
 void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio);
 
-/* Computes the norms of part.f on free components, norm[0], and on constrained ones, norm[1] [N]. */
+/* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
+ * components. */
 void solver_norms(const struct solver *s, const struct particles *p, real *norm);
 
-/* Computes residual and scale from part.f: the residual, and the reactions. */
+/* Computes residual and scale of a static solution (solver_scale) from the forces p->f: the norm over free components
+ * is the residual force, over constrained components the reaction. */
 void solver_measure(struct solver *s, const struct particles *p);
 
 #endif
