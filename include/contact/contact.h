@@ -187,8 +187,8 @@ void contact_record(struct contact *c, const struct particles *p);
  * last call of contact_force. */
 void contact_clock(struct contact *c, real t);
 
-/* Returns the elastic energy of all contacts at the present positions, with rigid bodies included [J]. A pair with a
- * mirror image of a particle counts half. */
+/* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
+ * springs included [J]. A pair with a mirror image of a particle counts half. */
 real contact_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles in contact with rigid body number `body` [m], or 0 if

@@ -6,14 +6,17 @@
 #include "data/mesh.h"
 #include "loads/loads.h"
 
-/* Updates the active blocks after a step: finds the levels of all blocks if they are not current, else activates the
- * neighbours of blocks that have moved. */
+/* Updates the list of active blocks of nodes (those that computations include, as all others are at rest), after a
+ * step: adds the neighbours of blocks whose nodes have moved. After active_nodes_all the list is found anew, from all
+ * blocks that move, have moving boundary conditions `l`, or have exposed points. */
 void active_nodes_update(struct mesh *mesh, const struct loads *l);
 
-/* Activates the cells of points that bonds have newly reached. */
+/* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
+ * computations include, after new points have become exposed. */
 void active_nodes_add_exposed(struct mesh *mesh);
 
-/* Activates all blocks, after the behaviour of nodes has changed. */
+/* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update; for use after
+ * boundary conditions or cells have changed. */
 void active_nodes_all(struct mesh *mesh);
 
 #endif

@@ -70,113 +70,139 @@ enum levels_wanted { WANTED_NOT, WANTED_STRESS, WANTED_LOST_BOND };
 /* Distance of a cell from coarse cells: less than safe_cells, less than roomy_cells, or more. */
 enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
-/* Returns the number of cells of a level; of level 0, of cells that hold points and are in no coarse cell. */
+/* Returns the number of cells of a refinement level that compute forces. Level 0, the finest: cells that hold material
+ * points and belong to no coarse cell. */
 int64_t levels_cells(const struct mesh_levels *l, int level);
 
-/* Returns the mesh of a level. */
+/* Returns the mesh of a refinement level: level 0 the mesh with material points, higher levels coarse cells. The mesh
+ * belongs to l. */
 static inline struct mesh *level_mesh(struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
-/* Returns the mesh of a level, read-only. */
+/* Returns the mesh of a refinement level for reading only: level 0 the mesh with material points, higher levels coarse
+ * cells. The mesh belongs to l. */
 static inline const struct mesh *level_mesh_of(const struct mesh_levels *l, int level)
 {
     return level > 0 ? &l->at[level].mesh : l->fine;
 }
 
-/* Returns the number of steps after which all levels are at the same time. */
+/* Returns the number of steps between instants at which all refinement levels have reached the same time, 2^n for n
+ * coarse levels. */
 static inline int levels_stride(const struct mesh_levels *l) { return 1 << l->n; }
 
-/* Makes n coarse levels over the mesh `fine`; all cells are of level 0 at first. fine: kept by reference; density:
- * [materials, kg/m^3]. FAILED or REFUSED if nodes of a level cannot be made. */
+/* Makes n coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh with material
+ * points, kept by reference; source: material constants, slits and voids; density: by material number [kg/m^3]. n = 0
+ * makes no levels. Returns FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
 status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
                    const struct mesh_source *source, const real *density);
 
-/* Releases all arrays. */
+/* Frees the arrays of l; the finest mesh stays with the caller. */
 void levels_free(struct mesh_levels *l);
 
-/* Sets the minimum numbers of cells of level 0 between a point that converts and a coarse cell: `safe`, the range of
- * its forces; `roomy`, at which finer cells are requested, since points near breaking bonds convert next. */
+/* Sets two distances between a material point that converts and a coarse cell, in cells of level 0 (the finest):
+ * `safe`, below which conversion is postponed, as forces of the point would reach the coarse cell; `roomy`, below
+ * which finer cells are requested, as points near breaking bonds convert next. */
 void levels_distances(struct mesh_levels *l, int safe, int roomy);
 
-/* Sets the inertia of coarse cells (kernels/mesh/mesh_inertia.h) such that their dispersion of waves equals that of
- * bonds with the dispersion of lumped cells of edge `edge` [m], for time steps dt [s] and this wave speed [m/s]. */
+/* Sets the inertia of coarse cells (kernels/mesh/mesh_inertia.h) so that waves in them have the dispersion of waves in
+ * the bonds of a lattice. edge: edge of a cell with lumped mass that has the dispersion of the bonds [m]; wave_speed:
+ * longitudinal [m/s]; dt: time step [s]. */
 void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
-/* Computes the coarsest admissible levels: to[fine->grid.n] is the level of the largest cell that is whole, of one
- * material, balanced, and contains no cell of level 0 marked in `demand`. limit: [fine->grid.n] upper bounds, NULL: the
- * number of levels. */
+/* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
+ * material and contain no cell marked in `demand`; levels of adjacent cells differ by at most one. demand: a byte for
+ * each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required; limit: highest level of each cell, NULL
+ * for all levels; to: receives the level of the cell to which each cell of level 0 shall belong. */
 void levels_map(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand, const uint8_t *limit,
                 uint8_t *to);
 
-/* Lowers `limit` by one in cells of `level` that would be coarser than at present and in which the motion of the nodes
- * of level 0 differs from the motion of the corners by an energy of more than `most` [J/kg]. Returns true if there are
- * any. The motion of level 0 must be up to date (levels_prolong). */
+/* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
+ * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
+ * difference exceeds `most` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of
+ * level 0. The motion of the nodes of level 0 must be up to date (levels_prolong). Returns true if a limit was
+ * lowered. */
 bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit);
 
-/* Marks all cells of level 0 in coarse cells that contain a marked one, for the levels level[fine->grid.n]. */
+/* Extends marks to complete coarse cells: if one cell of level 0 in a coarse cell is marked, all cells of level 0 in
+ * it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each cell of
+ * level 0. */
 void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 
-/* Marks all cells within `reach` cells of a marked one. */
+/* Marks all cells of level 0 within `reach` cells of a marked one, in all directions including diagonals. mark: a byte
+ * for each cell of level 0, not 0 if marked. */
 void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
 
-/* Changes the levels to level[fine->grid.n]. Splitting interpolates; merging samples displacements and velocities and
- * distributes the remaining momentum of a cell among its nodes: momentum is exact. All levels must be at the same time.
- * Sets forces of nodes to 0. */
+/* Changes the refinement level of cells to level[fine->grid.n], for each cell of level 0 the level of the cell to
+ * which it shall belong. Where cells are split, displacement and velocity are interpolated; where cells are merged,
+ * the coarse nodes receive those of the nodes at their positions, and the remaining momentum is distributed among the
+ * corners, so that momentum is conserved. All levels must be at the same time. Nodal forces become 0. source: material
+ * constants. */
 void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                    const uint8_t *level);
 
-/* Applies half an impulse of the cells of every level, forward (dt > 0) or backward (dt < 0): velocities of level L are
- * half a step of 2^L dt behind, while a change of levels requires all at the same time. m: [materials]; finite: strains
- * are finite. */
+/* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all
+ * levels to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. m:
+ * by material number; finite: true if strains are finite, false if small; dt: time step of level 0 [s]. */
 void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt);
 
-/* Sets the motion of all ghosts to that of the nodes at their positions; in steps, only ghosts of due levels are
- * set. */
+/* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
+ * time step does so only for the levels that it moves.) */
 void levels_sync(struct mesh_levels *l);
 
-/* Interpolates displacements and velocities of coarse cells to all nodes of level 0 inside them. */
+/* Interpolates displacement and velocity of coarse cells to all nodes of level 0 inside them. */
 void levels_prolong(struct mesh_levels *l);
 
-/* Interpolates as levels_prolong to the nodes of level 0 around which there are particles. */
+/* Interpolates displacement and velocity of coarse cells to the nodes of level 0 inside them that have particles in an
+ * adjacent cell. */
 void levels_prolong_points(struct mesh_levels *l);
 
-/* Returns the highest level that acts in step number `step`. */
+/* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
 int levels_due(const struct mesh_levels *l, int64_t step);
 
-/* Computes the forces of coarse cells up to level `due`, with their parts on nodes of the finer levels; forces of level
- * 0 must be complete before. */
+/* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
+ * interfaces. The forces of level 0 must be complete before. m: by material number; finite: true if strains are
+ * finite, false if small. */
 void levels_force(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, int due);
 
-/* Moves all levels up to `due`, whose walls must be set. Adds the impulse [N s] and work [J] of walls to impulse and
- * *work. Returns the largest component of a velocity [m/s]. */
+/* Integrates the motion of the nodes of levels 0 to `due`, level L over 2^L steps. dt: time step of level 0 [s];
+ * dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s] and work [J]
+ * of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the largest
+ * component of a nodal velocity [m/s]. */
 real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work);
 
-/* Returns the kinetic energy of the coarse levels [J]. */
+/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 is not included. */
 real levels_kinetic(const struct mesh_levels *l);
 
-/* Returns the strain energy of the coarse cells [J]. */
+/* Returns the strain energy of all coarse cells [J]; level 0 is not included. m: by material number; finite: true if
+ * strains are finite, false if small. */
 real levels_strain(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
 
-/* Returns the excess energy of a leap-frog kick dt of the coarse levels [J] (diagnostics_kick). */
+/* Returns, for the nodes of all coarse levels, the mean kinetic energy before and after a leap-frog velocity update
+ * minus the kinetic energy that leap-frog conserves [J], as diagnostics_kick does for particles. dt: time step of
+ * level 0 [s]. */
 real levels_kick(const struct mesh_levels *l, real dt);
 
-/* Returns the sum of v . f over the nodes of the coarse levels, times the 2^L steps over which forces of level L act
- * [W]. */
+/* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps
+ * for which forces of level L act [W]. */
 real levels_power(const struct mesh_levels *l);
 
-/* Finds the coarse cells of `level` whose particles are not made. cell: NULL, or set to their indices. Returns their
- * number. */
+/* Lists the coarse cells of a level that contain cells without particles (particles that were never made, as they are
+ * not needed). cell: receives the indices of the cells, NULL to count only. Returns their number. */
 int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell);
 
-/* Returns true if a coarse cell is inverted, and sets X [dim] to the position of its first point [m]. */
+/* Returns true if the deformation has turned a coarse cell inside out; X then receives the reference position of its
+ * first quarter point, dim components [m]. */
 bool levels_inverted(const struct mesh_levels *l, real *X);
 
-/* Adapts the levels to a mesh of level 0 that was rebuilt with other particles; coarse cells are unchanged. */
+/* Connects the levels to a finest mesh that has been rebuilt with other particles; coarse cells, their motion and
+ * their levels are kept. source: material constants. */
 void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
-/* Saves or restores levels, motion of nodes and the data for the next change; level 0 must be restored before. */
+/* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if
+ * a->saving, else restores them. The finest mesh must be restored before. source: material constants. Returns FAILED,
+ * with a message, if the archive cannot be read or written or if the restored levels are inconsistent. */
 status levels_archive(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                       struct archive *a);
 

@@ -28,43 +28,50 @@ struct mesh_source {
     int mirrors;
 };
 
-/* Makes a mesh of all particles with FLAG_MESHED, with nodes by the anchor and cell size of `like`; displacement and
- * velocity of the nodes are fitted to the points by least squares. REFUSED if particles are not two per cell and
- * direction, all of one volume, or if two bodies share a node and would move as one. */
+/* Makes a mesh of all particles with FLAG_MESHED. like: grid whose anchor and cell size define the nodes; source:
+ * material constants, partial stresses, slits and voids. Unless source->still, displacement and velocity of the nodes
+ * are fitted to those of the particles by least squares. Returns REFUSED, with a message, if the particles are not two
+ * per cell and direction, all of one volume, or if two bodies share a node and would move as one; FAILED if there are
+ * too many nodes. Release with mesh_free. */
 status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like, const struct mesh_source *source);
 
-/* Releases all arrays. */
+/* Frees the arrays of a mesh. */
 void mesh_free(struct mesh *mesh);
 
-/* Returns the number of disconnected pieces of such a mesh, which share no node; 0 if particles are not two per cell
- * and direction. */
+/* Returns the number of parts of a mesh of all particles that share no node with each other. like: grid whose anchor
+ * and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not two
+ * per cell and direction, so that no mesh is possible. */
 int64_t mesh_pieces(const struct particles *p, const struct grid *like, const struct hollow *hollow);
 
-/* Updates the mesh after n particles `changed` (NULL: any) have converted or changed their partial stress: removes
- * particles that are no longer material points, and rebuilds the cells of changed ones. Nodal velocities are unchanged:
- * each particle removes its share of momentum. Returns the energy of relative motion inside cells that is lost [J]. */
+/* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
+ * partial stress: removes peridynamic particles from their cells and recomputes the cells. Nodal velocities are kept;
+ * each particle removes its share of mass and momentum. Returns the kinetic energy of motion relative to the nodes
+ * that is lost [J]. */
 real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
                  int64_t n);
 
-/* Recomputes the stiffness of cells if all points remain and only partial stresses of n points `changed` have changed.
- * Returns false, without any change, if the set of partial cells changes. */
+/* Recomputes the stiffness of cells after only the partial stresses of n points `changed` have changed; all points
+ * remain in the mesh. Returns false, without any change, if one of these cells was not or would no longer be a partial
+ * cell; call mesh_follow then. */
 bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                   const int32_t *changed, int64_t n);
 
-/* Inserts n listed particles, which are material points again, in the mesh. Their momentum is added to that of the
- * nodes around them, whose velocity becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N); displacements of these nodes
- * are fitted anew by least squares over all points around them. Returns the kinetic energy that is lost [J]. Call
- * mesh_follow with the points among the changed before the mesh moves, to make their cells. */
+/* Adds n listed particles, which have become material points again, to the mesh. Momentum is conserved: the velocity
+ * of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N), with shape functions N; the
+ * displacement of these nodes is fitted by least squares to all points around them. Call mesh_follow with these
+ * particles among the changed ones afterwards, to make their cells. Returns the kinetic energy that is lost [J]. */
 real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
-/* Returns true if cell I contains a part of the body. */
+/* Returns true if cell I of the mesh contains a part of the body. */
 bool mesh_cell_holds(const struct mesh *mesh, int64_t I);
 
-/* Finds the exposed points, whose motion is needed outside the mesh in every step: with bonds, loads or images. */
+/* Lists the exposed points of the mesh, whose positions and velocities other parts of a run need in every step:
+ * material points with bonds, loads, or mirror images. l: boundary conditions. */
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 
-/* Returns the largest stable time step by the cells alone [s]: 2/omega of the stiffest single cell. any: for each
- * subset of its points that may remain, else for the present cells. density: [materials, kg/m^3]. */
+/* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
+ * one cell, a lower bound for the mesh. any: true to include cells that have lost any subset of their points by
+ * conversion, false for the present cells. density: by material number [kg/m^3]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
 /* Computes the stiffness K of cell I for displacements of its corners at rest, column by column, component fastest
@@ -78,14 +85,17 @@ int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
 /* Minimum number of cells of a level across any part of the body. */
 enum { CELLS_ACROSS = 6 };
 
-/* Computes the level of the coarsest cells that the thickness of the body allows in each cell, room[mesh->grid.n]; at
- * planes of symmetry the body continues. Returns the largest of them. */
+/* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
+ * room[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
+ * these levels. */
 int mesh_room(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room);
 
-/* Marks all cells of a grid within `reach` cells of a marked one. */
+/* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
+ * bytes, not 0 if marked. */
 void cells_dilate(const struct grid *g, uint8_t *mark, int reach);
 
-/* Saves or restores the motion of the nodes. */
+/* Saves displacement and velocity of the nodes of a mesh to the archive if a->saving, else restores them. Returns
+ * FAILED if the archive cannot be read or written or a stored size differs. */
 status mesh_archive(struct mesh *mesh, struct archive *a);
 
 #endif

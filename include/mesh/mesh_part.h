@@ -50,61 +50,76 @@ struct reference_frame {
     real speed; /* largest component of a nodal velocity [m/s] */
 };
 
-/* Chooses the frame of each body with a reason, marks the particles in the reference frame, and makes the grids, which
- * the choice requires. REFUSED if a body cannot be in the frame that the scene requires. */
+/* Decides for each body of scene s whether its material points use a mesh fixed to the material (reference frame) or
+ * the background grid (current frame), with a reason in r->choice; sets FLAG_MESHED of the particles in the reference
+ * frame, and makes the background grids mpm for this choice. Returns REFUSED, with a message, if the scene requires
+ * the reference frame for a body that cannot use it. */
 status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s);
 
-/* Returns true if a body is in the reference frame. */
+/* Returns true if at least one body is in the reference frame. */
 bool frame_any(const struct reference_frame *r);
 
-/* Returns true if the reference frame is possible: the particles are one piece on a lattice that fits the cells of the
- * grid. */
+/* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
+ * cells of the background grid. */
 bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm);
 
-/* Makes the mesh with the partial stresses and slits of `cuts`. still: the caller sets the motion of the nodes. */
+/* Makes the mesh of the bodies in the reference frame, and finds exposed points and loaded nodes. cuts: partial
+ * stresses and slits of this mesh, its other members are ignored; still: true if the caller sets displacement and
+ * velocity of the nodes afterwards. Returns REFUSED or FAILED, with a message, as mesh_make does. */
 status frame_make(struct run *e, const struct mesh_source *cuts, bool still);
 
-/* Returns the smallest critical time step of the cells, whichever particles convert [s]; INFINITY: no cells. */
+/* Returns the critical time step of the cells of the reference frame [s], INFINITY if there are none. With the
+ * adaptive method and without partial stress (coupling), cells that have lost any of their points by conversion are
+ * included. */
 real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
-/* Updates exposed points and loaded nodes after points or levels have changed. */
+/* Finds again the exposed points of the mesh (points with bonds, loads or mirror images) and the nodes on which the
+ * boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
 void frame_follow_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                          struct loads *loads);
 
-/* Updates positions of the exposed points (mesh_find_exposed), and the strain of points of state-based PD-MPM bonds. */
+/* Updates the positions of the exposed points (mesh_find_exposed) from the nodes, and the strain at points with
+ * state-based bonds to peridynamic particles. */
 void frame_exposed_follow(struct reference_frame *r, struct particles *p);
 
-/* Computes the forces of the nodes in step number `step`: of bonds, stored in p->f before, and of cells. */
+/* Computes the nodal forces of the reference frame in step number `step`: the forces of bonds on exposed points, which
+ * p->f must contain, distributed to the nodes, plus the forces of all cells whose refinement level acts in this step.
+ */
 void frame_force(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Moves the nodes under the forces by frame_force, and the exposed points with the nodes. middle: time in the middle of
- * the step; dt_velocity: time by which velocities advance [s]. */
+/* Integrates the motion of the nodes under the forces of frame_force, then updates the exposed points. loads:
+ * prescribed velocities, whose work and reactions are added up there; middle: time in the middle of the step [s];
+ * dt_velocity: interval over which velocities are advanced [s]. */
 void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
                 real middle, real dt_velocity);
 
-/* Updates positions, velocities and stresses of all points of the mesh, and images. */
+/* Updates positions, velocities and stresses of all material points of the mesh from the nodes, and their mirror
+ * images by `loads`. */
 void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of all points of the mesh, and images. */
+/* Updates positions and velocities of all material points of the mesh from the nodes, and their mirror images by
+ * `loads`. */
 void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of n listed points of the mesh, except in coarse cells, and images. */
+/* Updates positions and velocities of n listed material points of the mesh from the nodes, and mirror images by
+ * `loads`. Points in coarse cells are left unchanged. list: particle indices. */
 void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
                        int64_t n);
 
-/* Updates the mesh after `converted` particles have converted and the partial stresses of the `touched` points of
- * `partial` have changed. Adds the energy lost to *damped [J]. Returns false if only the stiffness of cells has
- * changed; otherwise frame_follow_points must be called. */
+/* Updates the mesh after `converted` particles have become peridynamic and the partial stresses of the points
+ * partial->touched have changed. Adds the energy lost to *damped [J]. Returns false if only the stiffness of cells has
+ * changed, true if points have left the mesh; call frame_follow_points then. */
 bool frame_follow(struct reference_frame *r, struct particles *p, int64_t converted,
                   const struct partial_stress *partial, real *damped);
 
-/* Inserts n listed particles that have become material points again. Adds the energy lost to *damped [J]. */
+/* Adds n listed particles, which have become material points again, to the mesh (mesh_insert). Adds the energy lost to
+ * *damped [J]. */
 void frame_insert(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped);
 
-/* Returns the kinetic energy of all nodes [J]. */
+/* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
 real frame_kinetic(const struct reference_frame *reference);
 
-/* Returns the strain energy of all cells [J]. */
+/* Returns the strain energy of all cells of the reference frame, of all refinement levels [J]. */
 real frame_strain(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load that requires the smallest cells. */
@@ -140,63 +155,81 @@ struct levels_choice {
     struct load_rise rise;
 };
 
-/* Computes r->room, if the run may have coarse cells. particles: number of the body. */
+/* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
+ * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
+ * made. */
 void frame_levels_room(struct reference_frame *r, const struct scene *s, int64_t particles);
 
-/* Chooses the number of levels. dt_critical: critical time step [s]. */
+/* Returns the number of coarse refinement levels for scene s, given by the scene or chosen from loads and thickness of
+ * the body, with the reason. dt_critical: critical time step [s]. */
 struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
                                          const struct scene *s, real dt_critical);
 
-/* Writes the choice in words to text [room]. */
+/* Writes the number of refinement levels and its reason in words to `text` (capacity `room` bytes). c: result of
+ * frame_levels_choice. */
 void frame_levels_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room);
 
-/* Returns true if the levels given by the scene are too coarse for its loads, and writes the reason to text [room]. */
+/* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
+ * the reason to `text` (capacity `room` bytes). c: result of frame_levels_choice. */
 bool frame_levels_coarse(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
                          char *text, size_t room);
 
-/* Makes the coarse cells, once the time step is known, with initial levels unless `restored`. */
+/* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
+ * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
 status frame_levels_make(struct run *e, bool restored);
 
-/* Returns true if levels may change before step number `step`. */
+/* Returns true if refinement levels may change before step number `step`: from the second step on, when all levels
+ * have reached the same time. */
 bool frame_levels_due(const struct mesh_levels *l, int64_t step);
 
-/* Computes the levels of the cells for the next steps [mesh.grid.n]. step: number of the next step; mass: of the body
- * [kg]. Returns the levels, which the caller frees, or NULL if they do not change. */
+/* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
+ * conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees, with the
+ * level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
 uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p, const struct loads *loads,
                            int64_t step, real mass);
 
-/* Changes the levels; all cells of level 0 must have particles. */
+/* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_plan. Cells that become level
+ * 0 must have particles (frame_hollow_lacks). The change of energy is added to e->damped. */
 void frame_levels_apply(struct run *e, const uint8_t *level);
 
-/* Postpones the conversion of points near coarse cells until these are finer, before conversion. */
+/* Postpones the conversion of material points that are too close to coarse cells, by clearing their flags, and
+ * requests finer cells there. To be called before conversion. */
 void frame_levels_guard(struct mesh_levels *l, struct particles *p);
 
-/* Updates walls of coarse cells, exposed points and loaded nodes after levels have changed. */
+/* Finds again the nodes of coarse cells on which boundary conditions act, the exposed points and the loaded nodes,
+ * after refinement levels have changed. */
 void frame_levels_found(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                         struct loads *loads);
 
-/* Returns the reason why all particles are made; NULL: some may be left out. */
+/* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
+ * be left out. */
 const char *frame_hollow_obstacle(const struct scene *s);
 
-/* Finds the cells whose particles are not needed, before particles are made. */
+/* Decides which cells need no particles because they will be inside coarse cells, before particles are made: away from
+ * pre-cracks, loads and probes. h: receives these cells; no change if all particles must be made or too few can be
+ * left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many cells. */
 status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source);
 
-/* Compares the initial levels (NULL: no coarse cells) with the particles that are made. Returns false if particles are
- * missing; the run must be set up again then. */
+/* Checks that all cells of level 0 have particles under the initial refinement levels. level: level of each cell, NULL
+ * if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels follow from a
+ * checkpoint; r->hollow is then corrected and the run must be set up again. */
 bool frame_hollow_start(struct reference_frame *r, const uint8_t *level);
 
-/* Returns true if a cell of level 0, by these levels, has no particles. */
+/* Returns true if a cell that has level 0 by level[mesh->grid.n] has no particles, so that the run must be set up
+ * again with more particles. */
 bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level);
 
-/* Chooses the cells without particles for these levels; takes effect when the run is set up again. */
+/* Chooses the cells without particles for the refinement levels level[mesh.grid.n] and stores them in r->hollow.
+ * Particles change when the run is set up again. */
 void frame_hollow_change(struct reference_frame *r, const uint8_t *level);
 
-/* Makes points for coarse cells without particles, for a frame, in r->shown. body: the particles that are made; m:
- * [materials]; gradients: also the gradient of the displacement. Returns false if there are no such cells. */
+/* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
+ * interpolated from the nodes. body: particles of the run; m: by material number; gradients: true to compute
+ * displacement gradients, too. Returns false if there are no such cells. */
 bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
                          bool gradients);
 
-/* Releases the points of the last frame. */
+/* Frees the points that frame_hollow_points has made. */
 void frame_hollow_points_free(struct hollow_points *h);
 
 #endif

@@ -15,11 +15,13 @@
 #include "mesh_law.h"
 #include "mesh_point.h"
 
-/* Returns true if points of the mesh yield in load steps, i.e. have a plastic stress correction. */
+/* Returns true if material points of the mesh can yield in load steps, i.e. if p has arrays of the plastic stress
+ * correction. p may be NULL: false. */
 static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->plastic_correction[0]; }
 
-/* Maps the trial stress s = C : e - r of point i [symmetric, Pa] to the yield surface, in place, and updates its
- * plastic state. */
+/* Applies return mapping to the stress s of material point i: projects the trial stress C : e - r onto the yield
+ * surface and updates plastic strain and plastic stress correction r of the point. s: symmetric components [Pa],
+ * changed in place; m: constants of its material. */
 static ALWAYS_INLINE void point_flow(const struct particles *p, const struct elastic *m, int64_t i, real *s,
                                      const int dim)
 {
@@ -32,8 +34,9 @@ static ALWAYS_INLINE void point_flow(const struct particles *p, const struct ela
     if (p->out_of_plane) p->out_of_plane[i] = zz;
 }
 
-/* Computes the stress s [symmetric, Pa] of point i at the strain e [row major]. flows: true applies return mapping and
- * updates the plastic state, false keeps the state. */
+/* Computes the stress s of material point i at the strain e. e: dim x dim, row by row, of which the symmetric part
+ * counts; s: receives symmetric components [Pa]; m: constants of its material; flows: true to apply return mapping and
+ * update the plastic state, false to keep the plastic state. */
 static ALWAYS_INLINE void point_stress(const struct particles *p, const struct elastic *m, int64_t i, const real *e,
                                        real *s, const int dim, const bool flows)
 {
@@ -42,8 +45,9 @@ static ALWAYS_INLINE void point_stress(const struct particles *p, const struct e
     if (flows && m->yield > 0) point_flow(p, m, i, s, dim);
 }
 
-/* Returns the elastic energy per volume of point i under the stress s [J/m^3]; in plane strain including the
- * out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy). */
+/* Returns the elastic energy per volume of material point i under the stress s [J/m^3]. In plane strain of a material
+ * that yields, the energy of the out-of-plane stress sigma_zz - nu (sigma_xx + sigma_yy) is included. s: symmetric
+ * components [Pa]; m: constants of its material. */
 static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struct elastic *m, int64_t i, const real *s,
                                           const int dim)
 {
@@ -56,8 +60,10 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Computes the stresses [symmetric, Pa] of the points at place q of eight cells (cell < 0: none). flows: as in
- * point_stress. Returns the sum of their elastic energies per volume [J/m^3] if not `flows`, else 0. */
+/* Computes the stresses of the material points number q of eight cells at a time, one cell in each vector lane. cell:
+ * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: by material number; stress: receives
+ * symmetric components [Pa], 0 in lanes without a point; flows: true to apply return mapping and update the plastic
+ * state. Returns the sum of the elastic energies per volume of the eight points [J/m^3] if flows is false, else 0. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                        const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
                                        const int dim, const bool flows)
@@ -79,8 +85,9 @@ static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct par
     return sum;
 }
 
-/* Adds the stresses [symmetric] of the points at place q to the sums over places: stress of the mean strain s->P, and
- * forces on the bending modes s->force. */
+/* Adds the stresses of the points number q of eight cells to the sums over the points of each cell: to s->P, the
+ * stress of the mean strain, and to s->force, the forces on the bending modes. stress: symmetric components [Pa],
+ * already divided by the number of points. */
 static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *stress, const int q, const int dim)
 {
     for (int k = 0; k < symmetric_count(dim); k++) {
@@ -96,8 +103,9 @@ static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *str
     }
 }
 
-/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield [Pa]
- * (cell < 0: none); updates the plastic state of the points. */
+/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield, by
+ * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points. m: by material
+ * number; cell: eight cell indices, -1 for a lane without cell. */
 static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                      const int32_t *cell, struct mesh_cell *s, const int dim)
 {
@@ -114,7 +122,8 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
     }
 }
 
-/* Returns the elastic energy of eight cells at the present plastic state of their points [J]. */
+/* Returns the elastic energy of eight cells at the present plastic state of their points, which is not changed [J]. m:
+ * by material number; cell: eight cell indices, -1 for a lane without cell; s: strain of the cells. */
 static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                             const int32_t *cell, const struct mesh_cell *s, const int dim)
 {
@@ -124,13 +133,15 @@ static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struc
     return sum * mesh->volume;
 }
 
-/* Lists eight cells of a run from the k-th on; -1 beyond its end. */
+/* Lists eight cells of a run (cells with consecutive indices), from its k-th cell on, in `cell`; -1 beyond the last
+ * cell of the run. */
 static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Lists the eight cells of a group of partial cells; -1 beyond the last. */
+/* Lists the eight cells of a group of partial cells (cells that have lost some of their points) in `cell`; -1 beyond
+ * the last partial cell. */
 static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

@@ -15,8 +15,9 @@
 
 #include "kernels/kernels.h"
 
-/* Returns entry (c, k) of C/M of a cell [1]: the product of 1/3 for each axis along which corners c and k agree, and
- * 1/6 for each other axis. */
+/* Returns the entry for corners c and k of the consistent mass matrix of a linear cell, divided by the mass of the
+ * cell [1]: the product of 1/3 for each axis along which both corners have the same position and 1/6 for each other
+ * axis. */
 static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
 {
     real share = 1;
@@ -24,9 +25,10 @@ static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
     return share;
 }
 
-/* Returns a . alpha (L - C) a over the corners of matched cell I with a = f/m, summed over components [N^2/kg]. Sums
- * and differences along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 +
- * d^2/3)/4. */
+/* Returns the quadratic form a . alpha (L - C) a of cell I [N^2/kg], summed over components, with a = f/m at its
+ * corners from nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and the share
+ * alpha = mesh->match. Sums and differences along the axes diagonalise both matrices: along one axis a . L a = (s^2 +
+ * d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_matched_form(const struct mesh *mesh, int64_t I)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */

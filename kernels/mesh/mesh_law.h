@@ -31,7 +31,8 @@ struct mesh_cell {
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Replaces corner values by modes: v[M] = sum_c sign v[c], in place. */
+/* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by their unscaled modes, in place:
+ * v[M] = sum_c sign(M, c) v[c], with a sign for each axis in the set M that is -1 at its lower end. */
 static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -42,7 +43,8 @@ static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
             }
 }
 
-/* Replaces modes by corner values, the transpose of modes_of_corners: v[c] = sum_M sign v[M], in place. */
+/* Replaces the unscaled modes v[M] of eight cells by values at their 2^dim corners, in place: v[c] = sum_M sign(M, c)
+ * v[M], the transpose of modes_of_corners. */
 static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -55,8 +57,8 @@ static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 
 /* ---- rotation ---------------------------------------------------------------------------------------------------- */
 
-/* Computes R and e = R^T F - 1 of F = 1 + g in 2D. cos - 1 is computed from the sine, to resolve strains far below the
- * round-off of the rotation. */
+/* Computes the rotation R and the strain e = R^T F - 1 of eight cells in 2D from F = R U = 1 + g. g: mean displacement
+ * gradient [1]. cos - 1 is computed from the sine, which resolves strains far below the round-off of the rotation. */
 static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     lanes c = 2.0 + g[0][0] + g[1][1], s = g[1][0] - g[0][1];
@@ -69,7 +71,7 @@ static ALWAYS_INLINE void cell_rotation_2d(const lanes g[3][3], lanes R[3][3], l
     e[0][1] = e[1][0] = c * g[0][1] + s * g[1][1] + s;
 }
 
-/* Computes the matrix C of cofactors of A. */
+/* Computes the matrix C of the cofactors of the 3 x 3 matrix A, for eight cells at a time. */
 static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -79,8 +81,9 @@ static ALWAYS_INLINE void cofactors_3d(const lanes A[3][3], lanes C[3][3])
         }
 }
 
-/* Computes R and the symmetric part of e = R^T F - 1 of F = 1 + g in 3D, by Newton's iteration R <- (R + R^-T)/2
- * (Higham 1986). Cells are far from singular, so few steps are enough. */
+/* Computes the rotation R and the symmetric part e of R^T F - 1 of eight cells in 3D from F = R U = 1 + g, by Newton's
+ * iteration R <- (R + R^-T)/2 (Higham 1986). g: mean displacement gradient [1]. Cells are far from singular, so that
+ * few iterations are enough; after 12 the last value is used. */
 static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], lanes e[3][3])
 {
     for (int a = 0; a < 3; a++)
@@ -106,7 +109,8 @@ static ALWAYS_INLINE void cell_rotation_3d(const lanes g[3][3], lanes R[3][3], l
         for (int b = 0; b < a; b++) e[a][b] = e[b][a] = 0.5 * (e[a][b] + e[b][a]);
 }
 
-/* Replaces vector v [dim] by R v if `back`, else by R^T v. */
+/* Replaces vector v, dim components, by R v if `back` is true (from the rotated axes of the cell to fixed axes), else
+ * by R^T v. R: rotation, for eight cells at a time. */
 static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const bool back, const int dim)
 {
     lanes old[3];
@@ -117,7 +121,9 @@ static ALWAYS_INLINE void rotate_vector(const lanes R[3][3], lanes *v, const boo
     }
 }
 
-/* Adds to P the antisymmetric part that balances the moment m[axis] per volume (axial vector) [Pa]. */
+/* Adds to the stress P an antisymmetric part that balances a given moment. P, e: stress [Pa] and strain in the rotated
+ * axes of the cell; m: moment per volume about each axis [Pa], in 2D m[2] only. The part is the matrix of the cross
+ * product with the vector w that solves (tr U - U) w = m, with U = 1 + e. */
 static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lanes *m, const int dim)
 {
     if (dim == 2) {
@@ -140,7 +146,8 @@ static ALWAYS_INLINE void add_skew(lanes P[3][3], const lanes e[3][3], const lan
 
 /* ---- constitutive law -------------------------------------------------------------------------------------------- */
 
-/* Computes the stress P [Pa] of the symmetric strain e. */
+/* Computes the stress P of the symmetric strain e by Hooke's law, for eight cells at a time [Pa]. m: elastic
+ * constants. */
 static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3], lanes P[3][3], const int dim)
 {
     for (int a = 0; a < dim; a++) {
@@ -150,9 +157,9 @@ static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3]
     }
 }
 
-/* Returns the derivative of the energy per volume by component i of bending mode M, in the axes of the cell [Pa]. The
- * gradient d_j u_i contains mode {j, l} of component i times the coordinate along l, and mode {1, 2, 3} of component i
- * times the two other coordinates. */
+/* Returns the derivative of the elastic energy per volume by component i of bending mode M, in the rotated axes of the
+ * cell [Pa]. M: bit set of axes. The gradient d_j u_i contains mode {j, l} of component i times the coordinate along
+ * l, and mode {1, 2, 3} of component i times the two other coordinates. */
 static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i,
                                 const int dim)
 {
@@ -166,7 +173,9 @@ static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX]
     return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
 }
 
-/* Computes strain and modes from the displacements u[c][i] of the corners [m]. */
+/* Computes rotation, mean strain and bending modes of eight cells into s, from the displacements u[c][i] of corner c
+ * along axis i [m]. h: edge of a cell [m]; rotates: true for finite strain (axes that rotate with the cell), false for
+ * small strain. */
 static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNERS_MAX][3], const int dim,
                                       const bool rotates)
 {
@@ -191,15 +200,16 @@ static ALWAYS_INLINE void cell_strain(struct mesh_cell *s, real h, lanes u[CORNE
     SETS for (int M = 1; M < corners && rotates; M++) if (M & (M - 1)) rotate_vector(s->R, s->mode[M], false, dim);
 }
 
-/* Returns the product of the coordinates of place q along the axes of a set, +-1/4 each [1]. */
+/* Returns the product of the coordinates +-1/4 of material point number q of a cell along the axes in the bit set
+ * `set`, in units of the edge of the cell [1]; 1 for an empty set. */
 static ALWAYS_INLINE real place_along(const int set, const int q)
 {
     const int axes = __builtin_popcount(set), below = __builtin_popcount(set & ~q);
     return (below & 1 ? -1.0 : 1.0) / (1 << 2 * axes);
 }
 
-/* Computes the strain e of eight cells at place q: the mean strain plus the bending modes times the coordinates +-1/4
- * of the place. */
+/* Computes the strain e of eight cells at their material points number q: the mean strain plus the bending modes times
+ * the coordinates +-1/4 of the point. e may be unsymmetric; its symmetric part is the strain. */
 static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q, lanes e[3][3], const int dim)
 {
     for (int i = 0; i < dim; i++)
@@ -212,7 +222,8 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
         }
 }
 
-/* Computes the stress of the mean strain and the forces on the bending modes of whole cells [Pa]. */
+/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (cells
+ * with all of their points) [Pa], from the strain in s. m: elastic constants. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);
@@ -220,8 +231,9 @@ static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s,
         bend(m, s->mode, M, i, dim);
 }
 
-/* Returns an upper bound of the largest principal stress at the points of cells [Pa]: for the mean stress P the largest
- * normal stress plus all shear stresses (Gershgorin), plus the sum of all bending modes. */
+/* Returns for each of eight cells an upper bound of the largest principal stress at its material points [Pa]: for the
+ * stress P of the mean strain the largest normal stress plus the magnitudes of all shear stresses (Gershgorin), plus a
+ * bound on the stress of all bending modes in s. m: elastic constants. */
 static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct mesh_cell *s, const lanes P[3][3],
                                         const int dim)
 {
@@ -234,7 +246,8 @@ static ALWAYS_INLINE lanes cell_tension(const struct elastic *m, const struct me
     return bound + largest * ((m->c11 + m->shear) * 0.25);
 }
 
-/* Returns the elastic energy of the cells [J]. */
+/* Returns the elastic energy of each of eight cells [J], from strain, stress, bending modes and their forces in s.
+ * volume: of a cell [m^3]. */
 static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, const int dim)
 {
     lanes energy = lanes_of(0);
@@ -245,8 +258,9 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     return energy * (0.5 * volume);
 }
 
-/* Adds to P the antisymmetric part that balances the moment of the stresses: axial part of sum P U^T over all modes,
- * with U = 1 + e of the mean strain, plus `moment` [Pa], of bonds to points that rotate with the cell. */
+/* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moment of the
+ * stresses: the axial part of the sum of P U^T over all modes, with U = 1 + e of the mean strain, plus `moment`.
+ * moment: per volume about each axis, of bonds at points that rotate with the cell [Pa]; overwritten. */
 static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -258,8 +272,9 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
     add_skew(s->P, s->e, moment, dim);
 }
 
-/* Adds to P the antisymmetric part that balances the moments of bonds alone, at small strain: the rotation is then the
- * antisymmetric part of the gradient. */
+/* Adds to the stress s->P of eight cells, at small strain, the antisymmetric part that balances the moments of bonds;
+ * the rotation of the cell is then the antisymmetric part of the displacement gradient. moment: per volume about each
+ * axis [Pa]. */
 static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
 {
     lanes none[3][3];
@@ -268,7 +283,9 @@ static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, co
     add_skew(s->P, none, moment, dim);
 }
 
-/* Computes the forces f [N] on the corners, rotated back from the axes of the cell. volume: of a cell [m^3]. */
+/* Computes the forces f[c][i] on corner c along axis i of eight cells from stress and forces on bending modes in s
+ * [N]. h: edge [m]; volume: of a cell [m^3]; rotates: true to rotate s->P and s->force from the axes of the cell to
+ * fixed axes first, in place. */
 static ALWAYS_INLINE void cell_corners(struct mesh_cell *s, real h, real volume, lanes f[CORNERS_MAX][3], const int dim,
                                        const bool rotates)
 {

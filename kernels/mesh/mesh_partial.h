@@ -9,7 +9,8 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements u of the corners of the eight partial cells of a group [m]. */
+/* Loads the displacements u[c][i] of corner c along axis i of the eight cells of a group [m]. group: number of a group
+ * of eight partial cells (cells that have lost some of their points). */
 static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                             const int dim)
 {
@@ -22,7 +23,8 @@ static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t gro
         for (int i = 0; i < dim; i++) u[c][i] = lanes_at(mesh->displacement[i] + mesh->corner[c], first, cell);
 }
 
-/* Stores the modes as one vector v [1]: symmetric components of the mean strain, then the bending modes, set by set. */
+/* Writes strain and bending modes of eight cells in s as one vector v [1]: first the symmetric components of the mean
+ * strain, shear strains as angles, then the bending modes, set by set of axes. */
 static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, const int dim)
 {
     int n = symmetric_count(dim);
@@ -34,7 +36,8 @@ static ALWAYS_INLINE void partial_modes(const struct mesh_cell *s, lanes *v, con
     SETS for (int M = 3; M < 1 << dim; M++) if (M & (M - 1)) for (int i = 0; i < dim; i++) v[n++] = s->mode[M][i];
 }
 
-/* Computes f = K v for a symmetric matrix K of which one half is stored, row by row from the diagonal on. */
+/* Computes f = K v with symmetric matrices K of n x n for eight cells at a time. K: upper triangle, row by row from
+ * the diagonal on; v, f: n values. */
 static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, const int n)
 {
     for (int a = 0; a < n; a++) f[a] = lanes_of(0);
@@ -47,8 +50,9 @@ static ALWAYS_INLINE void cut_times(const lanes *K, const lanes *v, lanes *f, co
     }
 }
 
-/* Adds the forces of state-based bonds on the modes of the cells of a group: f += share^T pull for each bonded point
- * (struct mesh_end) [Pa]. */
+/* Adds to f the forces of state-based bonds on the modes of the cells of a group of partial cells [Pa]: f += share^T
+ * pull for each material point with bonds (struct mesh_end), with p->end_pull of this point. f: one value for each
+ * mode of partial_modes. */
 static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct particles *p, int64_t group, lanes *f,
                                            const int dim)
 {
@@ -62,7 +66,8 @@ static ALWAYS_INLINE void partial_add_ends(const struct mesh *mesh, const struct
     }
 }
 
-/* Adds the moments of bonds about the bonded points of a group, per volume of the cell, to moment[axis] [Pa]. */
+/* Adds the moments of bonds about the material points of a group of partial cells, per volume of the cell, to
+ * moment[axis] [Pa]; in 2D moment[2] only. */
 static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const struct particles *p, int64_t group,
                                               lanes *moment, const int dim)
 {
@@ -73,7 +78,9 @@ static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const str
             moment[k][end->lane] += p->end_moment[c][end->point] * inverse;
 }
 
-/* Computes the stress of the mean strain and the forces on the bending modes of a group of partial cells [Pa]. */
+/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of a group of eight partial
+ * cells (cells that have lost some of their points) [Pa], from the strain in s, the stiffness of each cell, and the
+ * forces of state-based bonds. */
 static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
                                       struct mesh_cell *s, const int dim)
 {

@@ -12,7 +12,8 @@
 #include "kernels/pd/polar.h"
 #include "kernels/mpm/stress.h"
 
-/* Replaces the values at the two ends of an edge by the values at a quarter and at three quarters. */
+/* Replaces the values at the two ends of an edge by the linearly interpolated values at one quarter (*low) and three
+ * quarters (*high) of the edge. */
 static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
 {
     const real by = 0.25 * (*high - *low), near = *low + by;
@@ -20,8 +21,8 @@ static ALWAYS_INLINE void mesh_quarter(real *low, real *high)
     *low = near;
 }
 
-/* Interpolates values v [2^dim] from the corners to the places, in place. The matrix is symmetric, so that the same
- * call distributes values of the places to the corners. */
+/* Replaces values v at the 2^dim corners of a cell by the interpolated values at its 2^dim material points, in place.
+ * The interpolation matrix is symmetric, so that the same call distributes values of the points to the corners. */
 static ALWAYS_INLINE void mesh_places(real *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -29,7 +30,7 @@ static ALWAYS_INLINE void mesh_places(real *v, const int dim)
             if (!(c >> d & 1)) mesh_quarter(&v[c], &v[c | 1 << d]);
 }
 
-/* Returns the value at place q alone, from the values v [2^dim] at the corners; overwrites v. */
+/* Returns the interpolated value at material point number q of a cell. v: values at its 2^dim corners, overwritten. */
 static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -41,14 +42,14 @@ static ALWAYS_INLINE real mesh_place_value(real *v, int q, const int dim)
     return v[0];
 }
 
-/* Loads the values v [2^dim] of a nodal field at the corners of cell I. */
+/* Loads the values of a nodal field at the 2^dim corners of cell I into v. field: a value for each node. */
 static ALWAYS_INLINE void mesh_corners(const struct mesh *mesh, const real *field, int64_t I, real *v, const int dim)
 {
     const int32_t *own = mesh_own_corners(mesh, I);
     for (int c = 0; c < 1 << dim; c++) v[c] = field[own ? own[c] : I + mesh->corner[c]];
 }
 
-/* Computes the displacement gradients at the places of cell I, row major [1]. */
+/* Computes the displacement gradient at each material point of cell I: g[q][a dim + b] = du_a/dX_b at point q [1]. */
 static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, real g[CORNERS_MAX][DIM_MAX * DIM_MAX],
                                          const int dim)
 {
@@ -68,8 +69,9 @@ static ALWAYS_INLINE void mesh_gradients(const struct mesh *mesh, int64_t I, rea
     }
 }
 
-/* Computes e = R^T F_p - 1 at the places of cell I, with R the rotation of its mean gradient (the identity if not
- * `finite`). Row major; only the symmetric part is strain. */
+/* Computes e = R^T F - 1 at each material point of cell I, with the deformation gradient F at the point and the
+ * rotation R of the mean deformation gradient of the cell. R: receives the rotation, dim x dim row by row; the
+ * identity if `finite` is false or in 1D. e[q]: dim x dim row by row for point q; only its symmetric part is strain. */
 static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real *R,
                                        real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim, bool finite)
 {
@@ -95,7 +97,8 @@ static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real 
             }
 }
 
-/* Computes the stress C : sym e, symmetric components s [Pa]. */
+/* Computes the stress s of the strain e by Hooke's law. e: dim x dim row by row, of which the symmetric part counts;
+ * s: receives symmetric components [Pa]; m: elastic constants. */
 static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)
 {
     for (int a = 0; a < dim; a++) {

@@ -4,8 +4,8 @@
 
 #include "mesh_law.h"
 
-/* Loads the displacements u of the corners of eight cells, from the k-th of a run on [m]; lanes beyond the end of the
- * run are set to 0. */
+/* Loads the displacements u[c][i] of corner c along axis i of eight cells of a run (cells with consecutive indices)
+ * [m], from its k-th cell on. Vector lanes beyond the last cell of the run are set to 0. */
 static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
                                         lanes u[CORNERS_MAX][3], const int dim)
 {
@@ -18,16 +18,17 @@ static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct me
         for (int i = 0; i < dim; i++) u[c][i] *= inside;
 }
 
-/* Returns true in 2D for isotropic constants: the stresses of the mean strain and of the bending modes then have no
- * moment, and cell_balance is not needed. */
+/* Returns true in 2D for isotropic elastic constants m. The stresses of the mean strain and of the bending modes then
+ * have no moment, and cell_balance is not needed. */
 static ALWAYS_INLINE bool mesh_balanced(const struct elastic *m, const int dim)
 {
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;
 }
 
-/* Computes the forces f [N] on the corners of eight cells from their displacements u [m], both by corner and component.
- * Raises `tension` to an upper bound of the largest principal stress at their points [Pa]. volume: of a cell [m^3];
- * balanced: result of mesh_balanced. */
+/* Computes the forces f[c][i] on corner c along axis i of eight whole cells (cells with all of their points) [N] from
+ * the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume [m^3] of a cell; tension: raised
+ * to an upper bound of the largest principal stress at the material points [Pa]; finite: true if strains are finite,
+ * false if small; balanced: result of mesh_balanced. */
 static ALWAYS_INLINE void mesh_run_force(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
                                          lanes f[CORNERS_MAX][3], lanes *tension, const int dim, const bool finite,
                                          const bool balanced)

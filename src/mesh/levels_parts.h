@@ -5,19 +5,21 @@
 #include "mesh/levels.h"
 #include "mesh_parts.h"
 
-/* Computes the indices k [dim] of node I. */
+/* Computes the indices k of node I along the axes of grid g, k[d] = 0 ... g->count[d] - 1; 0 for axes beyond g->dim. */
 static inline void walk_at(const struct grid *g, int64_t I, int64_t *k)
 {
     for (int d = 0; d < DIM_MAX; d++) k[d] = d < g->dim ? I / g->stride[d] % g->count[d] : 0;
 }
 
-/* Advances the indices k [dim] to the next node; loops over all nodes start with the indices of node 0. */
+/* Advances the indices k of a node along the axes of grid g to those of the next node, first axis fastest, for a loop
+ * over all nodes that starts with k = 0. */
 static inline void walk_on(const struct grid *g, int64_t *k)
 {
     for (int d = 0; d < g->dim && ++k[d] == g->count[d]; d++) k[d] = 0;
 }
 
-/* Returns the cell of `level` that contains the cell of level 0 with indices k. q: NULL, or set to its indices. */
+/* Returns the index of the cell of refinement level `level` that contains a cell of level 0. k: indices of the cell of
+ * level 0 along the axes; q: receives the indices of the coarse cell along the axes, NULL if not needed. */
 static inline int64_t coarse_cell(const struct mesh_levels *l, int level, const int64_t *k, int64_t *q)
 {
     const struct grid *g = &level_mesh_of(l, level)->grid;
@@ -30,7 +32,8 @@ static inline int64_t coarse_cell(const struct mesh_levels *l, int level, const 
     return I;
 }
 
-/* Returns the node of level 0 at the position of the node of `level` with indices q. */
+/* Returns the index of the node of level 0 (the finest) at the position of a node of refinement level `level`. q:
+ * indices of this node along the axes. */
 static inline int64_t fine_node(const struct mesh_levels *l, int level, const int64_t *q)
 {
     const struct grid *g = &l->fine->grid;
@@ -39,7 +42,8 @@ static inline int64_t fine_node(const struct mesh_levels *l, int level, const in
     return I;
 }
 
-/* Returns true if the cell of level 0 with indices k is the lowest in its cell of `level`. */
+/* Returns true if a cell of level 0 is the one at the lower corner of the cell of refinement level `level` that
+ * contains it. k: indices of the cell of level 0 along the axes. */
 static inline bool is_lowest(const struct mesh_levels *l, int level, const int64_t *k)
 {
     bool lowest = true;
@@ -48,10 +52,11 @@ static inline bool is_lowest(const struct mesh_levels *l, int level, const int64
     return lowest;
 }
 
-/* Returns the number of cells of level 0 in a cell of `level`. */
+/* Returns the number of cells of level 0 (the finest) in one cell of refinement level `level`. */
 static inline int parts_of(const struct mesh_levels *l, int level) { return 1 << l->fine->grid.dim * level; }
 
-/* Returns cell number `part` of level 0 in the cell of `level` whose lowest cell is `first`. */
+/* Returns the index of cell number `part` of those cells of level 0 that form one cell of refinement level `level`.
+ * first: index of the one at the lower corner. */
 static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t first, int part)
 {
     for (int d = 0; d < l->fine->grid.dim; d++, part >>= level)
@@ -59,7 +64,8 @@ static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t fi
     return first;
 }
 
-/* Returns true if one of them has a lower level in of[fine->grid.n]. */
+/* Returns true if one of the cells of level 0 in a cell of refinement level `level` has a lower level in `of`, an
+ * array with a level for each cell of level 0. first: index of the cell of level 0 at the lower corner. */
 static inline bool any_below(const struct mesh_levels *l, int level, int64_t first, const uint8_t *of)
 {
     bool any = false;
@@ -67,48 +73,57 @@ static inline bool any_below(const struct mesh_levels *l, int level, int64_t fir
     return any;
 }
 
-/* Returns the material of cell I of level 0, which is whole; cells without particles are in a body of one material. */
+/* Returns the material number of cell I of level 0, which must be completely filled; that of the body, which has only
+ * one material then, if the particles of the cell are not made. */
 static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t I)
 {
     const int32_t i = fine->point[I << fine->grid.dim];
     return p->material[i >= 0 ? i : 0];
 }
 
-/* Returns true if the mesh has a cell I that computes forces. */
+/* Returns true if cell I of the mesh computes forces: it has points and is not replaced by a coarse cell. */
 static inline bool cell_acts(const struct mesh *mesh, int64_t I)
 {
     return mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL;
 }
 
-/* Sets displacement and velocity of the ghosts of a level. */
+/* Copies displacement and velocity to the ghosts of a refinement level, the nodes at positions of nodes of the next
+ * finer level, from these nodes. */
 void levels_ghosts_follow(struct mesh_levels *l, int level);
 
-/* Sets the motion of the hanging nodes of level - 1 to the mean of their masters. */
+/* Sets displacement and velocity of the hanging nodes of level - 1, the nodes in the middle of edges or faces of cells
+ * of `level`, to the mean of the nodes at the ends or corners. */
 void levels_hanging_follow(struct mesh_levels *l, int level);
 
-/* Makes cells and masses before transfers (levels_fold) for the present levels. */
+/* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
+ * between levels (levels_fold). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p);
 
-/* Finds the ghosts, hanging nodes and matched cells of all levels. */
+/* Finds, for all refinement levels, the ghosts and hanging nodes at interfaces of levels, and the coarse cells whose
+ * inertia is matched to the bonds (levels_match). */
 void levels_link(struct mesh_levels *l);
 
-/* Transfers the mass of ghosts and hanging nodes; momenta: also grid.momentum [kg m/s]. */
+/* Adds the masses of ghosts and hanging nodes to the nodes that determine their motion. momenta: true to transfer
+ * their momentum in grid.momentum [kg m/s], too. */
 void levels_fold(struct mesh_levels *l, bool momenta);
 
-/* Makes runs of cells and active blocks; to be called after levels_fold. */
+/* Groups coarse cells of equal material into runs (cells in sequence) and finds the active blocks of nodes, for all
+ * refinement levels. To be called after levels_fold. */
 void levels_runs_make(struct mesh_levels *l);
 
-/* Interpolates displacements and velocities of coarse cells to nodes of level 0 inside them that belong to no cell of
- * level 0. all: to all such nodes, else to those around which there are particles. */
+/* Interpolates displacement and velocity of coarse cells to nodes of level 0 inside them that belong to no cell of
+ * level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate(struct mesh_levels *l, bool all);
 
-/* Computes the momenta over mass of the nodes of coarse cells from their velocities, up to round-off. */
+/* Computes the momentum of the nodes of coarse cells, divided by their mass, from their velocities [m/s], the inverse
+ * of the relation in kernels/mesh/mesh_inertia.h, up to round-off. */
 void levels_momenta_find(struct mesh_levels *l);
 
-/* Returns true if coarse cells are whole and agree with the levels of all their parts. */
+/* Returns true if the refinement levels are consistent: all cells of level 0 in a coarse cell have its level, and
+ * coarse cells are completely filled. */
 bool levels_sound(const struct mesh_levels *l);
 
-/* Computes the distance from coarse cells of all cells of level 0 (l->safe). */
+/* Classifies the cells of level 0 by their distance from coarse cells (l->safe, enum levels_distance). */
 void levels_find_safe(struct mesh_levels *l);
 
 #endif

@@ -16,81 +16,98 @@ struct mesh_partial {
     real *stiffness;
 };
 
-/* Moves the partial cells from the mesh to the result. */
+/* Moves the list of partial cells (cells that have lost some of their points) with their stiffness out of the mesh
+ * into the result. The mesh has no partial cells afterwards. */
 struct mesh_partial mesh_partial_keep(struct mesh *mesh);
 
-/* Appends cell I to the partial cells. */
+/* Appends cell I to the list of partial cells of the mesh, cells that have lost some of their points; the stiffness is
+ * computed later (mesh_partial_make). */
 void mesh_partial_add(struct mesh *mesh, int64_t I);
 
-/* Computes the stiffness of the partial cells; see struct mesh_partial. */
+/* Computes the stiffness of all partial cells of the mesh (cells that have lost some of their points). s: material
+ * constants and partial stresses; dirty: a byte for each cell, not 0 where the stiffness must be computed anew, NULL
+ * for all cells; old: result of mesh_partial_keep, from which the stiffness of all other cells is copied, and which is
+ * freed. */
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                        struct mesh_partial *old);
 
-/* Recomputes the stiffness of the cells marked in `dirty`; the set of partial cells is unchanged. */
+/* Recomputes the stiffness of the partial cells (cells that have lost some of their points) marked in `dirty`, a byte
+ * for each cell. The list of partial cells is unchanged. s: material constants and partial stresses. */
 void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                         const uint8_t *dirty);
 
-/* Releases the partial cells of the mesh. */
+/* Frees the list of partial cells of the mesh and their stiffness. */
 void mesh_partial_free(struct mesh *mesh);
 
-/* Slits (mesh_slits.c). Finds the nodes that slits double, and extends the box of nodes, which covers from..to [m], by
- * rows for the extra nodes. */
+/* Finds the nodes that must be doubled because slits or voids of `source` separate the points around them, and extends
+ * the box of nodes, which covers from ... to [m], by rows for the second nodes. Returns FAILED, with a message, if
+ * there are too many nodes. Release with mesh_slits_free. */
 status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,
                        const real *to);
 
-/* Makes the links between blocks of nodes at slits, after blocks are made. */
+/* Connects the blocks of nodes at slits with the blocks of their second nodes, so that motion spreads from one to the
+ * other. To be called after the blocks are made. */
 void mesh_slits_link(struct mesh *mesh);
 
-/* Makes the corners of the groups of partial cells at slits, after groups are made. */
+/* Lists the corner nodes of groups of eight partial cells of which one lies at a slit, as corners of such cells are
+ * not at regular positions. To be called after the groups are made. */
 void mesh_slits_groups(struct mesh *mesh);
 
-/* Releases all arrays. */
+/* Frees the arrays of s. */
 void mesh_slits_free(struct mesh_slits *s);
 
-/* Computes nodal values node[dim][nodes] of a field that points sample as value[dim][particles]: least squares weighted
- * by mass, started from the lumped projection. */
+/* Computes nodal values of a vector field from values at the points of the mesh, by least squares weighted with mass;
+ * the iteration starts from the lumped projection. value: dim arrays with a value for each particle; node: dim arrays,
+ * receives a value for each node. */
 void mesh_project(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node);
 
-/* Projects as mesh_project for n listed nodes only, started from their present values; other nodes are unchanged. */
+/* Computes nodal values of a vector field as mesh_project does, but for n listed nodes only; the iteration starts from
+ * their present values, and all other nodes are unchanged. list: node indices. */
 void mesh_project_near(const struct mesh *mesh, const struct particles *p, real *const *value, real *const *node,
                        const int32_t *list, int64_t n);
 
-/* Returns cell and quarter point of particle i, (cell << dim) + q, or -1 if it is not at a quarter or three quarters of
- * each edge. */
+/* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
+ * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i);
 
-/* Recomputes mass and inverse mass of node I from the points around it that are in no coarse cell. */
+/* Recomputes mass and inverse mass of node I from the points around it; points in coarse cells are left out. */
 void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
 
-/* Recomputes kinds, runs, partial cells and masses after mesh->level has changed in the cells marked in `dirty` [grid.n
- * + LANES]. */
+/* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed
+ * in some cells. s: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these cells.
+ */
 void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 
-/* Makes runs, spans and active blocks of a mesh without points from the kinds and materials of its cells and the masses
- * of its nodes. */
+/* Groups the cells of a mesh without points (a coarse level) into runs of equal material, and finds spans of nodes
+ * with mass and active blocks, from kinds and materials of the cells and masses of the nodes. */
 void mesh_runs_make(struct mesh *mesh);
 
-/* Finds the spans of nodes with mass in each row of nodes. */
+/* Finds in each row of nodes along the first axis the span of nodes with mass (first node, and the one after the
+ * last), to which loops over nodes are limited. */
 void mesh_spans_make(struct mesh *mesh);
 
-/* Activates the blocks of nodes with cells around them, and deactivates all others. */
+/* Makes the blocks of nodes next to cells active, i.e. included in computations, and all others inactive. */
 void mesh_blocks_activate(struct mesh *mesh);
 
-/* Returns true if a cell is inverted or has no volume at a quarter point. */
+/* Returns true if the deformation has turned a cell of the mesh inside out: the determinant of the deformation
+ * gradient is 0 or negative at one of its quarter points. */
 bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 
-/* Allocates all arrays of a mesh of the box from..to [m] with cells like those of `like`, without points or cells; with
- * slits of the source for particles p (NULL: none). */
+/* Allocates all arrays of a mesh that covers the box from ... to [m], without points or cells. like: grid whose anchor
+ * and cell size define the nodes; p, source: particles and the slits and voids that double nodes, p = NULL for none.
+ * Returns FAILED, with a message, if there are too many nodes. */
 status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source);
 
-/* Returns true if cell I is part of a coarse cell. */
+/* Returns true if cell I of level 0 is part of a coarse cell, by its refinement level or because its particles are not
+ * made. */
 static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
 {
     return (mesh->level && mesh->level[I] > 0) || (mesh->absent && mesh->absent[I]);
 }
 
-/* Allocates marks of cells, all 0. */
+/* Allocates an array with a byte for each cell of the mesh, all 0, and some padding at its end. label: name of the
+ * array for messages about memory. The caller frees it. */
 static inline uint8_t *cells_mark(const char *label, const struct mesh *mesh)
 {
     return NEW(label, mesh->grid.n + LANES, uint8_t);
