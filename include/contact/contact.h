@@ -154,7 +154,7 @@ void contact_make(struct contact *c, enum contact_between between, struct contac
 void contact_free(struct contact *c);
 
 /* Returns the critical time step of particles that contact forces push on one side and bonds hold on the other [s]. m:
- * by material number; bonds: critical time step of the bonds alone [s]. */
+ * array of the materials; bonds: critical time step of the bonds alone [s]. */
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);
 
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles

@@ -93,8 +93,9 @@ static inline const struct mesh *level_mesh_of(const struct mesh_levels *l, int 
 static inline int levels_stride(const struct mesh_levels *l) { return 1 << l->n; }
 
 /* Makes n coarse refinement levels over the mesh `fine`; at first they have no cells. fine: finest mesh with material
- * points, kept by reference; source: material constants, slits and voids; density: by material number [kg/m^3]. n = 0
- * makes no levels. Returns FAILED, with a message, if a level would have too many nodes. Release with levels_free. */
+ * points, kept by reference; source: material constants, slits and voids; density: mass density of each material
+ * [kg/m^3]. n = 0 makes no levels. Returns FAILED, with a message, if a level would have too many nodes. Release with
+ * levels_free. */
 status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct particles *p,
                    const struct mesh_source *source, const real *density);
 
@@ -112,71 +113,73 @@ void levels_distances(struct mesh_levels *l, int safe, int roomy);
 void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
- * material and contain no cell marked in `demand`; levels of adjacent cells differ by at most one. demand: a byte for
- * each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required; limit: highest level of each cell, NULL
- * for all levels; to: receives the level of the cell to which each cell of level 0 shall belong. */
+ * material and contain no cell of level 0 (the finest) marked in `demand`; levels of adjacent cells differ by at most
+ * one. demand: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required; limit: highest
+ * level of each cell, NULL for all levels; to: receives the level of the cell to which each cell of level 0 shall
+ * belong. */
 void levels_map(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand, const uint8_t *limit,
                 uint8_t *to);
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
- * difference exceeds `most` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of
- * level 0. The motion of the nodes of level 0 must be up to date (levels_prolong). Returns true if a limit was
+ * difference exceeds `most` [J/kg], `limit` is set to one level less there. level, limit: a byte for each cell of level
+ * 0, the finest. The motion of the nodes of level 0 must be up to date (levels_prolong). Returns true if a limit was
  * lowered. */
 bool levels_limit_rough(const struct mesh_levels *l, const uint8_t *level, real most, uint8_t *limit);
 
-/* Extends marks to complete coarse cells: if one cell of level 0 in a coarse cell is marked, all cells of level 0 in
- * it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each cell of
- * level 0. */
+/* Extends marks to complete coarse cells: if one cell of level 0 (the finest) in a coarse cell is marked, all cells of
+ * level 0 in it become marked. level: level of the cell to which each cell of level 0 belongs; mark: a byte for each
+ * cell of level 0. */
 void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark);
 
-/* Marks all cells of level 0 within `reach` cells of a marked one, in all directions including diagonals. mark: a byte
- * for each cell of level 0, not 0 if marked. */
+/* Marks all cells of level 0 (the finest) within `reach` cells of a marked one, in all directions including diagonals.
+ * mark: a byte for each cell of level 0, not 0 if marked. */
 void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
 
-/* Changes the refinement level of cells to level[fine->grid.n], for each cell of level 0 the level of the cell to
- * which it shall belong. Where cells are split, displacement and velocity are interpolated; where cells are merged,
- * the coarse nodes receive those of the nodes at their positions, and the remaining momentum is distributed among the
- * corners, so that momentum is conserved. All levels must be at the same time. Nodal forces become 0. source: material
- * constants. */
+/* Changes the refinement level of cells to level[fine->grid.n], for each cell of level 0 (the finest) the level of the
+ * cell to which it shall belong. Where cells are split, displacement and velocity are interpolated; where cells are
+ * merged, the coarse nodes receive those of the nodes at their positions, and the remaining momentum is distributed
+ * among the corners, so that momentum is conserved. All levels must be at the same time. Nodal forces become 0. source:
+ * material constants. */
 void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                    const uint8_t *level);
 
 /* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all
  * levels to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. m:
- * by material number; finite: true if strains are finite, false if small; dt: time step of level 0 [s]. */
+ * array of the elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of
+ * level 0 [s]. */
 void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt);
 
 /* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
  * time step does so only for the levels that it moves.) */
 void levels_sync(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to all nodes of level 0 inside them. */
+/* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
 void levels_prolong(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to the nodes of level 0 inside them that have particles in an
- * adjacent cell. */
+/* Interpolates displacement and velocity of coarse cells to the nodes of level 0 (the finest) inside them that have
+ * particles in an adjacent cell. */
 void levels_prolong_points(struct mesh_levels *l);
 
 /* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
 int levels_due(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
- * interfaces. The forces of level 0 must be complete before. m: by material number; finite: true if strains are
- * finite, false if small. */
+ * interfaces. The forces of level 0 (the finest) must be complete before. m: array of the elastic constants of all
+ * materials; finite: true if strains are finite, false if small. */
 void levels_force(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, int due);
 
-/* Integrates the motion of the nodes of levels 0 to `due`, level L over 2^L steps. dt: time step of level 0 [s];
- * dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s] and work [J]
- * of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the largest
+/* Integrates the motion of the nodes of levels 0 (the finest) to `due`, level L over 2^L steps. dt: time step of level
+ * 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s] and work
+ * [J] of nodes with prescribed velocity, whose velocities must be set before, are added to these. Returns the largest
  * component of a nodal velocity [m/s]. */
 real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work);
 
-/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 is not included. */
+/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
 real levels_kinetic(const struct mesh_levels *l);
 
-/* Returns the strain energy of all coarse cells [J]; level 0 is not included. m: by material number; finite: true if
- * strains are finite, false if small. */
+/* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. m: array of the elastic
+ * constants of all materials; finite: true if strains are finite, false if small. */
 real levels_strain(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
 
 /* Returns, for the nodes of all coarse levels, the mean kinetic energy before and after a leap-frog velocity update

@@ -71,7 +71,7 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
 
 /* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
  * one cell, a lower bound for the mesh. any: true to include cells that have lost any subset of their points by
- * conversion, false for the present cells. density: by material number [kg/m^3]. */
+ * conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
 /* Computes the stiffness K of cell I for displacements of its corners at rest, column by column, component fastest

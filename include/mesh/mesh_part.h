@@ -189,7 +189,7 @@ uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p,
                            int64_t step, real mass);
 
 /* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_plan. Cells that become level
- * 0 must have particles (frame_hollow_lacks). The change of energy is added to e->damped. */
+ * 0 (the finest) must have particles (frame_hollow_lacks). The change of energy is added to e->damped. */
 void frame_levels_apply(struct run *e, const uint8_t *level);
 
 /* Postpones the conversion of material points that are too close to coarse cells, by clearing their flags, and
@@ -210,13 +210,13 @@ const char *frame_hollow_obstacle(const struct scene *s);
  * left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many cells. */
 status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source);
 
-/* Checks that all cells of level 0 have particles under the initial refinement levels. level: level of each cell, NULL
- * if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels follow from a
- * checkpoint; r->hollow is then corrected and the run must be set up again. */
+/* Checks that all cells of level 0 (the finest) have particles under the initial refinement levels. level: level of
+ * each cell, NULL if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels
+ * follow from a checkpoint; r->hollow is then corrected and the run must be set up again. */
 bool frame_hollow_start(struct reference_frame *r, const uint8_t *level);
 
-/* Returns true if a cell that has level 0 by level[mesh->grid.n] has no particles, so that the run must be set up
- * again with more particles. */
+/* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
+ * set up again with more particles. */
 bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level);
 
 /* Chooses the cells without particles for the refinement levels level[mesh.grid.n] and stores them in r->hollow.
@@ -224,7 +224,7 @@ bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level);
 void frame_hollow_change(struct reference_frame *r, const uint8_t *level);
 
 /* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
- * interpolated from the nodes. body: particles of the run; m: by material number; gradients: true to compute
+ * interpolated from the nodes. body: particles of the run; m: array of the materials; gradients: true to compute
  * displacement gradients, too. Returns false if there are no such cells. */
 bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
                          bool gradients);

@@ -15,17 +15,18 @@ real diagnostics_kinetic(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points on the background grid [J]: 1/2 sum sigma : C^-1 : sigma V,
  * without the part of the stress that bonds carry. In plane strain the energy of the change of sigma_zz by plastic
- * flow is included. m: materials by number; partial: partial stresses of the points, NULL for none. */
+ * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the elastic strain energy [J], as diagnostics_strain does, of those material points that are among n listed
- * particles. m: materials by number; partial: partial stresses of the points, NULL for none; list: n particle indices.
+ * particles. m: array of the materials; partial: partial stresses of the points, NULL for none; list: n particle
+ * indices.
  */
 real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
                            const int32_t *list, int64_t n);
 
 /* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
- * hardening modulus H and the accumulated plastic strain a. m: materials by number; partial: partial stresses of the
+ * hardening modulus H and the accumulated plastic strain a. m: array of the materials; partial: partial stresses of the
  * points, NULL for none. */
 real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 

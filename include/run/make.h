@@ -5,8 +5,8 @@
 #include "run/run.h"
 
 /* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
- * particles is random (p->strength). Does nothing if strength is uniform. elastic: constants by material number,
- * changed in place. */
+ * particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all
+ * materials, changed in place. */
 void strength_found(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for

@@ -61,9 +61,10 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
 }
 
 /* Computes the stresses of the material points number q of eight cells at a time, one cell in each vector lane. cell:
- * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: by material number; stress: receives
- * symmetric components [Pa], 0 in lanes without a point; flows: true to apply return mapping and update the plastic
- * state. Returns the sum of the elastic energies per volume of the eight points [J/m^3] if flows is false, else 0. */
+ * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: array of the elastic constants of all
+ * materials; stress: receives symmetric components [Pa], 0 in lanes without a point; flows: true to apply return
+ * mapping and update the plastic state. Returns the sum of the elastic energies per volume of the eight points [J/m^3]
+ * if flows is false, else 0. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                        const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
                                        const int dim, const bool flows)
@@ -104,8 +105,8 @@ static ALWAYS_INLINE void place_stress_add(struct mesh_cell *s, const lanes *str
 }
 
 /* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield, by
- * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points. m: by material
- * number; cell: eight cell indices, -1 for a lane without cell. */
+ * return mapping at each point, into s->P and s->force [Pa]. Updates the plastic state of the points. m: array of the
+ * elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell. */
 static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                      const int32_t *cell, struct mesh_cell *s, const int dim)
 {
@@ -123,7 +124,8 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
 }
 
 /* Returns the elastic energy of eight cells at the present plastic state of their points, which is not changed [J]. m:
- * by material number; cell: eight cell indices, -1 for a lane without cell; s: strain of the cells. */
+ * array of the elastic constants of all materials; cell: eight cell indices, -1 for a lane without cell; s: strain of
+ * the cells. */
 static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                             const int32_t *cell, const struct mesh_cell *s, const int dim)
 {

@@ -18,8 +18,8 @@ static inline void walk_on(const struct grid *g, int64_t *k)
     for (int d = 0; d < g->dim && ++k[d] == g->count[d]; d++) k[d] = 0;
 }
 
-/* Returns the index of the cell of refinement level `level` that contains a cell of level 0. k: indices of the cell of
- * level 0 along the axes; q: receives the indices of the coarse cell along the axes, NULL if not needed. */
+/* Returns the index of the cell of refinement level `level` that contains a cell of level 0 (the finest). k: indices of
+ * the cell of level 0 along the axes; q: receives the indices of the coarse cell along the axes, NULL if not needed. */
 static inline int64_t coarse_cell(const struct mesh_levels *l, int level, const int64_t *k, int64_t *q)
 {
     const struct grid *g = &level_mesh_of(l, level)->grid;
@@ -42,8 +42,8 @@ static inline int64_t fine_node(const struct mesh_levels *l, int level, const in
     return I;
 }
 
-/* Returns true if a cell of level 0 is the one at the lower corner of the cell of refinement level `level` that
- * contains it. k: indices of the cell of level 0 along the axes. */
+/* Returns true if a cell of level 0 (the finest) is the one at the lower corner of the cell of refinement level `level`
+ * that contains it. k: indices of the cell of level 0 along the axes. */
 static inline bool is_lowest(const struct mesh_levels *l, int level, const int64_t *k)
 {
     bool lowest = true;
@@ -55,8 +55,8 @@ static inline bool is_lowest(const struct mesh_levels *l, int level, const int64
 /* Returns the number of cells of level 0 (the finest) in one cell of refinement level `level`. */
 static inline int parts_of(const struct mesh_levels *l, int level) { return 1 << l->fine->grid.dim * level; }
 
-/* Returns the index of cell number `part` of those cells of level 0 that form one cell of refinement level `level`.
- * first: index of the one at the lower corner. */
+/* Returns the index of cell number `part` of those cells of level 0 (the finest) that form one cell of refinement level
+ * `level`. first: index of the one at the lower corner. */
 static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t first, int part)
 {
     for (int d = 0; d < l->fine->grid.dim; d++, part >>= level)
@@ -64,8 +64,8 @@ static inline int64_t part_at(const struct mesh_levels *l, int level, int64_t fi
     return first;
 }
 
-/* Returns true if one of the cells of level 0 in a cell of refinement level `level` has a lower level in `of`, an
- * array with a level for each cell of level 0. first: index of the cell of level 0 at the lower corner. */
+/* Returns true if one of the cells of level 0 (the finest) in a cell of refinement level `level` has a lower level in
+ * `of`, an array with a level for each cell of level 0. first: index of the cell of level 0 at the lower corner. */
 static inline bool any_below(const struct mesh_levels *l, int level, int64_t first, const uint8_t *of)
 {
     bool any = false;
@@ -73,8 +73,8 @@ static inline bool any_below(const struct mesh_levels *l, int level, int64_t fir
     return any;
 }
 
-/* Returns the material number of cell I of level 0, which must be completely filled; that of the body, which has only
- * one material then, if the particles of the cell are not made. */
+/* Returns the material number of cell I of level 0 (the finest), which must be completely filled; that of the body,
+ * which has only one material then, if the particles of the cell are not made. */
 static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t I)
 {
     const int32_t i = fine->point[I << fine->grid.dim];
@@ -107,12 +107,12 @@ void levels_link(struct mesh_levels *l);
  * their momentum in grid.momentum [kg m/s], too. */
 void levels_fold(struct mesh_levels *l, bool momenta);
 
-/* Groups coarse cells of equal material into runs (cells in sequence) and finds the active blocks of nodes, for all
- * refinement levels. To be called after levels_fold. */
+/* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
+ * nodes, for all refinement levels. To be called after levels_fold. */
 void levels_runs_make(struct mesh_levels *l);
 
-/* Interpolates displacement and velocity of coarse cells to nodes of level 0 inside them that belong to no cell of
- * level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
+/* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
+ * cell of level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate(struct mesh_levels *l, bool all);
 
 /* Computes the momentum of the nodes of coarse cells, divided by their mass, from their velocities [m/s], the inverse
@@ -123,7 +123,7 @@ void levels_momenta_find(struct mesh_levels *l);
  * coarse cells are completely filled. */
 bool levels_sound(const struct mesh_levels *l);
 
-/* Classifies the cells of level 0 by their distance from coarse cells (l->safe, enum levels_distance). */
+/* Classifies the cells of level 0 (the finest) by their distance from coarse cells (l->safe, enum levels_distance). */
 void levels_find_safe(struct mesh_levels *l);
 
 #endif

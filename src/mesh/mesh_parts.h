@@ -99,8 +99,8 @@ bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell);
 status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source);
 
-/* Returns true if cell I of level 0 is part of a coarse cell, by its refinement level or because its particles are not
- * made. */
+/* Returns true if cell I of level 0 (the finest) is part of a coarse cell, by its refinement level or because its
+ * particles are not made. */
 static inline bool cell_is_coarse(const struct mesh *mesh, int64_t I)
 {
     return (mesh->level && mesh->level[I] > 0) || (mesh->absent && mesh->absent[I]);
