@@ -74,12 +74,15 @@ void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struc
  * conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
-/* Computes the stiffness K of cell I for displacements of its corners at rest, column by column, component fastest
- * [(dim 2^dim)^2, N/m], without partial stresses. Returns false if the cell has no points. */
+/* Computes the stiffness matrix K of cell I for displacements of its corners in the undeformed state [N/m], from the
+ * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;
+ * K: receives (dim 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with K = 0,
+ * if the cell has no points. */
 bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
                          real *K);
 
-/* Returns the first particle at which the mesh is inverted or has no volume; p->n: none. */
+/* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
+ * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
 int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
 
 /* Minimum number of cells of a level across any part of the body. */

@@ -93,16 +93,16 @@ void frame_force(struct reference_frame *r, struct particles *p, int64_t step);
 void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
                 real middle, real dt_velocity);
 
-/* Updates positions, velocities and stresses of all material points of the mesh from the nodes, and their mirror
- * images by `loads`. */
+/* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
+ * mirror images of particles, which `loads` lists. */
 void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of all material points of the mesh from the nodes, and their mirror images by
- * `loads`. */
+/* Updates positions and velocities of all material points of the mesh from the nodes, then those of the mirror images
+ * of particles, which `loads` lists. */
 void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
-/* Updates positions and velocities of n listed material points of the mesh from the nodes, and mirror images by
- * `loads`. Points in coarse cells are left unchanged. list: particle indices. */
+/* Updates positions and velocities of n material points of the mesh from the nodes, except points in coarse cells,
+ * then those of the mirror images of particles, which `loads` lists. list: n particle indices. */
 void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
                        int64_t n);
 

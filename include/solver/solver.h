@@ -63,8 +63,10 @@ void solver_iteration_make(struct solver *s, const struct static_body *body, boo
 /* Frees the vectors of s and sets all members to 0. */
 void solver_free(struct solver *s);
 
-/* Makes step number `step` of an iteration; sets *done if the residual is below the tolerance. Returns FAILED if
- * there is no equilibrium. */
+/* Does step number `step` of an iteration for static equilibrium: relaxation_step of dynamic relaxation, cg_step of
+ * conjugate gradients. The first step is number 0. body: particles, bonds and loads; *done: receives true if the
+ * residual is below body->tolerance. Returns FAILED, with a message, if the iteration stalls or a part of the body
+ * moves without resistance. */
 typedef status solver_step_fn(struct solver *s, const struct static_body *body, int64_t step, bool *done);
 solver_step_fn relaxation_step, cg_step;
 

@@ -32,8 +32,8 @@ static inline void contact_found_add(struct contact_found *to, real overlap, int
     to->touching++;
 }
 
-/* Computes the vector between the present positions of two listed particles, from entry l to entry k of c->particle,
- * dim components [m]. Returns its square [m^2]. */
+/* Computes the vector between the present positions of two particles, from entry l to entry k of the contact list
+ * c->particle, dim components [m]. Returns its square [m^2]. */
 static inline real contact_apart(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real *apart)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -45,7 +45,7 @@ static inline real contact_apart(const struct contact *c, const struct particles
     return r2;
 }
 
-/* Returns the contact stiffness k of the pair of listed particles k and l (entries of c->particle) [N/m], from their
+/* Returns the contact stiffness k of the pair of entries k and l of the contact list c->particle [N/m], from their
  * materials and volumes. */
 static inline real contact_stiffness(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
@@ -56,17 +56,17 @@ static inline real contact_stiffness(const struct contact *c, const struct parti
 /* Returns true if contact is possible in this run: between particles or with rigid bodies. */
 static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
 
-/* Returns true if contact forces may act on the listed particle number `row` in this step, as contact_follow_more and
- * contact_follow have determined. */
+/* Returns true if contact forces may act on the particle number `row` of the contact list in this step, as
+ * contact_follow_more and contact_follow have determined. */
 static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
 
-/* Activates further listed particles, after neighbours that were at rest have started to move: marks them as loaded in
- * l and their bonds as active in b. To be called in steps without a search for pairs. */
+/* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
+ * as loaded in l and their bonds as active in b. To be called in steps without a search for pairs. */
 void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_mark): one
- * per listed particle for the form `surface`, one per pair for the form `pair`. Returns NULL if overlapping contacts
- * act. */
+ * per particle of the contact list for the form `surface`, one per pair for the form `pair`. Returns NULL if
+ * overlapping contacts act. */
 static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
@@ -82,24 +82,25 @@ static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlap
     return marks ? marks[k] != 0 : overlaps;
 }
 
-/* Returns the gap between listed particle number `row` and the faces beside it, negative if they overlap [spacings],
- * by the contact law of form `surface`. */
+/* Returns the gap between particle number `row` of the contact list and the faces beside it, negative if they overlap
+ * [spacings], by the contact law of form `surface`. */
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
 
 /* Returns the distance of the particles of pair q minus their contact distance [m], negative if they overlap. row:
- * listed particle to which the pair belongs. */
+ * entry of the contact list (particles that may come into contact) to which the pair belongs. */
 real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q);
 
 /* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m]. q:
  * entry of the particle in the list near this body; normal: receives the outward unit vector normal to the surface. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
 
-/* Computes the linear spring that represents the contact of listed particle number `row` with the faces beside it, by
- * the contact law of form `surface`. term: its arrays must have a capacity of one element more than the pairs of the
- * particle. */
+/* Computes the linear spring that represents the contact of particle number `row` of the contact list with the faces
+ * beside it, by the contact law of form `surface`. term: its arrays must have a capacity of one element more than the
+ * pairs of the particle. */
 void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
 
-/* Lets contact forces act on all listed particles, whether they move or not, as an equilibrium requires. */
+/* Lets contact forces act on all particles of the contact list, whether they move or not, as an equilibrium requires.
+ */
 void contact_marks_follow(struct contact *c);
 
 /* Saves the selection of contacts for equilibria (contact_mark) to the archive if a->saving, else restores it. Returns
@@ -113,50 +114,53 @@ static inline real contact_skin(const struct contact *c)
     return (c->marked ? STATIC_SKIN : CONTACT_SKIN) * c->law.spacing;
 }
 
-/* Returns the entry of particle i among the listed particles of the body, by bisection, or -1 if i is not listed. */
+/* Returns the entry of particle i in the contact list (particles that may come into contact), by bisection, or -1 if i
+ * is not in it. */
 int64_t contact_row_of(const struct contact *c, int64_t i);
 
-/* Returns the width of the widest notch (a pre-crack with a width) that separates the listed particles k and l in the
- * reference configuration [m]; 0 if there is none or if they belong to different bodies. */
+/* Returns the width of the widest notch (a pre-crack with a width) that separates the entries k and l of the contact
+ * list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
 real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
 
-/* Computes three arrays for all listed particles: c->root, the entry of which a mirror image is made; c->size, the
- * spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
+/* Computes three arrays for all particles of the contact list: c->root, the entry of which a mirror image is made;
+ * c->size, the spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
 void contact_list_describe(struct contact *c, const struct particles *p);
 
-/* Adds the contact forces of all pairs of listed particle number `row` to p->f of this particle, by the contact law of
- * form `pair`. found: receives largest overlap and number of contacts. */
+/* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
+ * contact law of form `pair`. found: receives largest overlap and number of contacts. */
 void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
 
-/* Returns half the elastic energy of all pairs of listed particle number `row` [J], by the contact law of form `pair`;
- * each pair belongs to two particles. */
+/* Returns half the elastic energy of all pairs of particle number `row` of the contact list [J], by the contact law of
+ * form `pair`; each pair belongs to two particles. */
 real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance at which contact of the listed particles k and l begins [m]: the contact distance, reduced if
- * they are closer in the reference configuration or at present. was: contact distance on the previous list of pairs
- * [m], NAN if the pair was not on it. */
+/* Returns the distance at which contact of the entries k and l of the contact list begins [m]: the contact distance,
+ * reduced if they are closer in the reference configuration or at present. was: contact distance on the previous list
+ * of pairs [m], NAN if the pair was not on it. */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was);
 
 /* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
  * particle, for particles on a square or cubic lattice. dim: space dimension. */
 void contact_profile_make(struct contact_profile *profile, int dim);
 
-/* Computes gap and energy derivatives of the contact between listed particle number `row` and the faces beside it, by
- * the contact law of form `surface`, into c->face[row]. First of two passes over the particles; contact_face_row adds
- * the forces. dt: time since the last call [s]; found: receives largest overlap and number of contacts. */
+/* Computes gap and energy derivatives of the contact between particle number `row` of the contact list and the faces
+ * beside it, by the contact law of form `surface`, into c->face[row]. First of two passes over the particles;
+ * contact_face_row adds the forces. dt: time since the last call [s]; found: receives largest overlap and number of
+ * contacts. */
 void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
                            struct contact_found *found);
 
-/* Adds the contact force on listed particle number `row` to p->f, by the contact law of form `surface`. Second of two
- * passes: contact_face_evaluate must have been called for all listed particles. */
+/* Adds the contact force on particle number `row` of the contact list to p->f, by the contact law of form `surface`.
+ * Second of two passes: contact_face_evaluate must have been called for all particles of the list. */
 void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
 
-/* Returns the elastic contact energy of listed particle number `row` [J], by the contact law of form `surface`. */
+/* Returns the elastic contact energy of particle number `row` of the contact list [J], by the contact law of form
+ * `surface`. */
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Determines the height above the face at which contact of listed particle number `row` begins, after a search, by the
- * contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was not listed.
- * The contact energy of a particle that was listed does not change. */
+/* Determines the height above the face at which contact of particle number `row` of the contact list begins, after a
+ * search, by the contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was
+ * not listed. The contact energy of a particle that was listed does not change. */
 void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                         int64_t row);
 
@@ -176,7 +180,7 @@ struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Computes the contribution of listed particle l to the density of the face at listed particle k, at the positions x -
+/* Computes the contribution of entry l of the contact list to the density of the face at entry k, at the positions x -
  * lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
 struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
                                      real lag);
@@ -186,20 +190,20 @@ struct contact_weight contact_weight(const struct contact *c, const struct parti
  * most: force at which the spring slides [N], 0 after separation. */
 void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
 
-/* Advances the friction spring of listed particle number `row` by a time step dt [s], by the contact law of form
- * `surface`. First of two passes over the particles; contact_face_drag adds the forces. */
+/* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
+ * of form `surface`. First of two passes over the particles; contact_face_drag adds the forces. */
 void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
 
-/* Adds friction forces on listed particle number `row` to p->f: the force of its own spring, and the reactions to
- * springs of particles that slide on a face to which it belongs. Second of two passes, after contact_face_slide for
- * all particles. */
+/* Adds friction forces on particle number `row` of the contact list to p->f: the force of its own spring, and the
+ * reactions to springs of particles that slide on a face to which it belongs. Second of two passes, after
+ * contact_face_slide for all particles. */
 void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
 real contact_friction_stored(const struct contact *c);
 
-/* Allocates the reactions to friction springs, one for each listed particle. Their values are computed with the next
- * contact forces. */
+/* Allocates the reactions to friction springs, one for each particle of the contact list. Their values are computed
+ * with the next contact forces. */
 void contact_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the

@@ -50,6 +50,7 @@ struct multigrid {
 
 typedef real pair __attribute__((vector_size(16)));
 
+/* Returns two consecutive values from memory as a vector; `from` need not be aligned. */
 static ALWAYS_INLINE pair pair_load(const real *from)
 {
     pair a;
