@@ -158,10 +158,10 @@ void contact_free(struct contact *c);
 real contact_critical_step(const struct contact *c, const struct particles *p, const struct material *m, real bonds);
 
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
- * have moved farther than the list allows since the last search, if bonds have been broken and BREAKS_WAIT steps have
- * passed since, or if a search was requested (c->due). Particles on which contact forces may act are marked as loaded
- * in l, and their bonds as active in b. family: horizon and lattice; step: number of the step; broken: number of
- * directed bonds broken so far; changed: number of conversions and reversions so far. */
+ * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
+ * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
+ * marked as loaded in l, and their bonds as active in b. family: horizon and lattice; step: number of the step; broken:
+ * number of directed bonds broken so far; changed: number of conversions and reversions so far. */
 void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed);
 

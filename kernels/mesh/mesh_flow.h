@@ -142,8 +142,8 @@ static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Lists the eight cells of a group of partial cells (cells that have lost some of their points) in `cell`; -1 beyond
- * the last partial cell. */
+/* Lists the eight cells of a group of partial cells (cells with missing points, partial stresses, several materials or
+ * doubled nodes) in `cell`; -1 beyond the last partial cell. */
 static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

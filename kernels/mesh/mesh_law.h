@@ -222,8 +222,8 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
         }
 }
 
-/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (cells
- * with all of their points) [Pa], from the strain in s. m: elastic constants. */
+/* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (with
+ * all points, of one material, without partial stresses) [Pa], from the strain in s. m: elastic constants. */
 static ALWAYS_INLINE void cell_law(const struct elastic *m, struct mesh_cell *s, const int dim)
 {
     stress_of(m, s->e, s->P, dim);

@@ -10,7 +10,7 @@
 #include "mesh_law.h"
 
 /* Loads the displacements u[c][i] of corner c along axis i of the eight cells of a group [m]. group: number of a group
- * of eight partial cells (cells that have lost some of their points). */
+ * of eight partial cells (cells with missing points, partial stresses, several materials or doubled nodes). */
 static ALWAYS_INLINE void mesh_partial_load(const struct mesh *mesh, int64_t group, lanes u[CORNERS_MAX][3],
                                             const int dim)
 {
@@ -79,8 +79,8 @@ static ALWAYS_INLINE void partial_add_moments(const struct mesh *mesh, const str
 }
 
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of a group of eight partial
- * cells (cells that have lost some of their points) [Pa], from the strain in s, the stiffness of each cell, and the
- * forces of state-based bonds. */
+ * cells (cells with missing points, partial stresses, several materials or doubled nodes) [Pa], from the strain in s,
+ * the stiffness of each cell, and the forces of state-based bonds. */
 static ALWAYS_INLINE void partial_law(const struct mesh *mesh, const struct particles *p, int64_t group,
                                       struct mesh_cell *s, const int dim)
 {

@@ -25,10 +25,10 @@ static ALWAYS_INLINE bool mesh_balanced(const struct elastic *m, const int dim)
     return dim == 2 && fabs(m->c11 - m->c12 - 2 * m->shear) <= 1e-14 * m->c11;
 }
 
-/* Computes the forces f[c][i] on corner c along axis i of eight whole cells (cells with all of their points) [N] from
- * the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume [m^3] of a cell; tension: raised
- * to an upper bound of the largest principal stress at the material points [Pa]; finite: true if strains are finite,
- * false if small; balanced: result of mesh_balanced. */
+/* Computes the forces f[c][i] on corner c along axis i of eight whole cells (with all points, of one material, without
+ * partial stresses) [N] from the displacements u[c][i] [m]. m: elastic constants; h, volume: edge [m] and volume [m^3]
+ * of a cell; tension: raised to an upper bound of the largest principal stress at the material points [Pa]; finite:
+ * true if strains are finite, false if small; balanced: result of mesh_balanced. */
 static ALWAYS_INLINE void mesh_run_force(const struct elastic *m, real h, real volume, lanes u[CORNERS_MAX][3],
                                          lanes f[CORNERS_MAX][3], lanes *tension, const int dim, const bool finite,
                                          const bool balanced)

@@ -16,23 +16,24 @@ struct mesh_partial {
     real *stiffness;
 };
 
-/* Moves the list of partial cells (cells that have lost some of their points) with their stiffness out of the mesh
- * into the result. The mesh has no partial cells afterwards. */
+/* Moves the list of partial cells (cells with missing points, partial stresses, several materials or doubled nodes)
+ * with their stiffness out of the mesh into the result. The mesh has no partial cells afterwards. */
 struct mesh_partial mesh_partial_keep(struct mesh *mesh);
 
-/* Appends cell I to the list of partial cells of the mesh, cells that have lost some of their points; the stiffness is
- * computed later (mesh_partial_make). */
+/* Appends cell I to the list of partial cells of the mesh, cells with missing points, partial stresses, several
+ * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
 void mesh_partial_add(struct mesh *mesh, int64_t I);
 
-/* Computes the stiffness of all partial cells of the mesh (cells that have lost some of their points). s: material
- * constants and partial stresses; dirty: a byte for each cell, not 0 where the stiffness must be computed anew, NULL
- * for all cells; old: result of mesh_partial_keep, from which the stiffness of all other cells is copied, and which is
- * freed. */
+/* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
+ * materials or doubled nodes). s: material constants and partial stresses; dirty: a byte for each cell, not 0 where the
+ * stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_keep, from which the stiffness of
+ * all other cells is copied, and which is freed. */
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                        struct mesh_partial *old);
 
-/* Recomputes the stiffness of the partial cells (cells that have lost some of their points) marked in `dirty`, a byte
- * for each cell. The list of partial cells is unchanged. s: material constants and partial stresses. */
+/* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
+ * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. s: material constants
+ * and partial stresses. */
 void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                         const uint8_t *dirty);
 
