@@ -194,25 +194,31 @@ struct bonds {
     real stiffness;           /* c V V of a bond between reference particles: force = stiffness w s [N] */
 };
 
-/* Returns true if all eight rows of a row block exist and belong to peridynamic particles. */
+/* Returns true if row block `row_block` (the stored bonds of eight particles) has eight rows, all of peridynamic
+ * particles, which store their complete families. */
 static inline bool row_block_whole(const struct bonds *b, int64_t row_block)
 {
     return eight_bytes(b->whole + row_block * LANES) == EIGHT_TIMES(1);
 }
 
-/* Updates the common properties of a stored column from its weights and lengths. Required after a change of w or of the
- * sign of inverse_length, usually through bonds_changed. */
+/* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
+ * from the stored weights and lengths of its bonds. Required after a change of w or of the sign of inverse_length;
+ * usually called through bonds_changed. */
 void bonds_share(const struct bonds *b, int64_t column);
 
-/* Updates the common properties of the column of bond q after a change of its weight. The row block of `row` no longer
- * follows a stencil. */
+/* Recomputes the common properties of the column that contains bond q after its weight or the sign of its inverse
+ * length has changed. row: the row (all bonds of one particle) of bond q, whose row block no longer follows a
+ * stencil. */
 void bonds_changed(struct bonds *b, int64_t row, int64_t q);
 
-/* Writes the columns of an implicit row block from its stencil. Thread-safe. */
+/* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
+ * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
+ * called by several threads at once. */
 void row_block_expand(struct bonds *b, int64_t row_block);
 
-/* Returns the index of bond k of a row block, lane l, in the bond arrays, for writing; expands the row block first.
- * After a change of w or of the sign of inverse_length the caller calls bonds_changed. */
+/* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond k of the particle in lane `lane` (0 to 7)
+ * of a row block, so that the caller may write to it. Expands the row block first if its columns are not written. After
+ * a change of w or of the sign of inverse_length the caller calls bonds_changed. */
 static inline int64_t bond_to_write(struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_expand(b, row_block);

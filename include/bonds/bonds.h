@@ -15,7 +15,7 @@ struct spring_bound {
     real block[DIM_MAX][DIM_MAX], total; /* sum K n n; sum K [N/m] */
 };
 
-/* Adds a spring of stiffness K [N/m] and direction n [dim]. */
+/* Adds a spring of stiffness K [N/m] and direction n (unit vector, dim components) to the sums of the bound s. */
 static inline void spring_bound_add(struct spring_bound *s, real K, const real *n, int dim)
 {
     for (int a = 0; a < dim; a++)
@@ -23,7 +23,8 @@ static inline void spring_bound_add(struct spring_bound *s, real K, const real *
     s->total += K;
 }
 
-/* Returns the bound [N/m]. */
+/* Returns the block-Gershgorin bound of the largest eigenvalue of the springs added to s: the maximum row sum of the
+ * matrix sum K n n, plus the sum of all K [N/m]. */
 static inline real spring_bound_of(const struct spring_bound *s, int dim)
 {
     real norm = 0;
@@ -35,32 +36,36 @@ static inline real spring_bound_of(const struct spring_bound *s, int dim)
     return norm + s->total;
 }
 
-/* Returns true if one of the cracks cuts the segment between particles i and j (reference positions). */
+/* Returns true if one of the `cracks` pre-cracks in the array `crack` cuts the segment between the reference positions
+ * of particles i and j of p. */
 bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
-/* Returns an upper bound of the number of neighbours of a particle (cells_most). Computed once: reference positions do
- * not move. */
+/* Returns an upper bound of the number of neighbours of any particle, from counts of particles in search cells
+ * (cells_most). Computed once at set-up, because reference positions do not change. */
 int bonds_room(const struct bond_source *s);
 
 /* Computes V_i^H = sum V_j beta of every particle, without cracks [m^3]. volume: [n_all]. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
-/* Makes the rows of all peridynamic particles and bonded material points. old: NULL, or the previous rows, whose broken
- * bonds stay broken and whose counts are carried over; its columns are invalid afterwards. Bonds cut by a crack have w
- * = 0 and count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
+/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs s. old: NULL, or
+ * the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; bonds_make takes over
+ * its columns, so it may only be released afterwards. Bonds cut by a pre-crack get weight w = 0 and count as damage.
+ * Sets the damage of all peridynamic particles. Release with bonds_free. */
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
 
-/* Gives images the kind of their sources. */
+/* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. s:
+ * inputs, of which the list of images is used. */
 void bonds_images_follow(struct particles *p, const struct bond_source *s);
 
-/* Rebuilds particle lists and rows after particles changed their kind. Sets the bond force of particles without a row
- * to 0. */
+/* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
+ * peridynamic). s: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
 void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source *s);
 
-/* Returns an upper bound of the largest eigenvalue of the stiffness of the springs of a row [N/m] (spring_bound_of). */
+/* Returns an upper bound (spring_bound_of) of the largest eigenvalue of the stiffness matrix of the bonds of one row,
+ * i.e. of one particle [N/m]. */
 real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
-/* Releases all arrays. */
+/* Releases all arrays of b. */
 void bonds_free(struct bonds *b);
 
 /* Returns the critical time step of intact bonds [s]: 2 / omega_max with the block-Gershgorin bound of omega. The
@@ -68,33 +73,37 @@ void bonds_free(struct bonds *b);
  * particles were peridynamic. No stored rows are needed. */
 real bonds_critical_step(const struct particles *p, const struct bond_source *s);
 
-/* Returns the critical time step of the intact bonds from the stored rows [s]. Valid only while all particles are
+/* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
  * peridynamic and no bond is broken. */
 real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
 
-/* Copies broken bonds, counts and damage from the rows `old` of particles `was` to b. now: index in p of each particle
- * of `was`, images included, -1: not in p. Both sets have all neighbours of peridynamic particles. */
+/* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set `was` to the
+ * bonds b of the particles p. now: index in p of each particle of `was`, images included; -1: the particle is not in p.
+ * In both sets peridynamic particles must have all their neighbours. */
 void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
                 const int32_t *now);
 
-/* Saves or restores broken bonds and plastic state; rows are rebuilt, not stored. Trial archives contain only the
- * plastic state of the bonds, without the work of broken ones. */
+/* Saves (a->saving) or restores which bonds are broken and their plastic state; neighbours and weights are not stored,
+ * since bonds_make rebuilds them. A trial archive (a->scope) contains only the plastic state, without the work of
+ * broken bonds. Returns FAILED if an entry is missing or its size differs. */
 status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 
-/* Returns Q of the remaining bonds of a row [m^2], summed anew: a difference would leave round-off at the last
- * bonds. */
+/* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
+ * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
 real state_weight_left(const struct bonds *b, int64_t row);
 
-/* Recomputes Q of every row from its present bonds; state-based models only. */
+/* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
+ * state-based models. s: inputs as in bonds_make. */
 void state_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
-/* Returns the first violated invariant of bond_storage.h as text, or NULL. */
+/* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
+ * violated one, or NULL if all hold. */
 const char *bonds_fault(const struct bonds *b);
 
-/* Returns the bond energy released by breaking so far [J]. */
+/* Returns the bond energy released by all bonds broken since the start [J]. */
 real bonds_fracture_energy(const struct bonds *b);
 
-/* Returns the rows of a row block that have an intact bond, one bit each. */
+/* Returns eight bits: bit l is set if the particle in lane l (0 to 7) of row block `row_block` has an intact bond. */
 static inline unsigned bonds_intact(const struct bonds *b, int64_t row_block)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -106,25 +115,27 @@ static inline unsigned bonds_intact(const struct bonds *b, int64_t row_block)
     return bits;
 }
 
-/* Returns true if particle i has a row with an intact bond. (Rows are made for eight particles at once, so a row may be
- * empty.) */
+/* Returns true if particle i has an intact bond. (Storage is made for eight particles at once, so a particle may have
+ * an empty row.) */
 static inline bool bonds_has(const struct bonds *b, int64_t i)
 {
     const int64_t row = b->row_of[i];
     return row >= 0 && bonds_intact(b, row / LANES) >> row % LANES & 1;
 }
 
-/* Clears the bits in `marks` [n_all bits] of the particles and images to which a row has intact bonds; row -1: does
- * nothing. */
+/* Clears the bits in `marks` (one bit per particle and image) of all particles and images to which the particle of
+ * `row` has intact bonds. Does nothing if row is -1. */
 void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks);
 
-/* Returns the number of directed bonds of a row block, broken ones included. */
+/* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
 static inline int32_t row_block_bonds(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
 
-/* Returns the number of columns of a row block, the largest possible number of bonds of its rows. */
+/* Returns the number of columns of a row block, which is the largest possible number of bonds of each of its eight
+ * particles. */
 static inline int64_t bonds_columns(const struct bonds *b, int64_t row_block) { return b->column_count[row_block]; }
 
-/* Returns the neighbour of lane 0 of column k if the eight are consecutive, else -1. */
+/* Returns the neighbour in lane 0 of column k of a row block (column: the k-th bonds of eight particles), if the eight
+ * neighbours of the column are consecutive particles; else -1. */
 static inline int64_t column_first(const struct bonds *b, int64_t row_block, int64_t k)
 {
     const struct stencil *stencil = b->stencil[row_block];
@@ -137,7 +148,8 @@ struct column_copy {
     real inverse_length[LANES], w[LANES];
 };
 
-/* Reads column k of a row block into *to; writes nothing to b. */
+/* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
+ * *to, from the stencil if the row block stores no columns. Does not change b. */
 void column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k);
 
 /* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
@@ -148,7 +160,8 @@ struct bond {
     real inverse_length, w;
 };
 
-/* Returns bond k of a row block, lane l, padding included (inverse_length 0). Writes nothing. */
+/* Returns the k-th bond of the particle in lane `lane` (0 to 7) of a row block. Lanes without a k-th bond return
+ * inverse_length 0. Does not change b. */
 static inline struct bond bond_read(const struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
     const int64_t q = (b->column[row_block] + k) * LANES + lane;
@@ -170,14 +183,15 @@ struct bond_iterator {
     int lane;
 };
 
-/* Returns the iterator of a row; row < 0: no bonds. */
+/* Returns an iterator over all bonds of one row, i.e. of one particle, to be advanced by bond_next. row < 0: an
+ * iterator without bonds. */
 static inline struct bond_iterator bonds_of_row(const struct bonds *b, int64_t row)
 {
     if (row < 0) return (struct bond_iterator){.b = b};
     return (struct bond_iterator){{0}, b, row / LANES, 0, b->column_count[row / LANES], (int)(row % LANES)};
 }
 
-/* Advances to the next bond, it->bond. Returns false at the end. */
+/* Advances the iterator to the next bond, which is then in it->bond. Returns false if there are no more bonds. */
 static inline bool bond_next(struct bond_iterator *it)
 {
     while (it->k < it->columns) {

@@ -61,7 +61,8 @@ struct state_modulus {
     real A, B;
 };
 
-/* Returns A and B of a material. rotates: model with rotations (PD_MOSPD). */
+/* Returns the moduli A and B [Pa] of a state-based model (kernels/pd/state_laws.h) for material m. rotates: true for
+ * the model with particle rotations (PD_MOSPD). */
 static inline struct state_modulus state_modulus_of(const struct material *m, enum space space, bool rotates)
 {
     const real D = space_dim(space);
@@ -94,33 +95,38 @@ struct bond_source {
     const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };
 
-/* Computes horizon, cutoff, shell weights and the sums over a full family on the lattice. The rules (volume,
- * calibration, surface, shells, influence) must be set. section: as struct family. */
+/* Computes horizon, cutoff, weights by direction and the sums over a complete family on the lattice into f. The rules
+ * f->volume, calibration, surface, shells and influence must be set. spacing: lattice spacing [m]; horizon_in_spacings:
+ * delta/spacing [1]; section: cross-section in 1D [m^2], thickness in 2D [m], 1 in 3D. */
 void family_make(struct family *f, enum space space, real spacing, real horizon_in_spacings, real section);
 
-/* Returns the micro-modulus c of a material in this family [N/m^6]. */
+/* Returns the micro-modulus c of bond-based peridynamics for material m and the complete family f, by the calibration
+ * rule of f [N/m^6]. */
 real family_micro_modulus(const struct family *f, const struct material *m);
 
-/* Computes the elastic constants of a full family on the lattice under uniform strain [Pa]: C_abcd = 1/(2V) sum c V V w
- * r e_a e_b e_c e_d, cubic, with shear modulus equal to C12; with shell weights and partial volumes. */
+/* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain, C_abcd
+ * = 1/(2V) sum c V V w r e_a e_b e_c e_d, with the weights by direction and partial volumes of f. The result is cubic,
+ * and its shear modulus equals c12. */
 void family_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
-/* Returns the work of separating a lattice of the model with rotations along a plane, over the square of the stretch at
- * which its bonds break [N/m] (separation.c). local: as in struct bond_source. */
+/* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
+ * square of the stretch at which its bonds break [N/m] (separation.c). m: moduli of the material; local: true if sums
+ * are normalised by the present family. */
 real family_separation(const struct family *f, const struct state_modulus *m, bool local);
 
-/* Returns the energy per area of the bonds that cross a lattice plane normal to an axis, each at the critical stretch
- * [J/m^2]; bond-based models (Silling & Askari 2005). */
+/* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
+ * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
 real family_crossing_energy(const struct family *f, const struct material *m);
 
-/* Returns true if all bonds have the weight shell_weight[0], as in most scenes. */
+/* Returns true if all bonds of family f have one weight: no partial volumes, influence function 1, and equal weights in
+ * all directions. */
 static inline bool family_plain(const struct family *f)
 {
     return f->volume == VOLUME_WHOLE && f->influence == INFLUENCE_ONE && f->shell_weight[0] == f->shell_weight[1];
 }
 
-/* Returns the weight of a reference bond with components xi [m] and length r [m]: beta omega shell_weight, the product
- * of volume fraction, influence function and weight of its direction [1]. */
+/* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
+ * and weight by direction [1]. xi: bond vector, dim components [m]; r: its length [m]. */
 real family_weight(const struct family *f, const real *xi, real r);
 
 #endif

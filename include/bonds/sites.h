@@ -22,27 +22,31 @@ struct site_map {
     bool uniform;               /* exact positions, one volume, mass and material: bonds follow from sites */
 };
 
-/* Returns the site of particle i, -1 if it is not at a site. */
+/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of the map
+ * l. */
 int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i);
 
-/* Creates the map. Returns false, with nothing to release, if the particles are not on a lattice. */
+/* Creates the map l from lattice sites to the particles and images of p. s: inputs of the bonds (spacing, cutoff).
+ * Returns false, with nothing to release, if the particles are not on a lattice. Release with site_map_free. */
 bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p);
 
-/* Releases the map. */
+/* Releases the arrays of the map l. */
 void site_map_free(struct site_map *l);
 
-/* Returns the site map that rows share when they are rebuilt: `of` if it is not NULL, else a new one. Release with
- * site_map_leave. */
+/* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `of` with one more user if it is not
+ * NULL, else a new map of p. Release with site_map_leave. */
 struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p);
 
-/* Releases a shared site map; the last user frees it. NULL: does nothing. */
+/* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if l is
+ * NULL. */
 void site_map_leave(struct site_map *l);
 
-/* Lists the particles and images of the body of particle i within the cutoff, ascending, from the map. Returns their
- * number, or -1 if an image is among them, which would break the order. */
+/* Lists the particles and images within the cutoff that belong to the body of particle i, ascending, by means of the
+ * site map l, in `found` (at least l->most entries). Returns their number, or -1 if images are among them, so that the
+ * list cannot be made in ascending order and a search is required. */
 int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found);
 
-/* Returns true if a crack may cut a bond of particle i. */
+/* Returns true if a pre-crack of s may cut a bond of particle i; false if all are too far away. */
 bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i);
 
 #endif

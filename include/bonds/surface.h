@@ -32,16 +32,18 @@ struct surface_weights {
                          away */
 };
 
-/* Computes the factors for particles on a lattice. rotates: true for models with rotations, which have another alpha,
- * because differences between neighbours' rotations store energy where strain is not uniform. REFUSED if the particles
- * are not on a lattice, with an example in to->apart. Release with surface_free. */
+/* Computes the factors on the weights of bonds near faces for particles on a lattice, by least squares with bounds. s:
+ * inputs of the bonds; rotates: true for models with particle rotations, in which differences between neighbours'
+ * rotations store energy, so that the factors differ. Returns REFUSED, with a message and an example in to->apart, if
+ * the particles are not on a lattice. Release with surface_free. */
 status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates);
 
-/* Releases all arrays. */
+/* Releases all arrays of w. */
 void surface_free(struct surface_weights *w);
 
-/* Returns the factor on the weight of the bond of particle i < n with components xi [m], 1 if xi is out of reach; equal
- * bits from both particles of a bond. */
+/* Returns the factor on the weight of the bond of particle i < n with reference vector xi (dim components [m]) [1]; 1
+ * if the particle is far from faces or xi is longer than any bond. Both particles of a bond obtain bitwise equal
+ * factors. */
 static inline real surface_factor(const struct surface_weights *w, int64_t i, const real *xi)
 {
     int at = 0;

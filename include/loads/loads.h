@@ -94,7 +94,7 @@ struct load {
     int outside;                /* MIRROR: side of the plane without body, -1 or +1 */
 };
 
-/* Returns true if a formula of a boundary depends on time. */
+/* Returns true if a formula of boundary b contains the time t. */
 static inline bool boundary_in_time(const struct boundary *b)
 {
     bool in_time = false;
@@ -102,13 +102,14 @@ static inline bool boundary_in_time(const struct boundary *b)
     return in_time;
 }
 
-/* Returns the time at which the formulas of a boundary are evaluated at time t [s]. */
+/* Returns the time at which the formulas of boundary b are evaluated at time t [s]: b->frozen_at in static problems,
+ * else t, but not beyond b->end. */
 static inline real boundary_time(const struct boundary *b, real t)
 {
     return b->frozen ? b->frozen_at : b->end > 0 ? real_min(t, b->end) : t;
 }
 
-/* Returns true if the boundary applies forces to particles. */
+/* Returns true if boundary b applies forces: a traction, a body force or a pressure. */
 static inline bool boundary_is_force(const struct boundary *b)
 {
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
@@ -154,27 +155,32 @@ struct loads {
  * across a clamped plane nearby act on it after the bond sweep. TOUCHES: contact may act on it. */
 enum { LOADED = 1, MOVES_LATER = 2, TOUCHES = 4 };
 
-/* Returns true if contact or loads may act on particle i. */
+/* Returns true if applied loads or contact may act on particle i. */
 static inline bool is_loaded(const struct loads *l, int64_t i)
 {
     return l->loaded && l->loaded[i] & (LOADED | TOUCHES);
 }
 
-/* Returns true for a mirror that also prevents motion along its plane; false in 1D, where it is a plane of symmetry. */
+/* Returns true if boundary b is a mirror that also prevents motion along its plane; false in 1D (dim = 1), where such a
+ * mirror is a plane of symmetry. */
 static inline bool is_clamp(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_MIRROR && b->hold_tangential && dim > 1;
 }
 
-/* Finds the particles of one boundary (of a clamped mirror those in its plane), ascending, with their shares; sets
- * FLAG_DRIVEN. REFUSED for a force on a region without particles, or a traction on one without a free face. */
+/* Finds the particles in the region of boundary b (of a clamped mirror those in its plane) and stores them in l,
+ * ascending, with their shares (areas, volumes or masses). Sets FLAG_DRIVEN on particles with prescribed motion.
+ * spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region without particles or a
+ * traction on particles without a free face. */
 status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
-/* Marks the particles in the region and body of a boundary: selected [n]. Returns false if there are none. */
+/* Sets selected[i] = 1 for the particles in the region and body of boundary b, 0 for all others; selected: [p->n].
+ * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if no particle is
+ * selected. */
 bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
 
-/* Lists the particles with taken[i] > 0 as those of the load, sets FLAG_DRIVEN for prescribed motion, allocates
- * shares. */
+/* Sets the particle list of load l to the particles i with taken[i] > 0, ascending, and allocates their shares if the
+ * load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. taken: [p->n]. */
 void load_take(struct load *l, const uint8_t *taken, struct particles *p);
 
 /* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
@@ -183,117 +189,140 @@ struct face {
     real *normal, *along; /* [particles] area for the normal component, and for the tangential ones [m^2] */
 };
 
-/* Computes the exposed face of boundary b among the selected particles [n]. two: extrapolate tangential components from
- * two particles. Release with face_free. */
+/* Computes the areas of the particles on the exposed face of boundary b, among those with selected[i] = 1, into f.
+ * selected: [p->n]; spacing: lattice spacing [m]. two: extrapolate tangential tractions to the face from the first two
+ * particles of each column, instead of the first one. Release with face_free. */
 void face_make(struct face *f, const struct boundary *b, const struct particles *p, const uint8_t *selected,
                real spacing, bool two);
 
-/* Releases the areas. */
+/* Releases both arrays of areas of a face. */
 void face_free(struct face *f);
 
-/* Marks in taken [n] the selected particles in the layer of depth b->depth behind the face of b; a gap in a column of
- * particles normal to the face ends the layer there. */
+/* Sets taken[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and leaves
+ * other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected, taken:
+ * [p->n]; spacing: lattice spacing [m]. */
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 uint8_t *taken);
 
 /* Receives a free end of a column: particle and area of the column [m^2]. */
 typedef void face_found_fn(void *context, int32_t particle, real area);
 
-/* Calls `found` for every free end of a column along the normal of b's face, including walls of holes. */
+/* Calls found(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
+ * particles along its normal; walls of holes are free ends too. selected: [p->n] 1: selected; spacing: lattice spacing
+ * [m]. */
 void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 face_found_fn *found, void *context);
 
-/* Finds the particles of a pressure, number `which` of n boundaries; part of loads_make (loads_pressure.c). */
+/* Finds the particles with a free face on which the pressure boundary[which] acts, and stores them in l with the areas
+ * of these faces. boundary: all n boundaries of the scene, because other boundaries may cover a face. spacing: lattice
+ * spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
 status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
                             real spacing);
 
 /* Receives a free face of a particle: axis and side of its normal, its area [m^2]. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
-/* Calls `found` for every free face among the selected particles on which pressure number `which` of n boundaries
- * acts. */
+/* Calls found(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
+ * all[which] acts. all: the n boundaries of the scene; spacing: lattice spacing [m]; selected: [p->n] 1: selected. */
 void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
                     const uint8_t *selected, pressure_face_fn *found, void *context);
 
-/* Prepares the shares of a load with formulas or a following pressure (loads_moving.c): formulas without time are
- * multiplied into the shares. REFUSED where a formula is not finite. */
+/* Prepares the shares of load l if it has a formula or is a pressure that follows the deformation: multiplies the
+ * shares by formulas that do not depend on time, and allocates arrays for the others. Returns REFUSED, with a message,
+ * if a formula has no finite value at a particle. */
 status load_formula_make(struct load *l, const struct particles *p);
 
-/* Checks that the formulas of all loads and supports are finite on their particles at time t [s]. FAILED otherwise,
- * with name, position and time. */
+/* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
+ * FAILED, with a message that contains boundary, position and time, if one has not. */
 status loads_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Updates the shares of loads that change in time for loads_push: mean over the kick that ends at t [s]. */
+/* Updates the time-dependent shares of the loads before loads_push: to their mean over the velocity update (kick) of
+ * duration dt_velocity [s] that ends at time t [s]. */
 void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Updates the shares of loads that change in time for loads_push_work: mean of the kicks before and after the drift. */
+/* Updates the time-dependent shares of the loads before loads_push_work: to the mean of the two velocity updates
+ * (kicks) before and after the change of positions in the step of size dt about t [s]. */
 void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays of load_formula_make. */
+/* Releases the arrays that load_formula_make has allocated for load l. */
 void load_moving_free(struct load *l);
 
-/* Computes the force of a load on its k-th particle at time t, at reference positions; static: at full load. force
- * [dim] [N]. */
+/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
+ * dim components [N]. In load steps the force is that at full load. */
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
 
-/* Stores the total force of a load at time t in `reaction`, and in `displacement` the mean displacement of its
- * particles, weighted by force so that force times displacement is the work; unweighted if the forces cancel. */
+/* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
+ * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
+ * the work; it is not weighted if the forces sum to zero. */
 void load_applied_sum(struct load *l, const struct particles *p, real t);
 
-/* Computes the value of a boundary at its k-th particle, without areas and profile: value [dim], unit as
- * boundary.value. Not for rotations. */
+/* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its k-th particle
+ * at time t [s], without areas and without the profile. value: dim components, unit as boundary.value. Not defined for
+ * prescribed rotations. */
 void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value);
 
-/* Finds the particles of every boundary, sets FLAG_DRIVEN, and appends mirror images within `reach` [m] of mirror
- * planes to the particles (so bonds must be made afterwards). spacing [m]: of the columns for tractions. optional: as
- * particles_make. REFUSED as load_select. Release with loads_free. */
+/* Creates the loads of n boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends mirror images
+ * of the particles within `reach` [m] of mirror planes to p. Bonds must be made afterwards. boundary: borrowed;
+ * spacing: lattice spacing [m]; optional: optional particle arrays, as in particles_make. Returns REFUSED, with a
+ * message, if a boundary has no particles or no free face, or a mirror is misplaced. Release with loads_free. */
 status loads_make(struct loads *l, const struct boundary *boundary, int n, struct particles *p, real spacing,
                   real reach, int optional);
 
-/* Releases all loads. */
+/* Releases all arrays of all loads. */
 void loads_free(struct loads *l);
 
-/* Sets the list of particles on which contact forces may act (n indices in ascending order, copied). Their forces are
- * cleared before each step, and their motion is not fused with the bond sweep. */
+/* Sets the particles on which contact forces may act: `list` has n indices in ascending order and is copied. Their
+ * forces are cleared before each step, and they are moved after all forces are complete, not already while bond forces
+ * are computed. */
 void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
-/* Combines loads on equal lists of particles; last part of loads_make. */
+/* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. dim:
+ * dimension of the body. */
 void loads_join(struct loads *l, int dim);
 
-/* Releases the shares of all loads. */
+/* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
 void loads_applied_free(struct loads *l);
 
-/* Adds the applied forces to p->f, and their impulse to l->impulse; part of loads_apply. */
+/* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
+ * of the velocity update [s], to l->impulse. Part of loads_apply. */
 void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
 
-/* Adds the work of the applied forces in a step to l->work; part of loads_hold. */
+/* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
+ * loads_hold. */
 void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
-/* Checks that no part of a face has two absorbing boundaries, and that none is in a mirror plane; else REFUSED. */
+/* Checks the absorbing boundaries. Returns REFUSED, with a message, if two of them act on one part of a face, or if one
+ * lies in a mirror plane. */
 status loads_absorbing_check(const struct loads *l, const struct particles *p);
 
-/* Creates the dashpots of all absorbing faces, after loads_make. impedance: [MOVERS][materials] by the method that
- * moves a particle, borrowed. */
+/* Creates the dashpots on the particles of all absorbing faces; call after loads_make. impedance[m]: wave impedances of
+ * the materials, [materials], for the method m that moves a particle (enum moved_by); borrowed. Release with
+ * loads_absorbing_free. */
 void loads_absorbing_make(struct loads *l, const struct particles *p, const struct impedance *const *impedance);
 
-/* Releases the dashpots. */
+/* Releases the dashpots of all absorbing faces. */
 void loads_absorbing_free(struct loads *l);
 
-/* Adds the dashpot forces on particles that bonds move; part of loads_apply. */
+/* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
+ * dt_velocity: duration of the velocity update [s]. Part of loads_apply. */
 void loads_absorb(struct loads *l, struct particles *p, real dt_velocity);
 
-/* Lists the dashpots of grid nodes, after the walls; part of loads_walls. half_width: l_p [m]. */
+/* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
+ * loads_walls. The rates of particles are distributed to the nodes by the kernel k->spread. half_width: half the
+ * reference edge of a particle, l_p [m]. */
 void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
                     real half_width);
 
-/* Lists the dashpots of mesh nodes; part of loads_mesh_find. */
+/* Appends the absorbing dashpots of mesh nodes to mesh->grid, distributed from the particles of absorbing faces; part
+ * of loads_mesh_find. */
 void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Books energy and impulse of dashpots. */
+/* Adds the energy and impulse in `by`, the effect of the dashpots of one grid or mesh in a step, to the sums of the run
+ * in l. */
 void loads_absorbed(struct loads *l, const struct absorbed *by);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
@@ -307,16 +336,20 @@ struct displacing {
     real turned[DIM_MAX * DIM_MAX]; /* rotates: rotation matrix at t, row major */
 };
 
-/* Evaluates time functions and rotation at t [s]. */
+/* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
+ * displacing_at: evaluates the function of time and the rotation once. dim: dimension of the body; b: borrowed. */
 struct displacing displacing_make(const struct boundary *b, int dim, real t);
 
-/* Returns component d, one of boundary->components, of the displacement at the reference position X [dim, m] [m]. */
+/* Returns component d of the prescribed displacement at the reference position X (dim components [m]) [m]. d must be
+ * one of the components that the boundary prescribes. */
 real displacing_at(const struct displacing *s, const real *X, int d);
 
-/* Computes the displacement of a load's k-th particle at t: u [dim] [m], 0 in components that are not prescribed. */
+/* Computes the displacement that load l prescribes for its k-th particle at time t [s]. u: dim components [m], 0 in
+ * components that are not prescribed. */
 void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u);
 
-/* REFUSED for a boundary of kind VELOCITY whose displacements are not known in closed form. OK for all others. */
+/* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
+ * formula of t), so that its displacements are unknown; else OK. */
 status load_displacement_known(const struct boundary *b);
 
 /* Motion that a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
@@ -327,41 +360,45 @@ struct driving {
     struct displacing from, to; /* displaces, rotates: displacements at the ends of the step */
 };
 
-/* Evaluates the motion of boundary b in the step about t. */
+/* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
+ * evaluation at many positions by driving_at. dim: dimension of the body; b: borrowed. */
 struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Evaluates the motion of boundary `which` in the step about t. After the last step (l->ended) a prescribed
- * displacement continues as in the previous step: otherwise half of a change of motion after the end would enter the
- * work of the run. */
+/* Returns the motion that boundary number `which` of l prescribes in the step of size dt about t [s], as driving_make.
+ * After the last step of a run (l->ended) a prescribed displacement continues as in the previous step; otherwise half
+ * of a change of motion after the end would enter the work of the run. */
 struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt);
 
-/* Returns the velocity of component d at the reference position X [m/s]; placed: of material at X at the start of the
- * step. For a displacement: its difference over the step divided by dt. */
+/* Returns component d of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for a
+ * prescribed displacement its difference over the step divided by dt. placed: true if X is the position of the material
+ * at the start of the step, false if it is its reference position. */
 real driving_at(const struct driving *s, const real *X, int d, bool placed);
 
-/* Returns true if the prescribed motion depends on position. */
+/* Returns true if the motion that boundary b prescribes differs between positions: it rotates, or a formula contains x,
+ * y or z. */
 static inline bool drives_by_place(const struct boundary *b)
 {
     return b->rotates || b->formula[0].in_space || b->formula[1].in_space || b->formula[2].in_space;
 }
 
-/* Returns the largest speed that a displacement prescribes between the times 0 and t [m/s], INFINITY if it jumps; for
- * formulas sampled at MOMENTS times and some particles. */
+/* Returns the largest speed of the displacement that load l prescribes between the times 0 and t [s] [m/s], INFINITY if
+ * the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
 real load_displacing_speed(const struct load *l, const struct particles *p, real t);
 
-/* Returns the largest difference between the velocity that a load prescribes between the times 0 and t, sampled at
- * MOMENTS times and some particles, and the velocities of its particles in p, the state at t = 0; for rotations the
- * difference of speeds; 0 for displacements [m/s]. */
+/* Returns the largest difference between the velocity that load l prescribes between the times 0 and t [s] and the
+ * velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For rotations
+ * the difference of speeds; 0 for prescribed displacements. */
 real load_velocity_jump(const struct load *l, const struct particles *p, real t);
 
-/* Returns the largest change of the velocity that a load (velocity or displacement) prescribes within a span of time
- * [m/s], between the times 0 and t; before 0 its particles have the velocity in p. Sampled at MOMENTS times and some
- * particles. within: the span [s], at least one sampling interval is used. */
+/* Returns the largest change, within any time span of length `within` [s], of the velocity that load l (velocity or
+ * displacement) prescribes between the times 0 and t [s] [m/s]. Before time 0 the particles of the load have the
+ * velocity in p. Sampled at MOMENTS times and some particles; a span shorter than the sampling interval is extended to
+ * that interval. */
 real load_velocity_change(const struct load *l, const struct particles *p, real t, real within);
 
-/* Returns the largest difference between the velocities that two loads prescribe, each less that of its particles in p,
- * between the times 0 and t, in the components that both prescribe [m/s]; 0 if there are none, INFINITY if one of them
- * rotates or depends on position. */
+/* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and t [s],
+ * each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component is
+ * prescribed by both; INFINITY if one load rotates or depends on position. */
 real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t);
 
 /* tolerance of region membership, over the spacing: points on the border belong to the region */
@@ -369,81 +406,98 @@ real loads_velocity_apart(const struct load *a, const struct load *b, const stru
 
 /* ---- mirrors (loads_mirror.c) ------------------------------------------------------------------------------------ */
 
-/* Checks mirrors and appends their images; part of loads_make. REFUSED for a mirror inside its body. */
+/* Checks all mirror boundaries and appends mirror images of the particles within `reach` [m] of their planes to p.
+ * optional: optional particle arrays, as in particles_make. Part of loads_make. Returns REFUSED, with a message, if a
+ * mirror plane is inside its body or two mirrors coincide. */
 status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int optional);
 
-/* Sets MOVES_LATER for particles whose bonds may cross a clamped plane. */
+/* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
+ * such bonds are added after all bond forces, so these particles must not be moved before. */
 void loads_mirrors_mark(struct loads *l, const struct particles *p);
 
-/* Updates images from their sources: x, v, kind and FLAG_DRIVEN. First rounds the positions of the sources across the
- * mirror to multiples of place_step, about the last bit of the farthest position. */
+/* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
+ * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step, about the
+ * last bit of the farthest position. */
 void loads_mirror(const struct loads *l, struct particles *p);
 
-/* Sets f = 0 on every loaded particle, before the bond sweep (loads_applied.c). */
+/* Sets p->f = 0 on every particle of every load and support, before the bond forces are computed. */
 void loads_clear(struct loads *l, struct particles *p);
 
-/* Completes the forces after the bond sweep: books the impulse of mirror images, adds applied forces and dashpots, and
- * replaces f of driven peridynamic particles by the force that gives them their velocity. t: middle of the step, where
- * the kick ends that began dt_velocity before [s]. */
+/* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
+ * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
+ * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
+ * the step of size dt [s]. */
 void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
-/* Sets the walls of a grid: nodes in a driven region or on a mirror plane, and nodes at least half of whose mass
- * belongs to driven points. Nodes beyond a mirror plane follow their images if the plane is on a node or midway between
- * two, else they are constrained like nodes on the plane. held: set of this grid, zero at first. Call after the first
- * map. */
+/* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
+ * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
+ * mirror plane move as mirror images if the plane is on a node or midway between two, else they are constrained like
+ * nodes on the plane. held: constrained nodes of this grid, kept between calls, zeroed at first. half_width: half the
+ * reference edge of a particle [m]. Call after the first particle-to-grid map. */
 void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
                  const struct kernels *k, real half_width, real t, real dt);
 
-/* Finds the constrained nodes and dashpots of the mesh: at the first call, and again after it has lost points. */
+/* Finds the nodes of the mesh whose motion boundaries or mirrors prescribe, and the absorbing dashpots of its nodes.
+ * Call once at set-up, and again whenever the mesh has lost points to conversion. */
 void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the walls of the mesh for the step about t. */
+/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_mesh_find, for the step of size dt about t
+ * [s]. */
 void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
 
-/* Finds the constrained nodes of a mesh of coarse cells by position: in driven regions and on mirrors. */
+/* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
+ * driven regions and on mirror planes. Stores them in `held`. */
 void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p);
 
-/* Sets the walls of a mesh of coarse cells for the step about t. */
+/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_level_find, on grid g of a mesh of
+ * coarse cells, for the step of size dt about t [s]. */
 void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
 
-/* After the grid-to-particle transfer: sets the velocity of driven material points and the position of displaced
- * particles exactly; books the work of applied forces. Returns true if points on a grid were moved. */
+/* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
+ * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
+ * Returns true if the position of a point on a grid was changed. */
 bool loads_hold(struct loads *l, struct particles *p, real t, real dt);
 
-/* Adds the reactions of the walls and dashpots of one grid, or of the mesh, to the loads. */
+/* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
+ * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
 void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
 
-/* Returns true if a mirror's plane is on a node of the grid or midway between two. */
+/* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing,
+ * to which the tolerance refers [m]. */
 bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
-/* Makes boundaries of a static problem in pseudo-time: copies n of them into `to`; forces have their value at
- * `duration` [s], and prescribed motion its displacement until then. Both grow linearly from 0 to `ramp` [s] and stay
- * constant. */
+/* Converts n boundary conditions `from` to those of a static problem in pseudo-time, copied into `to`: forces have
+ * their value at time `duration` [s], prescribed motion its displacement until then. Both grow linearly from 0 at
+ * pseudo-time 0 to full size at `ramp` [s] and stay constant. */
 void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
 
-/* Computes the final displacement of every driven component: displacement [dim][n] [m], and bits of driven components:
- * held [n]. Where loads overlap the later one counts, as in a run. */
+/* Computes the displacement of every driven component at full load (pseudo-time `ramp` [s]). displacement: [dim][p->n]
+ * [m]; held: [p->n], bit d: component d is driven. Where loads overlap, the later load in the scene is used, as in a
+ * dynamic run. */
 void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
                          uint8_t *held);
 
-/* Adds the inertia of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that loads with
- * a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns the moment over the
- * largest moment that forces of this size could have [1]. */
+/* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
+ * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment
+ * over the largest moment that forces of this size could have [1]. */
 real loads_static_balance(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces of a static problem to p->f. */
+/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_static_balance, to the
+ * particle forces p->f [N]. */
 void loads_static_force(const struct loads *l, struct particles *p);
 
-/* Moves the forces on driven components from p->f to the reactions. */
+/* Sets the reaction of each support to minus the sum of the forces p->f on its driven components, then sets these
+ * forces to 0 in p. Reactions of other loads become 0. */
 void loads_static_hold(struct loads *l, struct particles *p);
 
-/* Computes the work of loads that grow in proportion on a linear body: half the applied force times displacement, into
- * `work`, and half the reactions times displacement, into `constraint_work`. */
+/* Computes the work of loads that grow in proportion on a linear body: stores half the sum of applied forces times
+ * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
 void loads_static_work(struct loads *l, const struct particles *p);
 
-/* Saves or restores accounts, displacements and reactions. */
+/* Saves (a->saving) or restores the impulse and work of the loads since the start, and displacement and reaction of
+ * each load. Returns FAILED if an entry is missing or its size differs. */
 status loads_archive(struct loads *l, struct archive *a);
 
 /* largest number: indices are stored as bytes in struct held and struct image; scene_keys.c */

@@ -22,14 +22,16 @@ struct pair_table {
     int materials;
 };
 
-/* Allocates a row for `room` bonds. Release with row_room_free. */
+/* Allocates the arrays of `row` (the bonds of one particle under construction) for up to `room` bonds. Release with
+ * row_room_free. */
 void row_room_make(struct row *row, int room);
 
-/* Releases the arrays of a row. */
+/* Releases the arrays of `row`. */
 void row_room_free(struct row *row);
 
-/* Lists the neighbours of particle or image i within the cutoff that no void hides, ascending, by the site map l where
- * possible (NULL: none), else by search. Returns their number; if it exceeds `room`, the list is incomplete. */
+/* Lists the neighbours of particle or image i within the cutoff, except those that a void hides, ascending, in `found`,
+ * which has `room` entries. l: map from lattice sites to particles, used where possible instead of a search; NULL:
+ * always search. Returns the number of neighbours; if it exceeds `room`, the list is incomplete. */
 int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
               int32_t *found, int room);
 
@@ -44,24 +46,27 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Returns true if the row of particle i is unchanged: it already had its whole family, or its neighbours are
- * unchanged. */
+/* Returns true if the neighbours of particle i are as in the previous bonds m->old: its row already had the complete
+ * family and it is still peridynamic, or m->fresh[i] is 0. */
 static inline bool row_lasts(const struct row_maker *m, int64_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
     return before >= 0 && ((m->old->whole[before] && m->p->kind[i] == KIND_PD) || !m->fresh[i]);
 }
 
-/* Finds the neighbours of particle i. */
+/* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
 void row_find(struct row *row, const struct row_maker *m, int32_t i);
 
-/* Computes lengths and weights of the bonds to the neighbours found, and carries over the broken and yielded state. */
+/* Computes lengths and weights of the bonds from particle i to the neighbours in `row`, and copies which bonds are
+ * broken, and their plastic state, from the previous bonds m->old. */
 void row_finish(struct row *row, const struct row_maker *m, int32_t i);
 
-/* Returns the previous row block equal to row block g, -1 if it has changed (bonds_keep.c). */
+/* Returns the number of the previous row block (bonds of eight particles) in m->old that equals row block g, so that
+ * its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
 int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
 
-/* Copies row block `from` of `old` to row block g. */
+/* Copies row block `from` of the previous bonds `old` to row block g of b: stencil, flags, limits and volumes, and the
+ * columns unless b has taken over the column arrays of `old`. */
 void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
 
 /* Neighbours found for the rows of a row block, kept between the two passes. */
@@ -70,26 +75,32 @@ struct row_block_found {
     int32_t n[LANES], nbr[];   /* number of neighbours of each row; neighbours, row after row */
 };
 
-/* Copies the neighbours of rows to a new allocation. Release with memory_free. */
+/* Returns a newly allocated copy of the neighbours of the first `rows` rows in the array `row`. Release with
+ * memory_free. */
 struct row_block_found *row_block_found_make(const struct row *row, int rows);
 
-/* Restores the neighbours of rows from a copy. */
+/* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
 void row_block_found_take(const struct row_block_found *found, struct row *row, int rows);
 
-/* Assigns columns to all row blocks and allocates them. kept: [row blocks] previous row block that is kept in place,
- * -1: row block is rebuilt, in a hole if one is large enough (bonds_columns.c). */
+/* Assigns a range of columns to every row block of b and allocates the column arrays. kept: [row blocks] number of the
+ * previous row block whose columns stay in place, -1: the row block is rebuilt, in the free columns (a hole) of a
+ * removed row block if they are enough, else behind all columns (bonds_columns.c). */
 void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept);
 
-/* Detaches the arrays that b has taken over from the previous rows. */
+/* Sets the pointers in `old` to NULL for those arrays that b has taken over, so that releasing `old` does not release
+ * them. */
 void columns_leave(struct bonds *old, const struct bonds *b);
 
-/* Returns true if a crack or a void may cut a bond of particle i. */
+/* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
 bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i);
 
-/* Returns the stretch above which the vector test reports a bond of these particles: its limit less a tolerance [1]. */
+/* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
+ * breaking: its critical stretch less a tolerance for round-off [1]. */
 real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
 
-/* Returns true if one index distance per column (a lattice) is worth its padding, else rows are packed without gaps. */
+/* Returns true if columns with one index distance each, as on a lattice, need little padding, so that they are
+ * preferred to rows packed without gaps. offsets: number of distinct index distances; longest: largest number of bonds
+ * of a row. */
 static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
 /* Families of eight consecutive particles on a lattice, by index distance in ascending order. */
@@ -102,44 +113,50 @@ struct regular_bonds {
     struct stencil_cache *stencil_cache;
 };
 
-/* Allocates room for the most index distances that the site map can have. Release with regular_bonds_free. */
+/* Allocates `to` for the largest number of index distances that bonds on the lattice of map l can have. Release with
+ * regular_bonds_free. */
 void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
 
-/* Releases the arrays. */
+/* Releases the arrays of `to`. */
 void regular_bonds_free(struct regular_bonds *to);
 
-/* Computes the families of particles i .. i + 7 from the site map. Returns false if a search is required. */
+/* Computes the families of the eight particles i to i + 7, by index distance, from the map l of lattice sites into
+ * `to`. Returns false if the map is not sufficient, so that the families must be searched. */
 bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 
-/* Creates a cache of row blocks for one thread (bonds_stencil_cache.c). Release with stencil_cache_free. */
+/* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
+ * quickly (bonds_stencil_cache.c). l: map of lattice sites. Release with stencil_cache_free. */
 struct stencil_cache *stencil_cache_make(const struct site_map *l);
 
-/* Releases the cache. */
+/* Releases the cache t. */
 void stencil_cache_free(struct stencil_cache *t);
 
-/* Returns the first particle of a previous row block whose bonds are bitwise equal to those of i .. i + 7 (lengths,
- * weights and their sums, none cut), or -1; the present row block is then remembered. weights: inputs of the weights
- * beside the sites (NULL: none). */
+/* Returns the first particle of an earlier row block whose bonds are bitwise equal to the bonds b of particles i to i +
+ * 7 (lengths, weights and their sums, none cut), or -1; in that case row block i is added to the cache. weights: inputs
+ * on which weights depend besides lattice sites; NULL: none. */
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
 
-/* Computes 1/length [1/m] and weight [1] of the bonds from particles i .. i + 7 to j .. j + 7, without cuts. */
+/* Computes inverse length `inverse` [1/m] and weight w [1] of the eight bonds between particle i + l and particle j +
+ * l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
 void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
                    int64_t j, real *inverse, real *w);
 
-/* Computes the bonds of particles i .. i + 7 from the site map. Returns false if it cannot, e.g. near cracks. */
+/* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
+ * is not possible, e.g. because a crack is near. */
 bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
                        struct regular_bonds *to);
 
-/* Returns the number of columns that the bonds need. */
+/* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
 int row_block_regular_columns(const struct regular_bonds *bonds);
 
-/* Returns the number of directed bonds. */
+/* Returns the number of directed bonds of eight particles on a lattice. */
 int row_block_regular_bonds(const struct regular_bonds *bonds);
 
-/* Returns the micro-moduli of all pairs of materials. Release `ratio` with memory_free. */
+/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
+ * `ratio` with memory_free. */
 struct pair_table pairs_make(const struct bond_source *s);
 
-/* Returns the number of rows in row block g, at most LANES. */
+/* Returns the number of rows in row block g: eight, except for the last row block. */
 static inline int row_block_rows(const struct bonds *b, int64_t g) { return eight_at(g * LANES, b->rows); }
 
 /* Working memory of one thread for the eight rows of a row block. */
@@ -154,74 +171,84 @@ struct row_block_room {
     int32_t reach;                /* largest index distance so far */
 };
 
-/* Allocates the working memory. Release with row_block_room_free. */
+/* Allocates the working memory g in which one thread makes row blocks. room: largest number of bonds of a row; map: map
+ * of lattice sites. Release with row_block_room_free. */
 void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
 
-/* Releases the working memory. */
+/* Releases the working memory g. */
 void row_block_room_free(struct row_block_room *g);
 
-/* Returns the number of columns that a row block needs. *by_offset: one index distance per column, else packed rows. */
+/* Returns the number of columns that the bonds in g->row[0] to g->row[rows - 1] need. particle: the particles of these
+ * rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without gaps. */
 int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset);
 
-/* Fills the columns of row block g from its rows, with their trigger, volumes and alignment. */
+/* Fills the columns of row block g of b from the first `rows` rows of bonds in `room`, and sets breaking limits, family
+ * volumes and alignment of the row block. by_offset: result of row_block_columns. */
 void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
                     const struct particles *p);
 
-/* Fills row block g from room->regular, without a search: its eight particles are consecutive on one lattice. */
+/* Fills row block g of b from the bonds in room->regular, which were found without a search, because its eight
+ * particles are consecutive on one lattice. */
 void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m);
 
-/* Stores the columns in `room` as row block g, or lets it follow an equal stencil. Called after filling. */
+/* Stores the columns in `room` as columns of row block g, or, if their bonds equal those of a known stencil, makes the
+ * row block follow that stencil and stores nothing. Called after the columns were filled. */
 void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p);
 
-/* Allocates and fills b->shell_length. */
+/* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
+ * [m]. */
 void shell_lengths(struct bonds *b, real spacing);
 
-/* Returns the shell of the lattice whose length eight bonds have up to the round-off of positions, which is stored in
- * excess[LANES]; 0: none. */
+/* Returns the number k > 0 of the lattice shell (length spacing sqrt(k)) whose length eight bonds have up to the
+ * round-off of positions, and stores these round-off differences in excess[LANES], in units of the last place of 1/r; 0
+ * if the bonds have no common shell. inverse: inverse lengths of the bonds [1/m]. */
 int shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
-/* Returns the stencils of previous rows with one more user, or new ones if `of` is NULL (bonds_stencils.c). Release
- * with stencils_free. */
+/* Returns a table of stencils (lists of columns shared by many row blocks): `of` with one more user, or a new table if
+ * `of` is NULL (bonds_stencils.c). Release with stencils_free. */
 struct stencils *stencils_make(struct stencils *of);
 
-/* Releases the stencils; the last user frees them. */
+/* Removes one user of the table of stencils p; the last user releases it. */
 void stencils_free(struct stencils *p);
 
-/* Allocates a stencil for `columns` columns. Release with stencil_free. */
+/* Allocates the stencil p for up to `columns` columns. Release with stencil_free. */
 void stencil_make(struct stencil *p, int columns);
 
-/* Releases the arrays of a stencil. */
+/* Releases the arrays of the stencil p. */
 void stencil_free(struct stencil *p);
 
-/* Appends a column of a row block that begins with particle i; bonds with w = 0 and inverse_length = 0 do not exist.
- * Returns false if its neighbours are not consecutive, or bonds differ in length or are cut. */
+/* Appends the column `from` of the row block whose first particle is i to the stencil `to`. Bonds with w = 0 and
+ * inverse_length = 0 do not exist. Returns false, without a usable stencil, if the neighbours are not consecutive, or
+ * bonds differ in length or are cut. */
 bool stencil_add(struct stencil *to, const struct bonds *b, const struct particles *p, int64_t i,
                  const struct column_copy *from);
 
-/* Returns the stored stencil equal to `stencil`, comparing `likely` first, and stores it if it is new; NULL if the
- * table is full. */
+/* Returns the stencil in the table `all` that is equal to `stencil`, after comparing with `likely` first; adds a copy
+ * to the table if there is none. Returns NULL if the table is full. */
 const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely);
 
-/* Makes row block g follow the stencil of the row block of particle `cached` (-1: of row block g itself). Returns false
- * if there is no stencil. */
+/* Makes row block g follow the stencil of the row block that contains particle `cached`, or, if cached is -1, its own
+ * stencil found before. Returns false if there is no stencil to follow. */
 bool row_block_follow(struct bonds *b, int64_t g, int64_t cached);
 
-/* Writes a column to the bond arrays. */
+/* Writes the eight bonds `from` to column number `column` of the bond arrays. */
 void column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
 
-/* Prepares the state of state-based models before rows are filled (bonds_state.c). */
+/* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
+ * (bonds_state.c). Does nothing for bond-based models. */
 void state_start(struct bonds *b, const struct bond_source *s);
 
-/* Allocates the remaining state after the rows and `whole` are set. */
+/* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
+ * weighted volumes; call after all rows were made. Does nothing for bond-based models. */
 void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
-/* Releases the state. */
+/* Releases the arrays of b->state. */
 void state_free(struct bonds *b);
 
-/* Lists the bonds to images in clamped planes after all rows are made (bonds_clamped.c). */
+/* Lists in b->clamped the bonds to mirror images in clamped planes, after all rows were made (bonds_clamped.c). */
 void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
-/* Releases the lists. */
+/* Releases the lists in b->clamped. */
 void clamped_free(struct bonds *b);
 
 #endif

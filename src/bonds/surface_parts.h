@@ -37,37 +37,40 @@ struct seen {
     int mirrors;
 };
 
-/* Returns the particle of the body that j is or, for an image, is the source of, and the mirrors between them. */
+/* Returns the particle of the body of which entry j of the particle arrays is an image (j itself, if it is not an
+ * image), and the mirrors in between as one bit per reversed axis. */
 struct seen seen_of(const struct near_faces *b, int64_t j);
 
-/* Returns -1 if the mirrors reverse the axis, else 1. */
+/* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
 
-/* Returns the neighbour of the t-th particle near faces at offset k, -1: none. */
+/* Returns the particle or image at offset number k from the t-th particle near faces, -1 if there is none or the bond
+ * is cut. */
 static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
 {
     return b->neighbour[t * b->offset.n + k];
 }
 
-/* Returns the neighbour at offset k of a particle near faces seen through mirrors; its particle is -1 if it does not
- * exist or is cut off. */
+/* Returns the neighbour at offset number k of `from`, a particle near faces that is seen through mirrors, with the
+ * mirrors in between. Its particle is -1 if there is no neighbour or the bond is cut. */
 struct seen seen_beyond(const struct near_faces *b, const struct seen *from, int k);
 
-/* Returns true if the family of particle or image j is complete. */
+/* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
 static inline bool is_whole(const struct near_faces *b, int64_t j)
 {
     return b->whole[j < b->p->n ? j : image_root(b->p, b->source->image, j)];
 }
 
-/* Returns the index of the offset of bond k in the row of its other particle `to`. */
+/* Returns the number of the offset by which `to`, the other particle of a bond with offset number k, reaches the first
+ * particle: the reversed offset, reflected in the mirrors of `to`. */
 int twin_offset(const struct near_faces *b, const struct seen *to, int k);
 
-/* Lists the particles near faces and their neighbours. REFUSED if the particles are not on a lattice; apart: the first
- * particle with a neighbour that is not a whole number of spacings away, and this neighbour. Release with
- * near_faces_free. */
+/* Lists the particles near faces and their neighbours in b. s: inputs of the bonds. Returns REFUSED, with a message, if
+ * the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a whole number
+ * of spacings away, apart[1] this neighbour. Release with near_faces_free. */
 status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s, int64_t apart[2]);
 
-/* Releases all arrays. */
+/* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
 
 /* Targets that faces impose on the particles near them. */
@@ -79,10 +82,11 @@ struct faces {
 };
 enum { THIN = 4, THIN_ROTATING = 5 };
 
-/* Computes the targets. rotates: model with rotations. Release with faces_free. */
+/* Computes, for the particles b near faces, the outward areas, moments and normals to which bond weights are fitted,
+ * into f. rotates: true for the model with particle rotations. Release with faces_free. */
 void faces_make(struct faces *f, const struct near_faces *b, bool rotates);
 
-/* Releases all arrays. */
+/* Releases all arrays of f. */
 void faces_free(struct faces *f);
 
 /* Classes of particles with equal surroundings up to mirrors, and groups of bonds that share one factor; factors are
@@ -97,20 +101,23 @@ struct alike {
     int64_t *group_of;          /* [classes offsets] group; -1: no bond, or a bond that reaches no face */
 };
 
-/* Computes classes and groups. Release with alike_free. */
+/* Sorts the particles b near faces into classes with equal surroundings up to mirrors, and their bonds into groups with
+ * one factor each. Release with alike_free. */
 void alike_make(struct alike *a, const struct near_faces *b);
 
-/* Returns the neighbour of the first member of a class at offset k; -1: none. */
+/* Returns the particle or image at offset number k from the first member of class `class`, seen through the mirrors of
+ * that member; -1 if there is none. */
 static inline int32_t alike_neighbour(const struct alike *a, const struct near_faces *b, int32_t class, int k)
 {
     const int64_t t = a->member[class];
     return neighbour_of(b, t, b->offset.mirrored[a->mirrors[t] * b->offset.n + k]);
 }
 
-/* Releases all arrays. */
+/* Releases all arrays of a. */
 void alike_free(struct alike *a);
 
-/* Computes the factors of all groups of bonds (surface_fit.c). factor: [groups]; rotates: model with rotations. */
+/* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
+ * factor: [a->groups] [1]; f: targets of the fit; rotates: true for the model with particle rotations. */
 void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a, bool rotates);
 
 #endif

@@ -17,17 +17,18 @@ struct surface_faces {
     struct surface_face *face;
 };
 
-/* Makes the surface of these faces and lists the particles at their corners as those of the load; shares: areas of the
- * reference state. all: the n boundaries of the scene, including mirrors. REFUSED if bodies are not lattices, or
- * mirrors are not midway between sites. */
+/* Creates the surface l->surface of the body from a list of free faces, makes the particles at the corners of these
+ * faces the particles of load l, and stores their areas in the reference state as shares. all: the n boundaries of the
+ * scene, including mirrors; spacing: lattice spacing [m]. Returns REFUSED, with a message, if a body is not a lattice,
+ * or a mirror plane is not midway between two lattice sites. Release with load_surface_free. */
 status load_surface_make(struct load *l, const struct surface_faces *faces, const struct boundary *all, int n,
                          struct particles *p, real spacing);
 
-/* Computes the inward areas at present positions of the particles of the load, by component: area [dim][load->n]
- * [m^2]. */
+/* Computes the area vectors, pointing into the body, that belong to the particles of the load, from the present
+ * particle positions. area: [dim][number of particles of the load] [m^2]. */
 void surface_areas(struct surface *s, const struct particles *p, real *const *area);
 
-/* Releases the surface. */
+/* Releases all arrays of the surface and the surface itself. */
 void load_surface_free(struct surface *s);
 
 #endif
