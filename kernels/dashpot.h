@@ -7,8 +7,9 @@
 
 #include "data/grid.h"
 
-/* Returns the impulse of component d on a mass [N s] and adds it, with energy and kick, to *a. rate_dt: k dt [kg];
- * before: velocity v_old; change: velocity change by other forces [m/s]. */
+/* Returns the impulse of a dashpot along axis d on a node or particle in a step [N s], by the implicit mean velocity
+ * (v_old + v_new)/2, and adds impulse, dissipated energy and kick to *a. rate_dt: dashpot rate times the duration of
+ * the step, k dt [kg]; mass [kg]; before: velocity v_old [m/s]; change: velocity change by all other forces [m/s]. */
 static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real mass, real before, real change)
 {
     const real mean = (before + 0.5 * change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;
@@ -18,8 +19,8 @@ static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real ma
     return impulse;
 }
 
-/* Corrects energy and kick in *a for an impulse [N s] after which the velocity was changed by a further `more`
- * [m/s]. */
+/* Corrects dissipated energy and kick in *a for a dashpot impulse [N s] if the velocity at the end of the step is
+ * changed by a further `more` [m/s] after dashpot_kick. */
 static inline void dashpot_correct(struct absorbed *a, real impulse, real more)
 {
     a->energy -= 0.5 * impulse * more;

@@ -32,7 +32,9 @@ struct elastic {
     enum space space;
 };
 
-/* Returns the largest principal stress at which material point i of material m is marked for conversion [Pa]. */
+/* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
+ * peridynamic particle [Pa]: m->trigger, or, where strength is random, m->trigger_mean times the strength of the
+ * point. */
 static inline real point_trigger(const struct elastic *m, const struct particles *p, int64_t i)
 {
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
@@ -54,7 +56,8 @@ struct partial_stress {
     struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
 
-/* Returns true if material point i is bonded by state-based bonds, false if bonds at most cross its cell. */
+/* Returns true if material point i has state-based bonds of its own; false if bonds at most cross its cell, or the
+ * model is bond-based. */
 static inline bool partial_end(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
@@ -88,100 +91,111 @@ struct pd_motion {
     bool diverged;         /* result: a particle has diverged */
 };
 
-/* Computes the force of all intact bonds on the particle of every active row (active_set.h; overwrites p->f there),
- * then breaks bonds that are stretched beyond their limit. A breaking bond acts until the time within the step at which
- * it passes its limit (pd/bond_last.h), so crack path and fracture energy are of second order in the time step. Sets
- * FLAG_LOST_BOND (and FLAG_CRACKED where neither particle is driven), damage, broken counts and fracture energy. Bytes
- * read per bond: by the kind of the column (bonds/bond_storage.h); positions come from cache, velocities are read of
- * breaking bonds only. Returns the number of directed bonds broken. motion: NULL, or moves active peridynamic particles
- * that are neither on the grid nor `loaded` in the same sweep (pd/sweep.h). */
+/* Computes the force of all intact bonds on the particle of every active row (a row: all bonds of one particle),
+ * overwriting p->f there, then breaks bonds stretched beyond `limit`. A breaking bond acts until the time within the
+ * step at which it exceeds its limit (pd/bond_last.h), so crack path and fracture energy are of second order in the
+ * time step. Sets FLAG_LOST_BOND (and FLAG_CRACKED where neither particle is driven), damage, counts of broken bonds
+ * and fracture energy. motion: NULL, or step sizes with which active peridynamic particles that are neither on the
+ * grid nor `loaded` are also integrated in time in the same pass (pd/sweep.h). Returns the number of directed bonds
+ * broken. */
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by `sweep`, the kernel of the model, and adds the reactions of bonds to images in
- * clamped planes to the sources of these images (pd/clamp_force.c). The sources and the rows of such bonds must be
- * `loaded`. All callers compute bond forces through this function. Returns the number of directed bonds broken. */
+/* Computes the forces of all bonds by the kernel `sweep` of the model, and adds the reactions of bonds to images in
+ * clamped planes to the forces on the sources of these images (pd/clamp_force.c). Particles with such bonds, and these
+ * sources, must be `loaded`, so that they are moved later. All callers compute bond forces through this function.
+ * limit, motion: as in bond_force_fn. Returns the number of directed bonds broken. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Computes dilatation, spring and rotation of all families and stores them in b->state: the first sweep of a
- * state-based force. Required before state-based quantities are read without a force sweep. Stores the reactions on the
- * cells of bonded material points (particles.end_pull, end_moment). */
+/* Computes pressure (dilatation), spring and rotation of all families from the present positions into b->state, the
+ * first pass of a state-based force; required before these quantities are read without a force computation. Stores the
+ * reactions on the cells of bonded material points in p->end_pull and p->end_moment. */
 typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 
-/* Breaks the bonds of one row block that are beyond their limit; the forces of the row block must be up to date. Scalar
- * and exact, hence called only where a bond may break. Returns the number of directed bonds broken. */
+/* Breaks the bonds of one row block (bonds of eight particles) whose stretch exceeds `limit`, and books their last
+ * force and energy; the forces of the row block must be up to date. Computed bond by bond, hence called only where a
+ * bond may break. Returns the number of directed bonds broken. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
-/* Sets the weight of bond q of a row to w [1]; w = 0 breaks the bond. Books half of the row's loss of elastic energy as
- * fracture energy: a leap-frog kick is centred on the change of weights, so the other half is lost in the step to the
- * next positions. The caller sets the weight of the bond's entry in the other row likewise. */
+/* Sets the weight of the bond with index q, in the row (all bonds of one particle) `row`, to w [1]; w = 0 breaks the
+ * bond. Adds half of the loss of elastic energy to the fracture energy of the row: a leap-frog velocity update is
+ * centred on the change of weights, so the other half is lost in the step to the next positions. The caller changes the
+ * weight of the bond in the row of its other particle likewise. */
 KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns an upper bound, up to round-off, of the largest bond stretch in a row block [1]. */
+/* Returns an upper bound, up to round-off, of the largest stretch of the bonds in a row block (bonds of eight
+ * particles) [1]. */
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
-/* Breaks bond q of a row at the present positions, whatever its stretch, and books its energy. The caller breaks the
- * bond's entry in the other row likewise. */
+/* Breaks the bond with index q in the row (all bonds of one particle) `row` at the present positions, whatever its
+ * stretch, and books its energy. limit: supplies the rule for the last force. The caller breaks the bond in the row of
+ * its other particle likewise. */
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
-/* Restores bond q of a row, broken by a trial step, with weight w. The caller restores fracture energy of the row,
- * damage and flags of its particle. */
+/* Restores the bond with index q, which a trial load step has broken, in the row (all bonds of one particle) `row`,
+ * with weight w [1]. The caller restores the fracture energy of the row, and damage and flags of its particle. */
 KERNEL(void, bond_restore_entry, (struct bonds *b, struct particles *p, int64_t row, int64_t q, real w));
 
-/* Returns the elastic energy of a row of a state-based model [J] from its present weights and the positions a time
- * `lag` before the present ones [s]; independent of the last sweep. */
+/* Returns the elastic energy of the family of one row (all bonds of one particle) of a state-based model [J], from its
+ * present weights and from the positions a time `lag` before the present ones [s]. Independent of the last force
+ * computation. */
 KERNEL(real, state_row_energy, (const struct bonds *b, const struct particles *p, int64_t row, real lag));
 
-/* Returns half the elastic energy of the intact bonds of all rows, summed in fixed blocks [J]. */
+/* Returns half the elastic energy of the intact bonds of all rows (a row: all bonds of one particle) [J]; a bond
+ * between two peridynamic particles is in two rows, so that its energy is complete. Summed in fixed blocks: equal bits
+ * on any number of threads. */
 typedef real bond_energy_fn(const struct bonds *b, const struct particles *p);
 
-/* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) of the bonds of all rows, broken ones included, summed in
- * fixed blocks [J]; 0 where no bond yields. */
+/* Returns half the plastic work k (s_y alpha + H_b alpha^2/2) of the bonds of all rows (a row: all bonds of one
+ * particle), broken ones included [J]; 0 where no bond yields. Summed in fixed blocks. */
 KERNEL(real, bond_plastic_work, (const struct bonds *b));
-/* Returns half the plastic work of the bonds of one row [J]; only where bonds yield. */
+/* Returns half the plastic work of the bonds of one row, i.e. of one particle [J]. Only where bonds yield. */
 KERNEL(real, bond_row_plastic_work, (const struct bonds *b, int64_t row));
-/* Returns the mean accumulated plastic stretch of the intact bonds of a row [1], weighted by bond energy at equal
- * stretch. For uniaxial flow: the plastic strain; for a point that has just converted: its plastic strain as a material
- * point. */
+/* Returns the mean accumulated plastic stretch of the intact bonds of one row, i.e. of one particle [1], weighted by
+ * bond energy at equal stretch. In uniaxial flow this is the plastic strain; for a point that has just converted, its
+ * plastic strain as a material point. */
 KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
 
-/* Stores the bond virial (1/2V) sum F (x) (x_j - x_i) of every peridynamic row in p->stress [Pa]. */
+/* Computes the stress of every peridynamic particle from its bonds, the virial (1/2V) sum F (x) (x_j - x_i), into
+ * p->stress [Pa]. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* Moves the peridynamic particles among n listed ones that the grid does not move: v += dt_velocity f/m, x += dt v.
- * list: ascending, aligned to 32 bytes. Returns true if one of them has diverged. */
+/* Integrates velocity and position of those peridynamic particles among the n in `list` that the grid does not move: v
+ * += dt_velocity f/m, x += dt v. list: indices, ascending, aligned to 32 bytes. Returns true if one of them has
+ * diverged (too fast, or not finite). */
 typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
-/* Returns true if one of the n listed particles is faster than `limit` [m/s] or has a position or velocity that is not
- * finite. list: ascending, aligned to 32 bytes. */
+/* Returns true if one of the n particles in `list` is faster than `limit` [m/s] or has a position or velocity that is
+ * not finite. list: indices, ascending, aligned to 32 bytes. */
 KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
-/* First map: adds mass, momentum and force -V sigma_given . grad N + N f of the points to the nodes (Zeng et al. 2022,
- * eqs. 33-38). */
+/* Adds mass, momentum and force, -V sigma_given . grad N + N f, of the points of p to the nodes of g: the first
+ * particle-to-grid map (Zeng et al. 2022, eqs. 33-38). t: order of the points, step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
 
-/* Updates velocities, v_p += sum N (f/m dt), then maps the momentum to the nodes again with equal weights (MUSL, Zeng
- * et al. 2022, steps 4 and 6); FLIP only. */
+/* Updates the velocities of the points, v_p += sum N (f/m dt), then maps their momentum to the nodes of g a second time
+ * with equal weights (MUSL, Zeng et al. 2022, steps 4 and 6). Only for FLIP. */
 typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
 
-/* Gathers for the second map of rotating points (mpm/remap_turn.c): v_p += sum N (f/m dt), and stores in t->turn the
- * angular momentum that a point lacks [kg m^2/s]. 2D and 3D. */
+/* First half of the second map, for points that rotate in groups (mpm/remap_turn.c): updates v_p += sum N (f/m dt), and
+ * stores in t->turn the angular momentum that each point loses in this transfer [kg m^2/s]. 2D and 3D. */
 typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
 
-/* Scatters for the second map of rotating points: adds momentum m N (v_p + turn x (x_I - x_p)) to the nodes; t->turn
- * holds the spin of each point's group [1/s]. */
+/* Second half of the second map, for points that rotate in groups: adds the momentum m N (v_p + turn x (x_I - x_p)) of
+ * the points to the nodes of g. t->turn: spin of the group of each point [1/s]. 2D and 3D. */
 typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
 
-/* Moves points, x_p += dt sum N v, and updates velocity gradient, strain, spin, stress, volume, plastic strain and
- * conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al. 2015). Returns
- * the number of points that entered another cell. */
+/* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
+ * strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al.
+ * 2015). Returns the number of points that have entered another cell. */
 typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
 
-/* Adds value[k] N of listed point k to the nodal `field`, for k = 0 .. n-1. Serial. */
+/* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
+ * value), for k = 0 .. n - 1. half_width: half the reference edge of a particle, l_p [m]. Serial. */
 typedef void spread_fn(const struct grid *g, const struct particles *p, real half_width, const int32_t *list, int64_t n,
                        const real *value, real *field);
 
@@ -219,23 +233,25 @@ KERNEL(void, kernels_choose,
 
 /* ---- nodal updates between the maps, any dimension --------------------------------------------------------------- */
 
-/* Sets mass, momentum and force of all nodes to 0. */
+/* Sets mass, momentum and force of all nodes of g to 0. */
 KERNEL(void, grid_clear, (struct grid *g));
 
-/* Zeng et al. 2022, step 3, first part: velocity = (momentum + dt_velocity force)/mass at all nodes; force becomes the
- * change of velocity; momentum = 0. Nodes lighter than `smallest_mass` [kg] are left at rest. Dashpots act here; their
- * energy and impulse are added to grid.absorbed. Contact of bodies on separate grids acts between this part and
- * grid_constrain. */
+/* Computes the nodal velocities (momentum + dt_velocity force)/mass of g (Zeng et al. 2022, step 3, first part);
+ * `force` becomes the change of velocity, momentum becomes 0. Nodes lighter than smallest_mass [kg] are left at rest.
+ * Applies dashpots and adds their energy and impulse to g->absorbed. Contact of bodies on separate grids acts between
+ * this function and grid_constrain. */
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 
-/* Step 3, second part: walls prescribe the velocity of their nodes, and `force` becomes the change of the prescribed
- * motion; nodes beyond planes of symmetry follow their images. Adds the reaction of the walls to impulse [N s] and its
- * work to *work [J]; with APIC, where particles take the nodal velocity itself, including the momentum that was
- * replaced. */
+/* Applies the constraints of g to the nodal velocities (Zeng et al. 2022, step 3, second part): walls prescribe the
+ * velocity of their nodes, and `force` becomes the change of the prescribed motion; nodes beyond planes of symmetry
+ * move as mirror images. Adds the reaction of the walls to impulse [N s] and its work to *work [J]; with APIC, whose
+ * particles take the nodal velocity itself, including the momentum that was replaced. smallest_mass: as in grid_advance
+ * [kg]. */
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
 
-/* Runs both parts of step 3, for a body that meets no other grid. */
+/* Calls grid_advance and grid_constrain with these arguments, for a body that has no contact with bodies on other
+ * grids. */
 static inline void grid_move(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass,
                              real impulse[DIM_MAX], real *work)
 {
@@ -243,62 +259,72 @@ static inline void grid_move(struct grid *g, enum transfer transfer, real dt_vel
     grid_constrain(g, transfer, smallest_mass, impulse, work);
 }
 
-/* Step 6: converts the momentum of the second map to velocity, in place; walls prescribe their velocity. */
+/* Converts the nodal momentum of the second map to velocity in g->momentum, in place (Zeng et al. 2022, step 6); walls
+ * prescribe the velocity of their nodes, nodes lighter than smallest_mass [kg] get 0. */
 KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
 /* ---- the mesh of the reference frame (mesh.h), any dimension ----------------------------------------------------- */
 
-/* Sets the forces on all nodes to 0. */
+/* Sets the forces on all nodes of the mesh to 0. */
 KERNEL(void, mesh_clear, (struct mesh *mesh));
 
-/* Adds the internal forces of the active cells (active_set.h) to the nodes and marks runs whose points may be past
- * their trigger as `stressed`. p: read for the bond reactions on bonded points (particles.end_*); where p has
- * plastic_correction, yielding points flow from their present plastic state, which is updated (mesh_flow.h). finite:
- * true for Biot strain in axes that rotate with the cell, false for the symmetric gradient (mesh_law.h). */
+/* Adds the internal forces of the active cells (active_set.h) of the mesh to its nodes, and marks in `stressed` where a
+ * point may exceed its conversion stress. p: read for the bond reactions on bonded points (particles.end_*); if p has
+ * plastic_correction, points beyond the yield stress flow, and their plastic state is updated (mesh_flow.h). m: elastic
+ * constants by material. finite: true for Biot strain in axes that rotate with the cell, false for the symmetric
+ * displacement gradient (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
-/* Moves the active nodes: v += dt_velocity f/m, u += dt v, with u rounded to multiples of mesh->rounding. Walls
- * prescribe their velocity; their reaction is added to impulse [N s] and *work [J]. Dashpots act; their energy and
- * impulse are added to grid.absorbed. f becomes m dv/dt_velocity of each node. Returns the largest velocity component,
- * infinite if one is not finite [m/s]. */
+/* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
+ * of mesh->rounding. Walls prescribe the velocity of their nodes; their reaction is added to impulse [N s] and its work
+ * to *work [J]. Applies dashpots and adds their energy and impulse to grid.absorbed. f becomes m dv/dt_velocity of each
+ * node. Returns the largest velocity component, INFINITY if one is not finite [m/s]. */
 KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impulse[DIM_MAX], real *work));
 
-/* Updates position and velocity of all points of the mesh from its nodes. */
+/* Interpolates position and velocity of all material points of the mesh from its nodes into p. */
 KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
 
-/* Updates position and velocity of the points in mesh->exposed_list. */
+/* Interpolates position and velocity from the nodes of the mesh into p, for the points to which bonds reach
+ * (mesh->exposed_list). */
 KERNEL(void, mesh_exposed_move, (const struct mesh *mesh, struct particles *p));
 
-/* Updates position and velocity of the mesh points among n listed particles. */
+/* Interpolates position and velocity from the nodes of the mesh into p, for those of the n particles in `list` that are
+ * points of the mesh. */
 KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
-/* Adds the forces f of the points in mesh->exposed_list to the nodes. Serial. */
+/* Adds the forces p->f on the points to which bonds reach (mesh->exposed_list) to the nodes of the mesh, by their
+ * weights. Serial. */
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
-/* Computes Cauchy stress and volume of all points of the mesh; finite: as in mesh_force. */
+/* Computes Cauchy stress and volume of all material points of the mesh into p. m: elastic constants by material;
+ * finite: strain measure as in mesh_force. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
-/* Computes the displacement gradient of all points of the mesh: du_a/dX_b of point i in to[a dim + b][i] [1]. */
+/* Computes the displacement gradient du_a/dX_b of every material point i of the mesh into to[a dim + b][i] [1]. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
-/* Sets FLAG_STRESSED for points past their trigger, in the partial cells and runs that mesh_force marked. */
+/* Sets FLAG_STRESSED on material points whose largest principal stress exceeds their conversion stress, in the cells
+ * that the last mesh_force marked as `stressed`. m: elastic constants by material; finite: as in mesh_force. */
 KERNEL(void, mesh_points_mark, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
 
-/* Marks whole cells in which a point may have a principal stress above `share` [1] of the trigger: mark[cell] = 1.
- * mark: [grid.n], not cleared. all: true visits all runs, false only those that mesh_force marked. */
+/* Sets mark[cell] = 1 for whole cells (with all points, of one material, without bonds) in which the principal stress
+ * of a point may exceed `share` times [1] the conversion stress; other entries are not changed. mark: [grid.n]. all:
+ * true examines all such cells, false only those that the last mesh_force marked as `stressed`. m, finite: as in
+ * mesh_force. */
 KERNEL(void, mesh_cells_mark, (const struct mesh *mesh, const struct elastic *m, real share, bool all, uint8_t *mark,
                                bool finite));
 
-/* For meshes of coarse cells: computes the nodal velocities `to` from `from` = momentum over mass, both [dim][grid.n]
- * [m/s], with the blended mass of mesh_inertia.c. */
+/* Computes nodal velocities of a mesh of coarse cells, `to`, from momentum over mass of its nodes, `from`, both
+ * [dim][grid.n] [m/s], with the mass matrix blended of lumped and consistent mass (mesh_inertia.c). */
 KERNEL(void, mesh_velocity, (const struct mesh *mesh, real *const *from, real *const *to));
 
-/* Returns the kinetic energy, sum of 1/2 m v^2 over the nodes [J]. */
+/* Returns the kinetic energy of the mesh, the sum of m v^2/2 over its nodes [J]. */
 KERNEL(real, mesh_kinetic, (const struct mesh *mesh));
 
-/* Returns the sum of 1/4 (dt f)^2/m over the nodes [J], the correction of kinetic energy to the time of the
- * positions. */
+/* Returns the sum of (dt f)^2/(4 m) over the nodes of the mesh [J], the correction of the kinetic energy, whose
+ * velocities are half a step behind, to the time of the positions. */
 KERNEL(real, mesh_kick, (const struct mesh *mesh, real dt));
-/* Returns the elastic energy of the cells [J], their share in the families of bonded points included. */
+/* Returns the elastic energy of all cells of the mesh [J], including their contribution to the families of bonded
+ * points. m: elastic constants by material; finite: strain measure as in mesh_force. */
 KERNEL(real, mesh_strain, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
-/* Computes particles.end_strain and end_rotation of bonded points (state-based models) from the deformation of their
- * cells. */
+/* Computes end_strain and end_rotation of the bonded material points in p (state-based models) from the deformation of
+ * their cells. finite: strain measure as in mesh_force. */
 KERNEL(void, mesh_ends_update, (const struct mesh *mesh, struct particles *p, bool finite));
 
 #endif

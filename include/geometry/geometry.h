@@ -23,21 +23,22 @@ struct geometry {
     struct geometry_set *set;
 };
 
-/* Reads a .stl, .msh or .inp file into g; the extension selects the format. Coordinates times `scale` are metres. In
- * 2D, elements are triangles and quadrilaterals of equal z. Curved edges of second-order elements become chords at most
- * `fine` [m] away from the curve; NAN: 1/256 of the largest sagitta. REFUSED: wrong format, no body in the file, or a
- * surface so open that inside and outside cannot be told apart. After a failure there is nothing to free. */
+/* Reads a body and its named parts from a .stl, .msh or .inp file into g; the extension selects the format. scale:
+ * metres per unit of the file. dim 2: elements are triangles and quadrilaterals of equal z. fine: largest distance
+ * between a curved edge of a second-order element and its chords [m]; NAN: 1/256 of the largest sagitta. Returns
+ * REFUSED, with a message, for a wrong format, a file without a body, or a surface so open that inside and outside
+ * cannot be distinguished; then nothing need be freed. Release with geometry_free. */
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine);
 
-/* Returns the set called `name`, ignoring case; NULL if there is none. */
+/* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
 const struct geometry_set *geometry_find(const struct geometry *g, const char *name);
 
-/* Frees all arrays of g and zeroes it. */
+/* Releases all arrays of g and zeroes it. */
 void geometry_free(struct geometry *g);
 
-/* Finds pairs of coincident faces of the closed surface h, as at slits with doubled nodes, and appends them as cracks
- * to a list of *n cracks. In 3D, adjoining coplanar faces become one crack if they form a convex polygon. The caller
- * frees the list and its corners (memory_free). */
+/* Finds pairs of coincident faces of the closed surface h, as at slits with doubled nodes, and appends each as a
+ * pre-crack to the array *crack, whose length is *n. In 3D adjacent coplanar faces become one crack if they form a
+ * convex polygon. The caller releases the array and the `corner` of each crack with memory_free. */
 void geometry_slits(const struct hull *h, struct crack **crack, int *n);
 
 #endif

@@ -19,14 +19,16 @@ struct simd_set {
 extern const struct simd_set simd_sets[];
 extern const int simd_set_count;
 
-/* Selects a set that the processor supports. Must not be called while kernels run. */
+/* Makes `set` the set of kernels that all kernel calls use from now on. The processor must support it (set->runs()).
+ * Must not be called while kernels run. */
 void simd_use(const struct simd_set *set);
 
-/* Returns the set in use. */
+/* Returns the set of kernels that kernel calls use at present. */
 const struct simd_set *simd_in_use(void);
 
-/* Selects the set named by CLEAVE_SIMD, else the widest supported one. REFUSED if there is no such set or the processor
- * does not support it. */
+/* Selects the set of kernels named by the environment variable CLEAVE_SIMD, or, if it is not set, the one with the
+ * widest vectors that the processor supports. Returns REFUSED, with a message, if no set has that name, or the
+ * processor does not support that set or any other. */
 status simd_start(void);
 
 #endif

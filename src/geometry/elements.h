@@ -74,26 +74,33 @@ struct element_mesh {
 
 enum { ELEMENT_SETS_MAX = 1000 };
 
-/* Appends a node at X [unit of the file]. REFUSED: too many nodes. */
+/* Appends a node at X (three components [unit of the file]) to the mesh m. label: its number in the file. s: file, for
+ * the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
 status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label);
 
-/* Appends a node that is not in the file at X [unit of the file] and returns its index. */
+/* Appends a node at X (three components [unit of the file]) to the mesh m without a check of the number of nodes, and
+ * returns its index. label: its number in the file, -1 for nodes that are not in the file. */
 int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label);
 
-/* Appends an element with corners `node` (indices or, in Abaqus files, still labels). REFUSED: too many elements. */
+/* Appends an element of the given kind to the mesh m. node: its corners, as indices or, in Abaqus files, still numbers
+ * of the file; label: number of the element in the file; s: file, for the message. Returns REFUSED, with a message, if
+ * there are too many elements. */
 status mesh_element_add(struct element_mesh *m, const struct source *s, enum element_kind kind, const int32_t *node,
                         int64_t label);
 
-/* Sets the middle nodes (indices or labels) of the last element; their number is that of its kind (element_middles). */
+/* Sets the middle nodes (on edges and sides) of the last element of m. middle: indices or numbers of the file, as many
+ * as element_middles of its kind. */
 void mesh_middles_add(struct element_mesh *m, const int32_t *middle);
 
-/* Returns the number of the set called `name`, ignoring case, and creates it if needed; -1: too many sets. */
+/* Returns the index in m->set of the set of nodes (of_nodes true) or elements (false) called `name`, ignoring case;
+ * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
 int mesh_set(struct element_mesh *m, const char *name, bool of_nodes);
 
-/* Appends a member (index or label) to a set. */
+/* Appends a node or element to set number `set` of m. member: index, or number of the file if indices are not known
+ * yet. */
 void mesh_set_add(struct element_mesh *m, int set, int64_t member);
 
-/* Frees all arrays of m and zeroes it. */
+/* Releases all arrays of m and zeroes it. */
 void element_mesh_free(struct element_mesh *m);
 
 /* Translates labels of a file to indices: n consecutive indices from `first` on, sorted by label. */
@@ -107,32 +114,38 @@ struct label_entry {
     int64_t label, index;
 };
 
-/* Makes a map in which label[k] has the index first + k. Free it with label_map_free. */
+/* Creates the map `map` from numbers of a file (labels) to indices: label[k] has the index first + k, k = 0 .. n - 1.
+ * Release with label_map_free. */
 void label_map_make(struct label_map *map, const int64_t *label, int64_t first, int64_t n);
 
-/* Frees the map's entries. */
+/* Releases the entries of `map`. */
 void label_map_free(struct label_map *map);
 
-/* Returns the index of a label, the lowest one if it occurs twice; -1 if it is absent. */
+/* Returns the index of the number `label` of the file in `map`, the lowest index if the number occurs twice, -1 if it
+ * does not occur. */
 int64_t label_find(const struct label_map *map, int64_t label);
 
-/* Returns true if a label occurs twice, and sets *label to the smallest such label. */
+/* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
 bool label_twice(const struct label_map *map, int64_t *label);
 
-/* Reads a Gmsh file into an empty mesh. REFUSED: malformed, or a kind of element that is not supported. The caller
- * frees the mesh, also after a failure. */
+/* Reads the Gmsh file s into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
+ * malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
+ * failure. */
 status gmsh_read(struct element_mesh *m, struct source *s);
 
-/* Reads an Abaqus deck into an empty mesh; failures and ownership as for gmsh_read. */
+/* Reads the Abaqus input deck s into the empty mesh m. Returns REFUSED, with a message that contains the line, if the
+ * file is malformed. The caller releases m with element_mesh_free, also after a failure. */
 status abaqus_read(struct element_mesh *m, struct source *s);
 
-/* Reads text or binary STL into an empty mesh; corners closer than a millionth of the extent become one node. Failures
- * and ownership as for gmsh_read. */
+/* Reads the text or binary STL file s into the empty mesh m; corners of triangles nearer to each other than a millionth
+ * of the extent become one node. Returns REFUSED, with a message, if the file is malformed. The caller releases m with
+ * element_mesh_free, also after a failure. */
 status stl_read(struct element_mesh *m, struct source *s);
 
-/* Makes from a mesh the surface of the body that its elements fill, and the surfaces of its sets. Coordinates times
- * `scale` are metres. fine: largest distance between a curved edge and its chords [m]; NAN: 1/256 of the largest
- * sagitta. REFUSED: no elements of the right dimension, not planar in 2D, or curves too coarse. */
+/* Creates g, the surface of the body that the elements of m fill and the surfaces of its named sets. path: file, for
+ * messages; scale: metres per unit of the file; fine: largest distance between a curved edge and its chords [m], NAN:
+ * 1/256 of the largest sagitta. Middle nodes may be added to m. Returns REFUSED, with a message, if no element has the
+ * dimension of the body, a 2D mesh is not plane, or curved edges need too many chords. */
 status geometry_from_elements(struct geometry *g, struct element_mesh *m, const char *path, int dim, real scale,
                               real fine);
 
@@ -160,20 +173,25 @@ struct builder {
     int32_t (*parent)[4]; /* [node - file_nodes] corner nodes of the side, -1: unused */
 };
 
-/* Adds a face between nodes i, j and, in 3D, k. */
+/* Appends to the faces of surface b a face with the nodes i, j and, in 3D, k (indices); in 2D it is a segment and k is
+ * ignored. */
 void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k);
 
-/* Adds a side with n = 3 or 4 corners as triangles. */
+/* Appends the side of an element with n = 3 or 4 corners, given by the node indices `node`, to the faces of surface b,
+ * as one or two triangles. */
 void builder_add_side(struct builder *b, const int32_t *node, int n);
 
-/* Adds a side with middle nodes, to be subdivided by builder_curve. */
+/* Appends a copy of *p, a side of an element with middle nodes, to surface b. builder_curve divides it into faces
+ * later. */
 void builder_add_patch(struct builder *b, const struct patch *p);
 
-/* Chooses sagitta and pieces. REFUSED if the curves of the mesh need too many pieces to be resolved to `fine` [m]. */
+/* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
+ * divided, such that chords are at most `fine` [m] from the curve (NAN: 1/256 of the largest sagitta). path: file, for
+ * the message. Returns REFUSED, with a message, if too many pieces were needed. */
 status builder_fineness(struct builder *b, const char *path, real fine);
 
-/* Turns all patches into faces; curved ones are subdivided, which adds nodes to the mesh. closed: removes patches
- * shared by two elements first. */
+/* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
+ * closed: true first removes sides shared by two elements, as inside a body. */
 void builder_curve(struct builder *b, bool closed);
 
 #endif

@@ -13,37 +13,46 @@ struct source {
     bool binary; /* numbers are binary, in this machine's byte order */
 };
 
-/* Reads a whole file. REFUSED: unreadable, empty, or too large for memory; then there is nothing to free. */
+/* Reads the whole file `path` into s and sets the reading position to its start. Returns REFUSED, with a message, if
+ * the file is unreadable, empty, or too large for the memory; then nothing need be freed. Release with source_close. */
 status source_open(struct source *s, const char *path);
 
-/* Returns REFUSED with the message `path:line: text`, or `path: text` for binary files. */
+/* Sets the message `path:line: text` for the reading position of s (`path: text` for binary files) and returns REFUSED.
+ * format: text as in printf. */
 status source_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Skips white space. Returns false at the end of the file. */
+/* Moves the reading position of s over white space to the next word. Returns false at the end of the file. */
 bool source_more(struct source *s);
 
-/* Copies the next word, truncated to `room` bytes with the zero byte; "" at the end of the file. */
+/* Copies the next word of the file s to `word`, which has `room` bytes, cut if necessary and ended by a zero byte; ""
+ * at the end of the file. */
 void source_word(struct source *s, char *word, size_t room);
 
-/* Reads a number: text, or 8 bytes of a binary file. REFUSED: missing or not finite; `what` names it in the message. */
+/* Reads the next number of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
+ * number, for the message. Returns REFUSED, with a message, if it is missing or not finite. */
 status source_real(struct source *s, const char *what, real *value);
 
-/* Reads an integer given as text. REFUSED: missing or no integer; `what` names it in the message. */
+/* Reads the next word of the text file s as an integer into *value. what: name of the number, for the message. Returns
+ * REFUSED, with a message, if it is missing or not an integer. */
 status source_whole(struct source *s, const char *what, int64_t *value);
 
-/* Reads an integer: text, or 4 bytes of a binary file. REFUSED: missing or no integer. */
+/* Reads the next integer of the file s into *value: a word of text, or 4 bytes of a binary file. what: name of the
+ * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
 status source_int(struct source *s, const char *what, int64_t *value);
 
-/* Reads an integer: text, or 8 bytes of a binary file. REFUSED: missing or no integer. */
+/* Reads the next integer of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
+ * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
 status source_size(struct source *s, const char *what, int64_t *value);
 
-/* Checks a count of items of at least `bytes` bytes each. REFUSED if the rest of the file is too short for it. */
+/* Checks that `count` items of at least `bytes` bytes each can follow in the file s, before memory is allocated for
+ * them. what: name of the items, for the message. Returns REFUSED, with a message, if the rest of the file is
+ * shorter. */
 status source_counted(const struct source *s, const char *what, int64_t count, int64_t bytes);
 
-/* Moves to the beginning of the next line. */
+/* Moves the reading position of s to the beginning of the next line. */
 void source_next_line(struct source *s);
 
-/* Frees the content. */
+/* Releases the content of the file s. */
 void source_close(struct source *s);
 
 #endif
