@@ -228,6 +228,8 @@ KERNEL_TABLE(turn_scatter_fn, turn_scatter_table, [SHAPES]);
 KERNEL_TABLE(g2p_fn, g2p_table, [SHAPES][TRANSFERS]);
 KERNEL_TABLE(spread_fn, spread_table, [SHAPES]);
 
+/* Stores in k the kernels for bodies of `dim` dimensions with the given peridynamic model, shape function of the grid
+ * and transfer scheme (FLIP or APIC). The combination must exist in simd/variants.h. */
 KERNEL(void, kernels_choose,
        (struct kernels *k, int dim, enum pd_model model, enum shape shape, enum transfer transfer));
 

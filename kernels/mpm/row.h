@@ -20,7 +20,10 @@ typedef real pair_anywhere __attribute__((vector_size(2 * sizeof(real)), aligned
 typedef real row_of_points __attribute__((vector_size(POINTS * sizeof(real))));
 typedef int64_t points_mask __attribute__((vector_size(POINTS * sizeof(int64_t))));
 
+/* Returns a vector of ROW nodes whose entries are a. */
 static ALWAYS_INLINE row_of_nodes row_of(real a) { return (row_of_nodes){a, a, a, a}; }
+
+/* Returns a vector of POINTS material points whose entries are a. */
 static ALWAYS_INLINE row_of_points points_of(real a) { return a - (row_of_points){0}; }
 
 /* Returns a in lanes where `sign` is negative, else b. */
@@ -75,6 +78,7 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 /* Points processed at once: the usual number per cell, two in 1D. Further lanes are copies. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
+/* Returns the smaller of a and b. */
 static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
 
 /* Returns how many of `left` remaining points are processed at once. */

@@ -18,10 +18,16 @@ typedef int64_t lanes_mask __attribute__((vector_size(LANES * sizeof(int64_t))))
 typedef uint64_t lanes_bits __attribute__((vector_size(LANES * sizeof(uint64_t))));
 typedef int16_t lanes_units __attribute__((vector_size(LANES * sizeof(int16_t)), may_alias));
 
+/* Returns the eight numbers from address `from` on, which need not be aligned. */
 static ALWAYS_INLINE lanes lanes_load(const real *from) { return (lanes) * (const lanes_anywhere *)from; }
+
+/* Stores the eight entries of a from address `to` on, which need not be aligned. */
 static ALWAYS_INLINE void lanes_store(real *to, lanes a) { *(lanes_anywhere *)to = a; }
+
+/* Returns a vector whose eight entries are a. */
 static ALWAYS_INLINE lanes lanes_of(real a) { return (lanes){a, a, a, a, a, a, a, a}; }
 
+/* Returns a vector whose lane l (entry) is from[index[l]]. index: eight numbers, aligned to 32 bytes. */
 static ALWAYS_INLINE lanes lanes_gather(const real *from, const int32_t *index)
 {
 #ifdef __AVX512F__
