@@ -21,7 +21,8 @@ enum pd_model {
     PD_MODELS
 };
 
-/* Elastic constants of a material for the stress update, and the stress at which its points convert. */
+/* Elastic constants of a material for the stress update, and the stress at which its material points are marked for
+ * conversion to peridynamic particles. */
 struct elastic {
     real c11, c12, shear; /* stiffnesses C11, C12 and shear modulus of the space [Pa] */
     real trigger; /* sigma_1 at which a point is marked for conversion, INFINITY: never; where strength scatters: of the
@@ -67,7 +68,8 @@ static inline bool partial_end(const struct partial_stress *partial, int64_t i, 
     return any;
 }
 
-/* Inputs of the particle-grid transfers besides particles and grid; all pointers are borrowed. */
+/* Inputs of the transfers between particles and grid, besides particles and grid themselves; all pointers are kept by
+ * reference. */
 struct transfer_data {
     const struct transfer_order *order;
     const struct partial_stress *partial;
@@ -82,7 +84,7 @@ struct transfer_data {
                       turn[2] */
 };
 
-/* Step sizes and limits of the motion of peridynamic particles in one step. */
+/* Step sizes and limits for the time integration of peridynamic particles in one step. */
 struct pd_motion {
     real dt;               /* [s] */
     real dt_velocity;      /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */

@@ -14,7 +14,7 @@ enum archive_scope {
     ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
-/* An archive, open for saving or restoring. */
+/* A store of named entries (a checkpoint, or memory), open either for saving or for restoring. */
 struct archive {
     bool saving;
     /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if

@@ -123,7 +123,7 @@ static inline bool bits_equal(real a, real b) { return memcmp(&a, &b, sizeof a) 
 /* Returns a^2. */
 static inline real square(real a) { return a * a; }
 
-/* Returns the scalar product of a and b [dim]. */
+/* Returns the scalar product of the vectors a and b of dim components. */
 static inline real dot(const real *a, const real *b, int dim)
 {
     real sum = 0;
@@ -131,7 +131,7 @@ static inline real dot(const real *a, const real *b, int dim)
     return sum;
 }
 
-/* Computes to = a x b, of three components each; `to` must be neither a nor b. */
+/* Computes the vector product to = a x b of vectors with three components. `to` must be neither a nor b. */
 static inline void vector_product(const real *a, const real *b, real *to)
 {
     for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];

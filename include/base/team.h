@@ -4,7 +4,7 @@
 
 #include "base.h"
 
-/* The machine as far as this process may use it. */
+/* Processor cores, caches and memory of the machine, as far as this process may use them. */
 struct machine {
     int cores, threads_allowed; /* physical cores; hardware threads in the process's mask */
     int64_t cache[4];           /* size of one L1d, L2, L3 cache (index 1 .. 3), 0 if unknown [byte] */

@@ -76,7 +76,8 @@ struct clamped {
     struct clamp_end *end;
 };
 
-/* State of the families; state-based models only. Material points with rows then have particles.end_*. */
+/* State of the families (all neighbours of a particle) in state-based models; not used in bond-based ones. Material
+ * points with bonds then have the fields end_* of struct particles. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based model */

@@ -44,7 +44,9 @@ bool cracks_part(const struct crack *crack, int cracks, const struct particles *
  * (cells_most). Computed once at set-up, because reference positions do not change. */
 int bonds_room(const struct bond_source *s);
 
-/* Computes V_i^H = sum V_j beta of every particle, without cracks [m^3]. volume: [n_all]. */
+/* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
+ * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; s: inputs of the
+ * bonds. */
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs s. old: NULL, or

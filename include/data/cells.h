@@ -21,8 +21,9 @@ void cells_make(struct cells *c, const struct particles *p, real edge);
 /* Releases all arrays. */
 void cells_free(struct cells *c);
 
-/* Lists the particles (body and images) within `radius` <= edge of the point X [m], ascending, except `skip` (-1:
- * none). Writes at most `room` indices. Returns the number of particles found, which may exceed `room`. */
+/* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
+ * in `found`, ascending, except particle `skip` (-1: no exception). Writes at most `room` indices. Returns the number
+ * of particles found, which may exceed `room`. */
 int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                int32_t *found, int room);
 

@@ -19,7 +19,7 @@ struct hull_node {
     int32_t first, count, left;
 };
 
-/* A surface with its tree. All arrays are owned. */
+/* A surface of triangles (3D) or segments (2D) with a search tree over them. All arrays are owned. */
 struct hull {
     int dim;
     int64_t corners, faces;   /* lengths of `corner`, `face` */

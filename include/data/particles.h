@@ -32,7 +32,7 @@ enum particle_flag {
     FLAG_NEAR = 128         /* material point near another body (approach.h) */
 };
 
-/* Particles of both kinds. All arrays are owned. */
+/* Material points and peridynamic particles of all bodies, as a structure of arrays, which it owns. */
 struct particles {
     int64_t n, n_all;                 /* particles of the body; with images */
     int64_t n_body;                   /* particles of the body, with those that are not made (hollow.h) */
@@ -147,7 +147,8 @@ enum {
     WITH_EVERYTHING = 511
 };
 
-/* Description of one array. The table allocates, frees, sorts, archives and restores. */
+/* Description of one array of struct particles. All arrays are allocated, released, sorted, saved and restored by loops
+ * over a table of these descriptions. */
 struct particle_field {
     const char *name, *unit, *meaning; /* name in checkpoints; unit; description */
     size_t offset, size;               /* offset of the (first) array pointer in struct particles; entry size [byte] */

@@ -68,7 +68,7 @@ struct bend {
     real centre[2], from[2], to[2];
 };
 
-/* A polygon whose edges do not cross. */
+/* A polygon in the plane, whose edges do not cross and whose corners may be rounded. */
 struct polygon {
     int n;
     real (*corner)[2]; /* as given in the scene [m] */

@@ -204,7 +204,8 @@ void face_free(struct face *f);
 void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
                 uint8_t *taken);
 
-/* Receives a free end of a column: particle and area of the column [m^2]. */
+/* Function that face_every calls for each free end of a column of particles normal to a face. particle: index of the
+ * particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
 typedef void face_found_fn(void *context, int32_t particle, real area);
 
 /* Calls found(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
@@ -219,7 +220,8 @@ void face_every(const struct boundary *b, const struct particles *p, const uint8
 status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
                             real spacing);
 
-/* Receives a free face of a particle: axis and side of its normal, its area [m^2]. */
+/* Function that pressure_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1 or 1
+ * for its direction along the axis; area: of the face [m^2]; context: data of the caller. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
 /* Calls found(context, particle, axis, side, area) for every free face of a selected particle on which the pressure

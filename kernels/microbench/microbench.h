@@ -16,7 +16,7 @@ KERNEL(struct microbench_lattice *, microbench_lattice_make, (int dim));
 /* Sweeps once over all bonds. Returns seconds per directed bond. */
 KERNEL(double, microbench_lattice_run, (struct microbench_lattice *s));
 
-/* Releases the data of the lattice benchmark. */
+/* Releases s, the data of the lattice benchmark. */
 KERNEL(void, microbench_lattice_free, (struct microbench_lattice *s));
 
 /* Data of the STREAM triad a = b + q c over arrays larger than any cache. */

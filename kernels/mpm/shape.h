@@ -23,14 +23,17 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
     dN[1] = points_of(-1), dN[2] = points_of(1);
 }
 
-/* Computes GIMP functions: means of the hat functions over the particle's width 2l <= 2. The hats of the two nodes of
- * the cell continue as straight lines beyond it. A particle that extends over the lower end of the cell by b = (l -
- * t)_+ gives the node below the weight b^2/4l, and the kink of both hats at that end changes their means by multiples
- * of b^2/4l; the upper end is treated alike. So a node that the particle just touches gets a weight of the correct
- * size, never below 0: such a node may have no other weight, and momentum that a node without mass receives is lost.
- * GIMP keeps 2l <= 1 and has three nodes. A stretched particle (cpGIMP) reaches into the neighbouring cells, whose
- * nodes are the four of its row; contiguous particles then divide every hat without gap or overlap, and a uniform
- * stress leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
+/* Computes the weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row, for a few points (one per
+ * lane): means of linear (hat) functions over the width 2l <= 2 of the particle. t: distance from the lower node of the
+ * cell, l: half width, inverse_width: 1/(2 l), all in node distances.
+ *
+ * The hat functions of the two nodes of the cell continue as straight lines beyond it. A particle that extends over the
+ * lower end of the cell by b = (l - t)_+ gives the node below the weight b^2/4l, and the kink of both hats at that end
+ * changes their means by multiples of b^2/4l; the upper end is treated alike. So a node that the particle just touches
+ * gets a weight of the correct size, never below 0: such a node may have no other weight, and momentum that a node
+ * without mass receives is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched particle (cpGIMP) reaches into the
+ * neighbouring cells, whose nodes are the four of its row; contiguous particles then divide every hat without gap or
+ * overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
 static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
                                      row_of_points N[ROW], row_of_points dN[ROW])
 {

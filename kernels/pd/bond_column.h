@@ -13,8 +13,8 @@ enum { COLUMNS_AHEAD = 40 }; /* prefetch distance in columns: about 200 ns ahead
  * forces, energy and stress of bonds in 2D. */
 enum column_kind { COLUMN_FREE, COLUMN_SHELL, COLUMN_ALIKE, COLUMN_STENCIL, COLUMN_WHOLE, COLUMN_UNIT };
 
-/* One column: eight bonds, entries number * LANES on. `kind` is a compile-time constant wherever a column is
- * visited. */
+/* One column: the k-th bonds of the eight particles of a row block, with indices number * LANES to number * LANES + 7.
+ * `kind` is a compile-time constant wherever a column is used. */
 struct column {
     const struct bonds *b;
     int64_t number;

@@ -34,8 +34,10 @@ struct bond_last {
     real lag, share;
 };
 
-/* Computes lag and share of a bond beyond its limit. plastic: plastic stretch of the bond [1]. Both rows compute equal
- * results from equal numbers.
+/* Returns, for the bond between particles i and j that has exceeded its stretch `limit`, the time before the present
+ * positions at which it did so (lag [s]) and the share of its force that acts in this step [1], by the rule
+ * limit->last_force. inverse_length: 1/|xi| [1/m]; plastic: plastic stretch s_p of the bond [1]. Results are bitwise
+ * equal for i-j and j-i. Lag and share are 0 if the bond had already exceeded its limit one step before (rule MOMENT).
  *
  * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The kick by the
  * forces at x lasts from half a step before x to half a step after. A bond that breaks at t* contributes to this kick,

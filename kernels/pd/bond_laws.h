@@ -9,10 +9,11 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Applies the return mapping of plasticity to the eight bonds from entry q on, those with `intact` set, and returns
- * their elastic stretch [1]. Isotropic linear hardening, f being the force over the stiffness of the bond:
- *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
- * Equals the capped force of Zeng et al. 2021, eq. 18, in monotonic loading; adds elastic unloading, which eq. 18
+/* Updates the plastic state of those of the eight bonds with indices q to q + 7 for which the mask `intact` is set, by
+ * return mapping from their total stretch [1], and returns the elastic parts of all eight stretches [1]. Isotropic
+ * linear hardening; s_p: plastic stretch, alpha: accumulated plastic stretch, s_y: yield stretch, H: hardening modulus
+ * over the elastic one: phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha
+ * += g Equals the capped force of Zeng et al. 2021, eq. 18, in monotonic loading; adds elastic unloading, which eq. 18
  * lacks. */
 static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
 {

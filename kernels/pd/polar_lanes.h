@@ -31,9 +31,10 @@ static ALWAYS_INLINE lanes polar_step(lanes *R, lanes_mask *sound)
     return determinant;
 }
 
-/* Computes R in 3D as polar_rotation_3d. Stopping criterion: after a step all singular values s are at least 1, since
- * (s + 1/s)/2 is, so the determinant bounds the excess of each; a step squares the excess and halves it, so from 1e-8
- * the next excess is below round-off. */
+/* Computes the rotations R nearest to eight 3x3 matrices M, one per lane (entry of the vectors), as polar_rotation_3d:
+ * the identity for singular or inverted M. M, R: [9], row major. Stopping criterion: after a step all singular values s
+ * are at least 1, since (s + 1/s)/2 is, so the determinant bounds the excess of each; a step squares the excess and
+ * halves it, so from 1e-8 the next excess is below round-off. */
 static ALWAYS_INLINE void polar_rotation_lanes_3d(const lanes *M, lanes *R)
 {
     lanes size2 = lanes_of(POLAR_TINY);

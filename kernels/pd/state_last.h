@@ -10,7 +10,7 @@
 #include "polar.h"
 #include "rotation.h"
 
-/* Sums over the remaining bonds of a row. */
+/* Sums over those bonds of one particle that do not break in this step. */
 struct family_left {
     real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
     real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */

@@ -187,7 +187,8 @@ static ALWAYS_INLINE lanes lanes_inverse_root(lanes a)
     return y + (y * c) * (0.5 + c * (0.375 + c * 0.3125));
 }
 
-/* Returns sqrt(a) of normal numbers to full double precision, from the series of lanes_inverse_root. */
+/* Returns sqrt(a) in each lane (entry of the vector), for normal numbers to full double precision, by the series of
+ * lanes_inverse_root. */
 static ALWAYS_INLINE lanes lanes_root(lanes a)
 {
     const lanes y = lanes_estimate(a), root = a * y, c = 1.0 - root * y;
@@ -196,7 +197,8 @@ static ALWAYS_INLINE lanes lanes_root(lanes a)
 
 #else
 
-/* Returns sqrt(a); with vectors of two doubles, roots and divisions are as fast as the series. */
+/* Returns sqrt(a) in each lane (entry of the vector), by the square root of the C library: with vectors of two doubles
+ * this is as fast as the series used for wider vectors. */
 static ALWAYS_INLINE lanes lanes_root(lanes a)
 {
     lanes y;

@@ -73,7 +73,7 @@ status near_faces_make(struct near_faces *b, const struct particles *p, const st
 /* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
 
-/* Targets that faces impose on the particles near them. */
+/* Properties of faces near each particle, to which the weights of its bonds are fitted. */
 struct faces {
     real (*area)[DIM_MAX];             /* [n] outward area, extrapolated to the face [spacing^(dim-1)] */
     real *dipole;                      /* [n] tau over alpha [1] */
@@ -89,8 +89,8 @@ void faces_make(struct faces *f, const struct near_faces *b, bool rotates);
 /* Releases all arrays of f. */
 void faces_free(struct faces *f);
 
-/* Classes of particles with equal surroundings up to mirrors, and groups of bonds that share one factor; factors are
- * stored by class and offset. */
+/* Classes of particles near faces whose neighbours have equal relative positions, up to reflections along axes, and
+ * groups of bonds that share one factor on their weight; factors are stored by class and offset. */
 struct alike {
     int32_t classes, *class_of; /* [near n] class; 0 is not used (no face nearby) */
     uint8_t *mirrors;           /* [near n] mirrors that turn the particle into one of its class */

@@ -56,7 +56,8 @@ struct element_set {
     int32_t *member; /* indices; from `resolved` on still labels of the file (abaqus.c) */
 };
 
-/* A mesh under construction. Its reader appends nodes and elements in file order. */
+/* A finite-element mesh under construction, to which the reader of a file appends nodes and elements in the order of
+ * the file. */
 struct element_mesh {
     int64_t nodes;
     real (*node)[DIM_MAX]; /* coordinates [unit of the file] */
