@@ -1,4 +1,4 @@
-/* Bounded reading of CSV files, line by line. */
+/* Reads CSV files line by line, with a bound on the length of a line. */
 #include "csv.h"
 
 #include <stdarg.h>
@@ -52,7 +52,7 @@ void csv_separate(struct csv_file *c)
     c->separator = strchr(c->text, ';') ? ';' : tabs > commas ? '\t' : ',';
 }
 
-/* A field without blanks round it, and without double quotes. */
+/* Returns a field without surrounding blanks and without double quotes; shortens the text. */
 static char *csv_trim(char *field)
 {
     size_t n = strlen(field);
@@ -64,14 +64,15 @@ static char *csv_trim(char *field)
     return csv_trim(field + 1);
 }
 
-/* Where a separator may stand first: behind a text in quotes. */
+/* Returns the position from which the separator after a field is searched: the closing quote of a quoted field, else
+ * its beginning. */
 static char *csv_behind_quotes(char *field)
 {
     char *start = field + strspn(field, " "), *close = *start == '"' ? strchr(start + 1, '"') : NULL;
     return close ? close : field;
 }
 
-/* The same where blanks separate: as many as there are. */
+/* Cuts the next field off *rest in a line whose fields are separated by any number of blanks. */
 static char *csv_word(char *field, char **rest)
 {
     static const char blanks[] = " \t\r\n";

@@ -17,7 +17,7 @@
 #include "base/team.h"
 #include "fill_draft.h"
 
-/* Closer particles are refused as one particle given twice [spacings]. */
+/* Least distance of two particles; closer ones are refused as one particle given twice [spacings]. */
 static const real too_close = 1e-3;
 
 enum { PARTICLES_MAX = INT32_MAX - 64 };
@@ -68,7 +68,7 @@ status draft_add(struct draft *d, const real *X, real volume, int material, int 
 
 /* ---- lattices ---------------------------------------------------------------------------------------------------- */
 
-/* Along one direction: places first .. last at centre + (k + 1/2 - m/2) spacing. */
+/* Lattice positions along one axis: centre + (k + 1/2 - m/2) spacing for k = first .. last. */
 struct axis {
     real centre, half_count, spacing; /* [m], m/2, [m] */
     int64_t first, last;
@@ -79,9 +79,9 @@ static real axis_place(const struct axis *a, int64_t k)
     return a->centre + ((real)k + 0.5 - a->half_count) * a->spacing;
 }
 
-/* Rounds centre and half the spacing to multiples of a power of two, such that every place is an exact double and stays
- * within half of LATTICE_NEAR of its nominal place. A body of 10,000 spacings has no such power of two; its places are
- * rounded one by one. */
+/* Rounds centre and half the spacing to multiples of a power of two, such that every position is an exact double and
+ * is within half of LATTICE_NEAR of its nominal position. A body of 10,000 spacings has no such power of two; its
+ * positions are rounded one by one. */
 static void axis_round(struct axis *a)
 {
     const real ends =
@@ -93,7 +93,8 @@ static void axis_round(struct axis *a)
     a->spacing = 2 * half;
 }
 
-/* Box of a shape's first added solid, or of the whole shape where that is an intersection; false if it is unbounded. */
+/* Writes the bounding box of the first added solid of a shape, or of the whole shape if it is an intersection [m].
+ * Returns false if the box is unbounded. */
 static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MAX], real high[DIM_MAX])
 {
     if (shape->n > 0 && shape->solid[0].intersect) return region_bounds(shape, dim, low, high);
@@ -103,8 +104,8 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
     return false;
 }
 
-/* Splitmix64's finaliser (Steele, Lea, Flood 2014) over a counter: a uniform number in [-1/2, 1/2) that depends on
- * seed, particle and component alone. */
+/* Returns a uniform random number in [-1/2, 1/2) that depends on seed, particle and component alone, by the
+ * finaliser of splitmix64 (Steele, Lea, Flood 2014) applied to a counter. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
     uint64_t z = seed + ((uint64_t)id * DIM_MAX + (uint64_t)component + 1) * 0x9E3779B97F4A7C15u;
@@ -116,8 +117,8 @@ static real scatter(uint64_t seed, int64_t id, int component)
 
 static real cell_volume(const struct scene *s) { return lattice_volume(scene_section(s), s->spacing, s->dim); }
 
-/* Axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large for the
- * spacing. */
+/* Sets the axes of the lattice that covers the whole shape of a body. REFUSED if the shape is unbounded or too large
+ * for the spacing. */
 static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM_MAX])
 {
     const struct scene *s = d->scene;
@@ -143,7 +144,7 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
     return OK;
 }
 
-/* Counts a particle at a place [m] that is not made. */
+/* Counts a particle at X = place [m] that is not created, and extends the bounding box of these particles. */
 static status place_skip(struct draft *d, const real *place)
 {
     for (int a = 0; a < d->scene->dim; a++) {
@@ -154,7 +155,7 @@ static status place_skip(struct draft *d, const real *place)
     return OK;
 }
 
-/* Adds a particle at a place of the lattice [m], shifted at random by the irregularity, if the place is in the body. */
+/* Adds a particle at a lattice position [m], shifted at random by the irregularity, if the position is in the body. */
 static status lattice_point(struct draft *d, int body, const real *place, real volume)
 {
     const struct scene *s = d->scene;
@@ -170,7 +171,7 @@ static status lattice_point(struct draft *d, int body, const real *place, real v
 static status fill_lattice(struct draft *d, int body)
 {
     real spacing = d->scene->spacing, volume = cell_volume(d->scene), place[DIM_MAX];
-    struct axis axis[DIM_MAX] = {{0}}; /* unused directions hold the one place 0 */
+    struct axis axis[DIM_MAX] = {{0}}; /* unused directions have the one position 0 */
     if (!(spacing > 0)) return draft_refuse(d, body, "a shape is filled with particles.spacing, which is not given");
     TRY(lattice_axes(d, body, axis));
     for (int64_t k = axis[2].first; k <= axis[2].last; k++)
@@ -209,7 +210,7 @@ static status draft_empty(const struct draft *d, int body, bool listed)
     return draft_refuse(d, body, why);
 }
 
-/* Makes the particles of all bodies. REFUSED for a body without particles. */
+/* Collects the particles of all bodies. REFUSED for a body without particles. */
 static status draft_make(struct draft *d)
 {
     for (int body = 0; body < d->scene->bodies; body++) {
@@ -225,8 +226,8 @@ static status draft_make(struct draft *d)
 
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
-/* The spacing of the scene [m]; without one (all particles come from lists) the edge of a particle of mean volume
- * [m]. */
+/* Returns the spacing of the scene [m], or the edge of a particle of mean volume if the scene has none because all
+ * particles come from lists. */
 static real spacing_of(const struct draft *d)
 {
     const struct scene *s = d->scene;
@@ -234,7 +235,7 @@ static real spacing_of(const struct draft *d)
     return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
 }
 
-/* Copies the draft to the particles, with the velocity of their body, mass and method. `optional`: bits WITH_*. */
+/* Copies the draft to the particles, and sets velocity, mass and method from their bodies. optional: sum of WITH_*. */
 static void take_draft(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -257,7 +258,7 @@ static void take_draft(struct particles *p, const struct draft *d, int optional)
     }
 }
 
-/* Number and extent of the body, with particles that are not made. */
+/* Adds the number and the bounding box of the particles that are not created to p. */
 static void take_skipped(struct particles *p, const struct draft *d)
 {
     for (int a = 0; a < p->dim && d->skipped > 0; a++) {
@@ -334,8 +335,8 @@ static status check_distances(const struct particles *p, const struct draft *d, 
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
 
-/* Slope of component a of the formula along b, over a spacing of which X is the middle; 0 without formula, and where it
- * has none beyond X [1/s]. */
+/* Returns the derivative of component a of the formula along axis b as a central difference over one spacing around
+ * X; 0 without a formula, and where the formula has no value on both sides [1/s]. */
 static real start_slope(const struct scene_initial *s, int a, int b, const real *X, int dim, real spacing)
 {
     real before[DIM_MAX] = {0}, after[DIM_MAX] = {0};
@@ -347,7 +348,8 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     return isfinite(slope) ? slope : 0;
 }
 
-/* v = velocity + G arm with the velocity gradient G, which is stored where particles have one; arm = X - centre [m]. */
+/* Sets the velocity of particle i to v = velocity + G arm with the velocity gradient G and arm = X - centre [m], and
+ * stores G in particles with a velocity gradient. */
 static void start_velocity(struct particles *p, int64_t i, const struct scene_initial *s, const real *X,
                            const real *arm, real spacing)
 {
@@ -363,8 +365,8 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
     }
 }
 
-/* Initial strain of particle i: x = X + H (X - centre), with stress C : sym H and volume factor 1 + tr H of small
- * strain. arm = X - centre [m]. */
+/* Sets the initial strain of particle i: x = X + H arm with arm = X - centre [m], stress C : sym H, and volume
+ * factor 1 + tr H (small strain). */
 static void fill_start_strain(struct particles *p, int64_t i, const struct scene_initial *s, const struct material *m,
                               const real *arm)
 {
@@ -386,7 +388,7 @@ static void fill_start_strain(struct particles *p, int64_t i, const struct scene
     p->volume[i] = p->volume0[i] * growth;
 }
 
-/* Adds a plane wave to particle i at X [m]: displacement, velocity, stress, stretch and volume of small strain. */
+/* Adds a plane wave to the displacement, velocity, stress, stretch and volume of particle i at X [m] (small strain). */
 static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse *w, const struct material *m,
                         const real *X)
 {
@@ -409,7 +411,7 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
-/* REFUSED if an initial displacement gradient turns the body inside out. */
+/* REFUSED if an initial displacement gradient inverts the body. */
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
@@ -425,7 +427,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
 }
 
-/* Applies the initial states that hold for particle i, in the order of the scene. */
+/* Applies the initial states that apply to particle i, in the order of the scene. */
 static void start_particle(struct particles *p, int64_t i, const struct scene *s, real spacing)
 {
     const real tolerance = ON_SURFACE * spacing;
@@ -440,14 +442,14 @@ static void start_particle(struct particles *p, int64_t i, const struct scene *s
     }
 }
 
-/* A static equilibrium knows no velocities, nor their gradients (APIC). */
+/* Sets velocities and velocity gradients (APIC) to 0 for a static equilibrium. */
 static void start_at_rest(struct particles *p, int64_t i)
 {
     for (int a = 0; a < p->dim; a++) p->v[a][i] = 0;
     for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
 }
 
-/* Makes the particles of a draft, checks them, applies the initial state and sorts them. */
+/* Creates the particles of a draft, checks them, applies the initial state and sorts them. */
 static status fill_made(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -466,7 +468,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     TRY(check_start(p, d, spacing));
     particles_sort(p, spacing, optional);
     TRY(check_distances(p, d, spacing));
-    for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined; /* joined ones are one */
+    for (int64_t i = 0; i < p->n; i++) p->body[i] = (uint8_t)s->body[p->body[i]].joined; /* joined bodies become one */
     return OK;
 }
 

@@ -1,10 +1,11 @@
-/* Cells that lie wholly in a body: their particles need not be made. */
+/* Finds cells that are wholly inside a body, whose particles need not be created. */
 #include "base/memory.h"
 #include "scene/fill.h"
 
-#define CLEARLY 1e-6 /* of a cell: places on a surface are left to the fill */
+#define CLEARLY 1e-6 /* margin [cells]: positions closer to a surface count as outside, and the fill decides on them   \
+                      */
 
-/* Are all places of the particles of cell I in the shape? */
+/* Returns true if all particle positions of cell I are inside the shape, by the margin CLEARLY. */
 static bool cell_inside(const struct grid *box, const struct region *shape, int64_t I)
 {
     for (int c = 0; c < 1 << box->dim; c++) {

@@ -1,4 +1,4 @@
-/* Particles of a body from its list: what entries say goes before what the body says. */
+/* Adds the particles of a body from its list. Values of an entry take precedence over values of the body. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,7 +7,8 @@
 #include "list_lattice.h"
 #include "scene/particle_list.h"
 
-/* Where entry i stands: `file:line`, with the column of its material, or `file: entry i` (HDF5). */
+/* Writes the location of entry i and returns text: `file:line`, with the column of its material, or `file: entry i`
+ * (HDF5). */
 static const char *entry_place(char *text, const struct particle_list *l, const char *path, int64_t i, bool material)
 {
     int used = snprintf(text, PLACE_LENGTH, "%.460s:%s%lld", path, l->line ? "" : " entry ",
@@ -16,7 +17,7 @@ static const char *entry_place(char *text, const struct particle_list *l, const 
     return text;
 }
 
-/* The materials that a scene has, in words; of many the first. */
+/* Writes the names of the materials of a scene and returns text; only the first names if there are many. */
 static const char *materials_in_words(char *text, size_t room, const struct scene *s)
 {
     enum { NAMED = 4 };
@@ -31,7 +32,7 @@ static const char *materials_in_words(char *text, size_t room, const struct scen
     return text;
 }
 
-/* REFUSED: entry i has a material that the scene does not have; `given` as the list has it. */
+/* Returns REFUSED with the message that the material of entry i, `given` in the list, is not in the scene. */
 static status refuse_material(const struct scene *s, const struct particle_list *l, const char *path, int64_t i,
                               real given)
 {
@@ -45,13 +46,14 @@ static status refuse_material(const struct scene *s, const struct particle_list 
                       l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
-/* True if body number k takes its particles from this file. */
+/* Returns true if body k takes its particles from this file. */
 static bool shares_file(const struct scene *s, int k, const char *file)
 {
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;
 }
 
-/* Material of entry i, or of the body where the list has none. REFUSED for one that the scene does not have. */
+/* Finds the material of entry i: of the list, or of the body if the list has no materials. REFUSED for a material
+ * that is not in the scene. */
 static status entry_material(const struct scene *s, const struct particle_list *l, const struct scene_body *b,
                              int64_t i, int *material)
 {
@@ -62,7 +64,7 @@ static status entry_material(const struct scene *s, const struct particle_list *
     return *material < s->materials ? OK : refuse_material(s, l, b->file, i, given);
 }
 
-/* Adds entry i, which is of this body; `volume` where the list has none [m^3]. */
+/* Adds entry i to a body. volume: default if the list has no volumes [m^3]. */
 static status take_entry(struct draft *d, int body, const struct particle_list *l, int64_t i, real volume)
 {
     const struct scene *s = d->scene;
@@ -80,8 +82,9 @@ static status take_entry(struct draft *d, int body, const struct particle_list *
     return OK;
 }
 
-/* Adds the entries of a body to the draft: entries with its number, or all entries of a list without a body column.
- * REFUSED for entries of a body with another file, and without volumes or a spacing that says them. */
+/* Adds the entries of a body to the draft: entries with the index of the body, or all entries of a list without a
+ * body column. REFUSED for entries of a body with another file, and if neither the list gives volumes nor the scene
+ * a spacing. */
 static status take_list(struct draft *d, int body, const struct particle_list *l)
 {
     const struct scene *s = d->scene;
@@ -102,8 +105,8 @@ static status take_list(struct draft *d, int body, const struct particle_list *l
     return OK;
 }
 
-/* Puts the particles from `first` on, of a list that is a lattice but for decimals, on their sites. Planes of symmetry
- * are sites or lie between two. */
+/* Rounds the positions of the particles from `first` on to lattice sites, if their list is a lattice to the
+ * precision of its decimals. Planes of symmetry are on sites or midway between two. */
 static void take_lattice(struct draft *d, int64_t first)
 {
     const struct scene *s = d->scene;

@@ -27,8 +27,10 @@ enum { LOOKED_AT = 128 };
  * factor: in another unit they differ by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in
  * space. */
 #define VOLUME_MOST 100.0
-#define CROWDED 0.5     /* [spacings] at closer neighbours the memory of bonds is estimated beforehand */
-#define ONE_PLACE 1e-9  /* [longest edge of the body] one place given twice; refused in fill.c */
+#define CROWDED                                                                                                        \
+    0.5 /* nearest neighbours closer than this: the memory of bonds is estimated before they are made [spacings] */
+#define ONE_PLACE                                                                                                      \
+    1e-9 /* particles closer than this are at one position [longest edge of the body]; refused in fill.c */
 #define REACH_LEAST 1.5 /* least reach of a material point, for cells of at most one spacing [spacings] */
 
 /* The particles of one body, packed. */
@@ -39,18 +41,18 @@ struct crowd {
     int64_t n;
     real *X[DIM_MAX], *volume; /* [n] [m], [m^3] */
     real reach;                /* distance within which particles are neighbours [m] */
-    real one_place;            /* distance below which places count as one [m] */
+    real one_place;            /* distance below which positions count as one [m] */
 };
 
 /* Statistics of a sample of the particles of a body. */
 struct verdict {
     real lone;   /* share without a neighbour                          [1]     */
-    real apart;  /* median distance of the nearest other place         [m]     */
+    real apart;  /* median distance of the nearest other position    [m] */
     real family; /* mean number of neighbours within reach [1]                 */
     real filled; /* median volume over space up to the nearest [1]             */
 };
 
-/* Packs the places and volumes of the particles of a body and sets one_place. */
+/* Copies the positions and volumes of the particles of a body to packed arrays, and sets one_place. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -74,8 +76,8 @@ static void crowd_take(struct crowd *c)
     c->one_place = ONE_PLACE * longest;
 }
 
-/* Square of the distance from X [m], [dim], to the nearest other place [m^2]. `others`: [dim][n] coordinates [m].
- * *within: number of these n particles within reach of X, the particle at X included. */
+/* Returns the square of the distance from X [dim, m] to the nearest other position [m^2]. others: coordinates of n
+ * particles [dim][n, m]. *within: number of these particles within reach of X, including a particle at X. */
 static real nearest_of(const struct crowd *c, real *const *others, int64_t n, const real *X, int64_t *within)
 {
     const real reach2 = square(c->reach), place2 = square(c->one_place);
@@ -100,9 +102,9 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Statistics of a body. The sampled entries are spread evenly over the list at positions that match no pattern of the
- * list (Weyl sequence of the golden ratio). Points of other bodies count as neighbours of material points, which
- * interact with them on the grid; bonds do not cross bodies. */
+/* Computes the statistics of a body. The sampled entries are spread evenly over the list at positions that match no
+ * pattern of the list (Weyl sequence of the golden ratio). Particles of other bodies count as neighbours of material
+ * points, which interact with them on the grid; bonds do not cross bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -128,9 +130,10 @@ static struct verdict crowd_look(const struct crowd *c)
 
 /* ---- messages ---------------------------------------------------------------------------------------------------- */
 
-/* Guess of the unit of a list from the ratio of a length to the one that is expected. A list in mm whose particles
- * are a tenth as far apart as the spacing looks like one in cm: then both are named. by_volume: the same ratio from
- * volumes that the list gives in m^3, which decides; NAN without. "" where no unit comes near. */
+/* Returns a guess of the unit of a list from the ratio of a length to its expected value, or "" if no unit is near.
+ * A list in mm whose particles are a tenth as far apart as the spacing cannot be told from one in cm: then both
+ * units are named. by_volume: the ratio from volumes that the list gives in m^3, which decides between both; NAN if
+ * there are none. */
 static const char *unit_guess(real ratio, real by_volume)
 {
     static const struct {
@@ -170,8 +173,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
     const real by_volume =
-        c->s->body[c->body].list.volumes ? pow(v->filled, -1.0 / (real)c->s->dim) : NAN; /* of a filled list 1 */
-    if (!isfinite(v->apart)) return OK; /* all in one place: refused by check_distances (fill.c) */
+        c->s->body[c->body].list.volumes ? pow(v->filled, -1.0 / (real)c->s->dim) : NAN; /* 1 for a list without gaps */
+    if (!isfinite(v->apart)) return OK; /* all at one position: refused by check_distances (fill.c) */
     if (v->lone > LONE_MOST)
         return refuse_list(
             c,
@@ -207,7 +210,7 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 
 /* ---- all lists --------------------------------------------------------------------------------------------------- */
 
-/* Reach of forces [spacings]: the horizon of bonds, about one cell on the grid, at least REACH_LEAST. */
+/* Returns the reach of forces [spacings]: the horizon of bonds, about one cell on the grid, at least REACH_LEAST. */
 static real fill_lists_reach_of(const struct scene *s)
 {
     const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;

@@ -1,4 +1,4 @@
-/* Strength of particles where it scatters from place to place. */
+/* Sets the strength of particles of materials whose strength scatters in space. */
 #include "scene/fill.h"
 
 void fill_strength(struct particles *p, const struct scene *s)

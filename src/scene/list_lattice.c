@@ -65,7 +65,7 @@ bool list_is_lattice(const struct particle_list *l, real spacing, real volume)
     return lattice;
 }
 
-/* Largest power of two of which all coordinates up to `most` are multiples of a double's precision. */
+/* Returns the largest power of two of which all coordinates up to `most` are multiples in double precision. */
 static real lattice_unit(real most) { return exp2(ceil(log2(most)) - 53); }
 
 void list_to_lattice(real *X, int64_t n, real spacing, real anchor)

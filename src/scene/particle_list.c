@@ -1,4 +1,4 @@
-/* Reads lists of particles: their columns, those of HDF5 files, and the format; every refusal names the entry. */
+/* Reads particle lists: columns, HDF5 files, and the choice of the format. Every message names the entry. */
 #include "scene/particle_list.h"
 
 #include <hdf5.h>
@@ -92,7 +92,7 @@ bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_
     return number_read(factor, number, of, false, what, room);
 }
 
-enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without its bonds [numbers] */
+enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
 
 status list_affordable(const char *path, int64_t n)
 {
@@ -104,14 +104,15 @@ status list_affordable(const char *path, int64_t n)
 
 /* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
 
-/* A dataset as columns of numbers. */
+/* A dataset of HDF5 as columns of numbers. */
 struct table {
     int64_t rows, columns;
     real *value; /* row major */
-    real factor; /* of its unit */
+    real factor; /* factor from the unit of the dataset to SI */
 };
 
-/* Shape of a dataset; false unless it is a list of numbers with at most PARTICLES_MAX rows and DIM_MAX columns. */
+/* Reads the shape of a dataset. Returns false unless it is a list of numbers with at most PARTICLES_MAX rows and
+ * DIM_MAX columns. */
 static bool table_shape(hid_t set, struct table *t)
 {
     hid_t space = H5Dget_space(set), type = H5Dget_type(set);
@@ -127,8 +128,8 @@ static bool table_shape(hid_t set, struct table *t)
     return good;
 }
 
-/* Most rows per byte of the file: gzip does not compress equal numbers further. Bounds the memory that a small file
- * claims. */
+/* Largest number of rows per byte of the file, a bound on the memory that a small file can claim: gzip does not
+ * compress equal numbers further. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
 /* REFUSED if a dataset claims more rows than its file can hold or the memory allows. */
@@ -141,7 +142,7 @@ static status table_check(const struct table *t, const char *path, const char *n
     return list_affordable(path, t->rows);
 }
 
-/* True if the numbers of a dataset are in this file, not in external or virtual ones. */
+/* Returns true if the numbers of a dataset are in this file, not in external or virtual ones. */
 static bool lies_inside(hid_t set)
 {
     hid_t made = H5Dget_create_plist(set);
@@ -150,7 +151,7 @@ static bool lies_inside(hid_t set)
     return inside;
 }
 
-/* True if `name` is a soft or external link; the link is not followed. */
+/* Returns true if `name` is a soft or external link; does not follow the link. */
 static bool is_linked(hid_t file, const char *name)
 {
     H5L_info_t link;
@@ -183,7 +184,7 @@ static status table_read(hid_t file, const char *path, const char *name, struct 
     return status_set(REFUSED, "%s: %s: cannot be read as one list of numbers", path, name);
 }
 
-/* Takes column k of a dataset as column `column` of the list. */
+/* Copies column k of a dataset to column `column` of the list. REFUSED for an invalid value. */
 static status table_take(struct particle_list *l, int column, const struct table *t, int k, const char *path)
 {
     real *array = NEW("list.column", l->n, real);
@@ -198,7 +199,7 @@ static status table_take(struct particle_list *l, int column, const struct table
     return OK;
 }
 
-/* The attribute `unit` of a dataset as text; "": it has none that is a text. */
+/* Reads the attribute `unit` of a dataset as text; "" if there is no such text. */
 static void unit_read_attribute(hid_t file, const char *name, char text[UNIT_TEXT])
 {
     text[0] = '\0';
@@ -217,8 +218,8 @@ static void unit_read_attribute(hid_t file, const char *name, char text[UNIT_TEX
     H5Aclose(unit);
 }
 
-/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries; places and
- * velocities may have more components than the space. */
+/* Reads a dataset as `count` columns of the list, from `column` on. The positions set the number of entries;
+ * positions and velocities may have more components than the space. */
 static status hdf5_column(struct particle_list *l, hid_t file, const char *path, const char *name, int column,
                           int count)
 {
@@ -285,7 +286,7 @@ static bool ends_with(const char *path, const char *ending)
 
 enum { NO_LIST, LIST_CSV, LIST_HDF5 };
 
-/* The kind of file by its ending. */
+/* Returns the format that the file name extension implies. */
 static int list_format(const char *path)
 {
     static const char *const endings[] = {".csv", ".tsv", ".txt", ".dat", ".h5", ".hdf5", ".hdf"};
@@ -296,7 +297,7 @@ static int list_format(const char *path)
 
 bool particle_list_named(const char *path) { return list_format(path) != NO_LIST; }
 
-/* `head`: the names of columns are enough. */
+/* Reads a list of any format. head: true to read only the column names. */
 static status list_read(struct particle_list *l, const char *path, int dim, bool head)
 {
     *l = (struct particle_list){.dim = dim};

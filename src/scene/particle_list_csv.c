@@ -1,4 +1,4 @@
-/* Reads lists of particles from CSV files, as other programs write them; every refusal names line and column. */
+/* Reads particle lists from CSV files, in the forms that other programs write. Every message names line and column. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,14 +14,14 @@ enum { FIELDS_MAX = 256 };
 struct csv {
     struct csv_file in;
     int fields, column[FIELDS_MAX]; /* enum list_column of each field of a line */
-    real factor[FIELDS_MAX];        /* of its unit */
-    int first[FIELDS_MAX];          /* the number of the first: 1 of blocks, or 0 */
-    bool pending;                   /* the current line is the first entry: the names of columns lie elsewhere */
+    real factor[FIELDS_MAX];        /* factor from the unit of the field to SI */
+    int first[FIELDS_MAX];          /* index of the first item in the file: 1 for blocks, else 0 */
+    bool pending; /* the current line is the first entry, since the column names are in another line */
     int64_t room;
 };
 
-/* The component of a vector that ParaView writes as `Points:0`, earlier and later versions as `Points_0`: -1 for other
- * names. */
+/* Returns the component of a vector that ParaView writes as `Points:0`, or in other versions as `Points_0`; -1 for
+ * other names. */
 static int component_named(const char *name, const char *vector)
 {
     const size_t length = strlen(vector);
@@ -30,13 +30,14 @@ static int component_named(const char *name, const char *vector)
     return name[length + 1] >= '0' && name[length + 1] < '0' + DIM_MAX ? name[length + 1] - '0' : -1;
 }
 
-/* The block of Peridigm and PeriLab, which counts from 1, is the material here: bonds join blocks, and not bodies. */
+/* Returns true for names of the block of Peridigm and PeriLab, counted from 1. It is the material here: bonds join
+ * blocks, but not bodies. */
 static bool names_block(const char *name)
 {
     return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
 }
 
-/* Which column a name is; COLUMN_NONE: none that is read. */
+/* Returns the column with this name, or COLUMN_NONE if columns of this name are not read. */
 static int column_named(const char *name, int dim)
 {
     const int place = component_named(name, "points"), velocity = component_named(name, "velocity");
@@ -49,7 +50,7 @@ static int column_named(const char *name, int dim)
     return found == COLUMN_NONE || column_idle(found, dim) ? COLUMN_NONE : found;
 }
 
-/* A column `weight`: a mass or a volume, by its unit. REFUSED without one of these. */
+/* Finds whether a column `weight` is a mass or a volume, by its unit. REFUSED for another unit. */
 static status weight_column(struct csv *c, const char *name, const char *unit, int *column)
 {
     char what[160];
@@ -83,7 +84,8 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
     return OK;
 }
 
-/* Takes a blank for the separator where there is no other; then none stands before and in a unit: `x [mm] y [mm]`. */
+/* Sets the separator to a blank if the header contains no other. Removes the blanks before and inside bracketed
+ * units then: `x [mm] y [mm]` becomes `x[mm] y[mm]`. */
 static void header_separate(struct csv *c)
 {
     char *text = c->in.text, *to = text;
@@ -117,7 +119,7 @@ static status header_read(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Blanks over what stands before the names of columns: the # of a comment (Peridigm), `header:` (PeriLab). */
+/* Overwrites with blanks the text before the column names: # of a comment (Peridigm), `header:` (PeriLab). */
 static void header_bare(char *text)
 {
     static const char word[] = "header:";
@@ -127,7 +129,7 @@ static void header_bare(char *text)
     for (text += sizeof word - 1; *text == '\t' || *text == ' '; text++) *text = ' ';
 }
 
-/* True if a line has neither commas nor semicolons, so that tabs and blanks separate its fields. */
+/* Returns true if a line has neither commas nor semicolons, so that tabs and blanks separate its fields. */
 static bool line_of_blanks(const char *text) { return !strpbrk(text, ",;"); }
 
 static void tabs_to_blanks(char *text)
@@ -136,7 +138,7 @@ static void tabs_to_blanks(char *text)
         if (*text == '\t') *text = ' ';
 }
 
-/* Counts the names in a header; *all: whether all coordinates are among them. */
+/* Counts the names in a header; *all: true if all coordinates are among them. */
 static int header_count(const char *names, int dim, bool *all)
 {
     struct csv trial = {0};
@@ -154,7 +156,7 @@ static int header_count(const char *names, int dim, bool *all)
     return n;
 }
 
-/* Does a comment name all coordinates, so that it is a header? */
+/* Returns true if a comment names all coordinates, so that it is a header. */
 static bool comment_names(const char *comment, int dim)
 {
     char blank[CSV_LINE_LENGTH];
@@ -166,8 +168,8 @@ static bool comment_names(const char *comment, int dim)
     return by_tabs || by_blanks;
 }
 
-/* Makes blanks of the tabs in a header where both separate alike: where it has then as many names, all coordinates
- * among them, as the first entry has values between blanks or tabs. Else each tab ends a field, which may be empty. */
+/* Replaces the tabs of a header by blanks if tabs and blanks both separate its fields: the header has then as many
+ * names, with all coordinates, as the first entry has values. Otherwise each tab ends a field, which may be empty. */
 static void header_unify(char *names, const char *entry, int dim)
 {
     char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
@@ -182,7 +184,7 @@ static void header_unify(char *names, const char *entry, int dim)
     if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
-/* True of a line whose first field is a number. */
+/* Returns true for a line whose first field is a number. */
 static bool line_of_numbers(const char *text)
 {
     char *end;
@@ -190,7 +192,7 @@ static bool line_of_numbers(const char *text)
     return end != text && strchr(" \t,;\r\n", *end);
 }
 
-/* True of a line of five numbers with blanks between them: of Peridigm's text mesh without names. */
+/* Returns true for a line of five numbers separated by blanks, as in a Peridigm text mesh without names. */
 static bool line_of_mesh(const char *text)
 {
     int n = 0;
@@ -198,7 +200,7 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the header from `names`, which stand in another line than the entries, whose first is the current line. */
+/* Reads the header from `names`, a line other than the current one, which is the first entry. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -214,7 +216,7 @@ static status header_elsewhere(struct csv *c, struct particle_list *l, const cha
     return OK;
 }
 
-/* Reads a header with tabs from the current line, and the first entry behind it. */
+/* Reads a header with tabs from the current line, and the first entry after it. */
 static status header_of_tabs(struct csv *c, struct particle_list *l)
 {
     char names[CSV_LINE_LENGTH];
@@ -227,8 +229,8 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
     return header_read(c, l);
 }
 
-/* Reads the header: the first line that is no comment; where that holds numbers, the first comment that names columns;
- * where there is none, that of Peridigm's text mesh. */
+/* Reads the header: the first line that is no comment; if it contains numbers, the first comment that names columns;
+ * if there is none, the columns of a Peridigm text mesh. */
 static status csv_header(struct csv *c, struct particle_list *l)
 {
     static const char mesh[] = "x y z block_id volume";
@@ -253,7 +255,7 @@ static status csv_header(struct csv *c, struct particle_list *l)
     return strchr(c->in.text, '\t') && line_of_blanks(c->in.text) ? header_of_tabs(c, l) : header_read(c, l);
 }
 
-/* Makes room for one more entry, doubling. */
+/* Provides memory for one more entry, doubling the arrays. */
 static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
@@ -270,7 +272,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* A material by its name: -1 - its number in the list of names. REFUSED for more than there can be. */
+/* Writes -1 - (index of a material name in the list of names), and adds new names. REFUSED for too many names. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;
@@ -283,7 +285,7 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads a field of a column. */
+/* Reads field k of a line into its column. */
 static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];

@@ -1,4 +1,4 @@
-/* Makes a scene from its tree of nodes: overrides first, then struct scene by the table of keys. */
+/* Fills a scene from its tree of nodes: first the overrides, then struct scene by the table of keys. */
 #include "scene/shape_file.h"
 #include "scene_internal.h"
 

@@ -1,5 +1,5 @@
-/* Parts of a body that are of another material: bonds join them as they join the particles of one material, by springs
- * in series (bonds/bonds.c: pairs_make), in state-based models each end by the modulus of its own material. */
+/* Reads parts of a body that consist of another material. Bonds between parts act as springs in series
+ * (bonds/bonds.c: pairs_make); in state-based models each end uses the modulus of its own material. */
 #include "base/memory.h"
 #include "scene_internal.h"
 
@@ -7,7 +7,7 @@ status read_body_parts(struct reader *r, const struct node *list, const struct k
 {
     if (!list) return OK;
     TRY(expect_list(r, k, list));
-    int part = b->parts; /* behind those of images */
+    int part = b->parts; /* index after the parts from images */
     GROW("parts", b->part, b->parts + list->n);
     b->parts += list->n;
     for (const struct node *n = list->first; n; part++, n = n->next)

@@ -1,4 +1,4 @@
-/* Conditions on several keys of a scene together, and defaults that depend on other keys. */
+/* Checks conditions between several keys of a scene, and sets defaults that depend on other keys. */
 #include "data/particles.h"
 #include "list_lattice.h"
 #include "scene/fill.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PRESSURE_SHAKEN 0.7 /* irregularity: beyond, gaps and faces look alike (loads_columns.c) */
+#define PRESSURE_SHAKEN 0.7 /* irregularity above which gaps and faces cannot be told apart (loads_columns.c) */
 
 static const struct node *scene_check_below(const struct node *root, const char *group, const char *leaf)
 {
@@ -36,11 +36,11 @@ static real longest_side(const real *from, const real *to, int dim)
     return longest;
 }
 
-/* Places of the lattice that a surface is asked about take 5 us each. */
+/* Largest number of lattice positions in the box around a surface from a file; each costs 5 us. */
 #define PLACES_OF_FILES 1e8
 
-/* REFUSED if the bounding boxes of the bodies, filled at the spacing, hold more than 2e9 particles: the limit of 32-bit
- * indices and of memory. */
+/* Estimates the number of particles from the bounding boxes of the bodies. REFUSED for more than 2e9, the limit of
+ * 32-bit indices and of memory. */
 status check_size(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -92,7 +92,7 @@ status check_absorbing(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for damping where nothing moves in time, or cells have steps of their own. */
+/* REFUSED for damping in a static problem, or with local time steps of cells. */
 static status check_damping(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -168,9 +168,9 @@ static status check_transfer(struct reader *r, const struct node *root)
                  "mapped again); flip, or shape gimp, is expected");
 }
 
-/* Default of time.safety: 0.5 where bonds may break, else 0.8. Lengths of cracks are the same at both, and most
- * angles; where a scene is between two paths it goes the same way up to 0.3 to 0.5 of the critical step, and families
- * of mospd lose length beyond 0.2 (`cleave bench steps`). */
+/* The default of time.safety is 0.5 if bonds can break, else 0.8. Crack lengths and most angles agree at both. A
+ * scene between two crack paths takes one path for factors up to 0.3 to 0.5, and cracks of mospd become shorter
+ * above 0.2 (`cleave bench steps`). */
 void resolve_safety(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -178,7 +178,7 @@ void resolve_safety(struct reader *r, const struct node *root)
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Default of contact.between. REFUSED where a solver knows no contact, and for friction where nothing meets. */
+/* Rigid bodies, several bodies and cracks need contact, except with static solvers. */
 status resolve_contact(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -197,14 +197,14 @@ status resolve_contact(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* Only with `method: pd` whole bodies consist of bonds, whose surfaces need the correction; families that are told
- * their normalisation have one already. Faces that a crack makes as it grows get no weights: in load steps, where loads
- * of pre-crack and grown crack are compared, bonds take the rule that does not see pre-cracks either (`cleave bench
- * slow`: double cantilevers of 10 layers 1 % off, 5 % with moments). */
+/* Returns the default of pd.surface. Only with `method: pd` do bonds fill whole bodies, whose surfaces need the
+ * correction; families with a given normalisation are corrected already. Surfaces of growing cracks get no weights:
+ * load steps compare loads of pre-crack and grown crack, so that their bonds use the rule that ignores pre-cracks,
+ * too (`cleave bench slow`: double cantilevers of 10 layers deviate by 1 %, with moments by 5 %). */
 static enum surface_rule surface_by_default(const struct scene *s, const struct node *root)
 {
     bool lattice = s->dim > 1 && s->irregularity == 0 && !scene_check_below(root, "pd", "normalisation");
-    for (int b = 0; b < s->bodies; b++) /* known from resolve_lists on */
+    for (int b = 0; b < s->bodies; b++) /* set by resolve_lists */
         lattice = lattice && (!s->body[b].file || s->body[b].list.lattice);
     if (s->method != METHOD_PD) return SURFACE_NONE;
     if (scene_in_steps(s) && scene_bonds_break(s) && s->model == MODEL_BOND) return SURFACE_VOLUME;
@@ -212,7 +212,7 @@ static enum surface_rule surface_by_default(const struct scene *s, const struct 
     return s->model == MODEL_BOND ? SURFACE_VOLUME : SURFACE_NONE;
 }
 
-/* Corrections of surfaces and what families are normalised by, where the scene does not say. */
+/* Sets the defaults of the surface correction and of the normalisation of families. */
 static void resolve_surface(struct scene *s, const struct node *root)
 {
     if (!scene_check_below(root, "pd", "surface")) s->surface = surface_by_default(s, root);
@@ -220,7 +220,8 @@ static void resolve_surface(struct scene *s, const struct node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
-/* Is the list of a body a lattice of the spacing? One that cannot be read is refused when particles are made. */
+/* Returns true if the list of a body is a lattice of the spacing. A list that cannot be read is refused later, when
+ * particles are created. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -241,7 +242,7 @@ void resolve_lists(struct reader *r, const struct node *root)
     resolve_surface(s, root);
 }
 
-/* Defaults that depend on method, model, coupling and solver. */
+/* Sets defaults that depend on method, model, coupling and solver. */
 static void resolve_defaults(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -286,8 +287,8 @@ const char *scene_frame_not_default(const struct scene *s, int body)
     return NULL;
 }
 
-/* Why the keys of the scene require the current frame: the name of one that has no meaning in the reference frame.
- * NULL: none. */
+/* Returns the reason why a key of the scene has no meaning in the reference frame and so requires the current one;
+ * NULL if there is no such key. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -296,10 +297,10 @@ static const char *current_frame_key(const struct scene *s)
     return NULL;
 }
 
-/* Bodies with frame auto become current wherever the scene alone decides. Where no body is left at auto, keys that
- * have a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as given, so that
- * scene_echo.c writes them. While a body is at auto they must not be written: a scene that gives these keys requires
- * the current frame. */
+/* Changes bodies with frame auto to the current frame if the keys of the scene require it. If no body is left at
+ * auto, keys with a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as
+ * given, so that scene_echo.c writes them. They must not be written while a body is at auto, since a scene that
+ * gives these keys requires the current frame. */
 void resolve_frames(struct scene *s)
 {
     bool open = false;
@@ -318,8 +319,8 @@ void resolve_frames(struct scene *s)
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;
 }
 
-/* Number of frames from output.every, and from output.times; times beyond the duration are left out. REFUSED beside
- * each other and output.frames. */
+/* Sets the number of frames from output.every or output.times; times beyond the duration are omitted. REFUSED if two
+ * of output.every, output.times and output.frames are given. */
 static status check_times(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -330,22 +331,23 @@ static status check_times(struct reader *r, const struct node *root)
     if (every && s->duration / s->every > FRAMES_MOST)
         return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", shown(r, every),
                      FRAMES_MOST, s->duration / FRAMES_MOST);
-    if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last one at the end */
+    if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
     for (s->frames = 0; s->frames < s->times.n && s->times.value[s->frames] <= s->duration * (1 + 1e-12);) s->frames++;
     return OK;
 }
 
-/* REFUSED for accuracy, which is of method auto alone (scene_wish.c). */
+/* REFUSED for the key accuracy, which only `method: auto` uses (scene_wish.c). */
 static status check_accuracy(struct reader *r, const struct node *root)
 {
     const struct node *n = node_find(root, "accuracy");
     return n ? fault(r, n, "has no meaning without method: auto") : OK;
 }
 
-/* REFUSED for state-based models in space line, for pd.surface volume beside them, and for weights of bonds near faces
- * beside constants by family, which are another correction, or in a line, where they have nothing to meet. */
+/* REFUSED for state-based models in space line, for pd.surface volume with these models, and for weights of bonds
+ * near faces together with constants by family, which are another correction, or in space line, where the weights
+ * have no effect. */
 static status check_model(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -364,7 +366,7 @@ static status check_model(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for what the static solvers do not support. Called after materials and probes are read. */
+/* REFUSED for keys that the static solvers do not support. Called after materials and probes are read. */
 status check_solver(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;

@@ -1,4 +1,4 @@
-/* Steps of an expression that is compiled, and the units of what they leave on the stack. Constants are folded. */
+/* Adds steps to an expression that is compiled, and derives the units of the operands. Constants are folded. */
 #include "scene_compile.h"
 
 #include <math.h>
@@ -76,10 +76,10 @@ bool add_operation(struct compile *c, enum expression_op op, const struct quanti
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
-/* A bare 0 has every unit. */
+/* Returns true for a constant 0 without unit, which has every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Makes the two topmost have one unit. */
+/* Gives the two topmost operands one unit. */
 bool equal_units(struct compile *c, const char *word, const char *at)
 {
     struct quantity *a = &topmost(c, 1)->q, *b = &topmost(c, 0)->q;
@@ -122,7 +122,7 @@ bool add_product(struct compile *c, char sign, const char *at)
     return unit_in_bounds(c, &unit) && add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Powers of units of a^power, in `unit`. */
+/* Raises `unit` to a power. Returns false with a message unless its exponents stay whole or half and small enough. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {
@@ -137,7 +137,7 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     return true;
 }
 
-/* a^b: b is plain, and a constant where a has a unit. */
+/* b must have no unit, and must be constant if a has a unit. */
 bool add_power(struct compile *c, const char *at)
 {
     const struct operand *b = topmost(c, 0);
@@ -151,6 +151,6 @@ bool add_power(struct compile *c, const char *at)
         return compile_wrong(c, "has %s to a power that varies (character %d); a given number is expected there",
                              unit_named(&unit).text, place);
     if (!is_plain(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
-    if (two) c->operands--, c->steps--; /* without the 2 */
+    if (two) c->operands--, c->steps--; /* without the exponent 2 */
     return add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

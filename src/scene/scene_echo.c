@@ -1,4 +1,4 @@
-/* Writes the scene as run, in YAML that reads back to an identical scene, bit by bit: SI, every default written out. */
+/* Writes the scene as run in YAML that reads back to an identical scene, bit by bit: SI units, with all defaults. */
 #include "scene_echo.h"
 
 #include <inttypes.h>
@@ -41,7 +41,8 @@ static void write_matrix(struct writer *w, const real *value)
     fputc(']', w->out);
 }
 
-/* Number of bytes of the UTF-8 character at c, and its code point. An invalid byte is its own code. */
+/* Decodes the UTF-8 character at c to its code point. Returns its number of bytes. An invalid byte counts as a
+ * character with its own value. */
 static int letter_of(const unsigned char *c, unsigned *code)
 {
     int more = *c >= 0xF0 ? 3 : *c >= 0xE0 ? 2 : *c >= 0xC0 ? 1 : 0;
@@ -56,7 +57,7 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
-/* Writes a text in double quotes; characters other than printable ASCII as \U escapes. */
+/* Characters other than printable ASCII are written as \U escapes. */
 void write_quoted(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -157,7 +158,7 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     }
 }
 
-/* True if the key has a value to write. A key that is neither given nor has a default has none. */
+/* Returns true if the key has a value to write: the scene gives it, or it has a default. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -175,7 +176,8 @@ const void *scene_echo_place_of(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
-/* A rigid body has neither material nor frame; only it has a mass and a force (if it flies) or a ramp (if not). */
+/* Returns true for keys of a body that its kind does not have. A rigid body has neither material nor frame; only
+ * rigid bodies have a mass and a force (free ones) or a ramp (driven ones). */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
@@ -187,7 +189,7 @@ static bool is_left_out(const struct key *k, const char *group, const void *base
     return n < 2 || (b->mass > 0 ? n == 5 : n == 3 || n == 4 || (n == 5 && !(b->ramp > 0)));
 }
 
-/* Frames of regions: the list below `output`. */
+/* Writes the frame series of regions as a list below `output`. */
 static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
@@ -232,7 +234,7 @@ void begin_item(struct writer *w)
     w->dash = true;
 }
 
-/* A mapping below an item of a list. */
+/* Writes a mapping below an item of a list. */
 void write_part(struct writer *w, const char *key, const char *group, const void *base)
 {
     begin(w, key);
@@ -259,8 +261,8 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* Writes the absolute path of a file, so that the echo runs from any folder, and the checksum of its contents: a run
- * resumes with identical contents only. */
+/* The absolute path lets the echo run from any folder. The checksum is needed since a run resumes with identical
+ * contents only. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
@@ -335,7 +337,7 @@ static void write_growths(struct writer *w)
     if (s->growths) fputs("growth:\n", w->out);
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
-        if (!g.probe[0]) g.toughness = NAN; /* has no meaning without a probe */
+        if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
         begin_item(w);
         write_group(w, "growth", &g);
     }
@@ -371,7 +373,7 @@ char *scene_echo(const struct scene *s)
 {
     char *text = NULL, *kept;
     size_t length = 0;
-    struct scene head = *s; /* without measures that its space does not have */
+    struct scene head = *s; /* a copy without the measures that the space does not have */
     if (s->dim != 2) head.thickness = NAN;
     if (s->dim != 1) head.section = NAN;
     head.has_frames = s->times.n == 0 && s->every == 0;

@@ -59,7 +59,7 @@ static void write_profile(struct writer *w, const struct profile *f)
     fputs(f->kind == PROFILE_SINE ? "}}\n" : " uniform\n", w->out);
 }
 
-/* Component d of a vector: its formula or its number. */
+/* Writes component d of a vector: its formula or its number. */
 static void write_formula(struct writer *w, const real *value, const struct expression *formula, int d)
 {
     if (formula[d].n > 0)
@@ -143,7 +143,7 @@ static void write_boundary(struct writer *w, const struct boundary *b)
 void write_boundaries(struct writer *w)
 {
     const struct scene *s = w->scene;
-    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass; /* a key of its own */
+    const bool falls = s->boundaries > 0 && s->boundary[s->boundaries - 1].by_mass; /* gravity is a key of its own */
     const int n = s->boundaries - falls;
     if (n) fputs("boundary:\n", w->out);
     for (int k = 0; k < n; k++) {

@@ -1,12 +1,12 @@
-/* Writes solids from files: absolute paths, so that the echo runs from any folder, and the hash of the contents, with
- * which alone it reads back. */
+/* Writes solids from files with absolute paths, so that the echo runs from any folder, and with the hash of the
+ * contents; the echo is refused if the file has changed. */
 #include <inttypes.h>
 #include <stdlib.h>
 
 #include "scene/shape_file.h"
 #include "scene_echo.h"
 
-/* The file that a hull or voxels came from; *set: the name of the part of a mesh, NULL: all of it. */
+/* Returns the file from which a hull or voxels were read. *set: name of the part of a mesh; NULL: the whole mesh. */
 static const struct shape_file *shape_of(const struct scene *s, const struct solid *solid, const char **set)
 {
     *set = NULL;

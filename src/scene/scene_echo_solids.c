@@ -1,10 +1,10 @@
-/* Writes solids in flow style: {box: {..}}, {subtract: {box: {..}, move: [..]}}. Solids that were called by name are
- * written where they stand. */
+/* Writes solids in flow style: {box: {..}}, {subtract: {box: {..}, move: [..]}}. References by name are replaced by
+ * the solids. */
 #include "scene_echo.h"
 
 #include <string.h>
 
-/* Keys of a group in flow style, each behind a comma but for the first; `between` begins it. */
+/* Writes the keys of a group in flow style, separated by commas. between: text before the first key. */
 static void write_keys(struct writer *w, const char *group, const void *base, const char *between)
 {
     for (int i = 0; i < keys_count; i++) {
@@ -40,7 +40,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
     write_keys(w, "solid.extrude", s, ", ");
 }
 
-/* The solid itself: `box: {..}`. */
+/* Writes the shape of a solid, such as `box: {..}`. */
 static void write_shape(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",
@@ -92,7 +92,7 @@ static void write_motions(struct writer *w, const struct solid *s)
     }
 }
 
-/* `plain`: a solid that is added has no word for that. */
+/* Writes a solid with its operation. plain: true if an added solid is written without the word add. */
 static void write_solid(struct writer *w, const struct solid *s, bool plain)
 {
     const bool group = s->kind == SOLID_GROUP;
@@ -109,7 +109,7 @@ static void write_solid(struct writer *w, const struct solid *s, bool plain)
     fputs(word && !group ? "}}" : "}", w->out);
 }
 
-/* `intersect`: in a list of solids to be intersected. */
+/* Writes the solids of a region as a list. intersect: true for a list of solids to be intersected. */
 static void write_items(struct writer *w, const struct region *region, bool intersect)
 {
     for (int k = 0; k < region->n; k++) {

@@ -1,5 +1,6 @@
-/* Reads expressions of scenes: sums of products of powers, functions, numbers with units, x y z t and variables of the
- * scene. Units follow the text as it is read, so that `x + t` is refused at the place where it stands. */
+/* Reads expressions of scenes: sums of products of powers, functions, numbers with units, x, y, z, t and variables
+ * of the scene. Units are derived while the text is read, so that a message about `x + t` names the position of the
+ * fault. */
 #include "scene_compile.h"
 
 #include <ctype.h>
@@ -8,7 +9,8 @@
 
 enum { DEPTH_MOST = 24, NAME_MOST = 40 };
 
-/* What units a function takes and gives. */
+/* Rules from the units of the operands to the unit of the result. PLAIN: none to none. KEEPS: unit of the operand.
+ * ROOT: its square root. FORGETS: any to none. SAME: equal units of all operands. ANGLE: two equal units to none. */
 enum rule { PLAIN, KEEPS, ROOT, FORGETS, SAME, ANGLE };
 struct function {
     const char *name;
@@ -56,7 +58,7 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Keeps the text up to here. */
+/* Copies the text up to `here` to c->kept. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -64,7 +66,7 @@ static bool keep_to(struct compile *c, const char *here)
     return keep(c, from, (size_t)(here - from));
 }
 
-/* Keeps a number in place of the word that ends here. */
+/* Copies a number to c->kept in place of the word that ends at c->at. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
@@ -75,7 +77,7 @@ static bool keep_value(struct compile *c, const char *word, const struct quantit
     return keep(c, text, strlen(text));
 }
 
-/* Length of a name: letters, digits and _, no digit first. */
+/* Returns the length of a name: letters, digits and _, no digit first. */
 static size_t name_length(const char *c)
 {
     size_t n = 0;
@@ -134,7 +136,7 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     return add_operation(c, f->op, &unit);
 }
 
-/* The operands in brackets; min and max take any number of them from two on. */
+/* Compiles a function call with its operands in brackets; min and max have two operands or more. */
 static bool compile_call(struct compile *c, const struct function *f, const char *at)
 {
     const bool two = f->rule == SAME || f->rule == ANGLE;
@@ -160,7 +162,7 @@ static const struct function *function_named(const char *name)
     return NULL;
 }
 
-/* x, y, z or t, where the key allows it. */
+/* Compiles x, y, z or t, if the key allows it. */
 static bool compile_coordinate(struct compile *c, char name)
 {
     struct quantity q = {.twice = {2, 0, 0}};
@@ -201,7 +203,7 @@ static bool compile_name(struct compile *c)
     return quantity_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
 }
 
-/* A number with its unit; `power`: what follows a ^, without a unit. */
+/* Compiles a number with its unit. power: true for an exponent, which has no unit. */
 static bool compile_number(struct compile *c, bool power)
 {
     struct quantity q;
@@ -218,7 +220,7 @@ static bool compile_number(struct compile *c, bool power)
                          letters < 30 ? letters : 30, rest, character_of(c, rest));
 }
 
-/* A number, a name with or without brackets, or brackets. */
+/* Compiles a number, a name with or without brackets, or a bracketed expression. */
 static bool compile_primary(struct compile *c, bool power)
 {
     struct quantity q;
@@ -226,12 +228,12 @@ static bool compile_primary(struct compile *c, bool power)
     if (*c->at == '(') return compile_brackets(c);
     if (name_length(c->at)) return compile_name(c);
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
-    const size_t unit = quantity_unit(&q, c->at); /* micro is no letter of ASCII */
+    const size_t unit = quantity_unit(&q, c->at); /* the sign micro is no ASCII letter */
     c->at += unit;
     return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
 
-/* a^b^c is a^(b^c); the sign of a power belongs to it. */
+/* Compiles a power. It is right-associative: a^b^c is a^(b^c). An exponent may have a sign. */
 static bool compile_power(struct compile *c, bool power)
 {
     if (!compile_primary(c, power)) return false;
@@ -274,7 +276,7 @@ static bool compile_sum(struct compile *c)
     return true;
 }
 
-/* The whole text; its value stands in operand[0]. */
+/* Compiles the whole text; the result is operand[0]. */
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
@@ -293,7 +295,8 @@ bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, ch
     return true;
 }
 
-/* A number alone, as every key reads it: `1/3 mm`, which is no expression of the same value. */
+/* Reads a text that is a number of the form `1/3 mm`, as every key reads it; as an expression it would mean 1/(3
+ * mm). */
 static bool number_constant(const struct node *n, const struct key *k, struct expression *e)
 {
     char what[256];

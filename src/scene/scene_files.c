@@ -1,4 +1,4 @@
-/* Files that a scene names. */
+/* Finds and reads the files that a scene names. */
 #include "scene_internal.h"
 
 #include <errno.h>
@@ -10,7 +10,7 @@
 #include "output/checksum.h"
 #include "base/memory.h"
 
-enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* [byte]; 1e5 events take far less */
+enum { FILE_LONGEST = 16 * 1024 * 1024 }; /* [byte]; a scene of 1e5 entries is far smaller */
 
 status file_bytes(const char *path, char **bytes, size_t *length)
 {

@@ -1,14 +1,15 @@
-/* Words of other programs, of textbooks and of everyday use that are no keys of a scene: the key that has the meaning
- * here, or what Cleave does not do and what comes nearest. Messages about unknown keys and `cleave help` use the same
- * table. */
+/* Explains words of other programs, of textbooks and of everyday use that are no keys of a scene: by the equivalent
+ * key, or by a note that Cleave has none and which key is nearest. Messages about unknown keys and `cleave help` use
+ * this table. */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scene_internal.h"
 
-/* words: a|b|c. paths: keys to show, separated by spaces; the first one takes the place of the word. text: appended to
- * the name of the first key or, where it begins with =, the whole message; NULL: nothing to append. */
+/* Rows of the table. words: a|b|c. paths: keys to show, separated by spaces; the first one is the equivalent of the
+ * word. text: appended to the name of the first key or, if it begins with =, the whole message; NULL: nothing is
+ * appended. */
 static const struct foreign {
     const char *words, *paths, *text;
 } foreign[] = {
@@ -173,7 +174,7 @@ static const struct foreign {
      "units`)"},
 };
 
-/* Compares two words; those longer than two letters without regard to case, and with - or a blank for _. */
+/* Compares two words, with - and a blank equal to _; words longer than two letters without regard to case. */
 static bool word_is(const char *word, const char *text, size_t length)
 {
     if (strlen(word) != length) return false;

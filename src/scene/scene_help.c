@@ -1,4 +1,4 @@
-/* Reference of the scene keys, from the table of keys: `cleave help` and the manual page. */
+/* Writes the reference of the scene keys for `cleave help` and the manual page, from the table of keys. */
 #include "scene_internal.h"
 
 #include <ctype.h>
@@ -47,7 +47,7 @@ static const char *type_text(const struct key *k)
     }
 }
 
-/* Range or words of a key in words; "" where it has none. */
+/* Writes the range or the words of a key; "" if it has none. */
 static void range_text(const struct key *k, char *text, size_t room)
 {
     char least[32], most[32];
@@ -76,7 +76,7 @@ static void range_text(const struct key *k, char *text, size_t room)
     }
 }
 
-/* The default without the brackets that mark a default set by code. */
+/* Writes the default of a key, without the brackets that mark a default set by code. */
 static void default_text(const struct key *k, char *text, size_t room)
 {
     bool explained = *k->fallback == '(';
@@ -87,7 +87,7 @@ static void default_text(const struct key *k, char *text, size_t room)
 
 void key_facts(const struct key *k, char *text, size_t room)
 {
-    char range[400], fallback[96]; /* all fields of frames are 270 */
+    char range[400], fallback[96]; /* the names of all fields of frames have 270 characters */
     range_text(k, range, sizeof range);
     default_text(k, fallback, sizeof fallback);
     const char *symbol = unit_rows[k->unit].symbol;
@@ -105,7 +105,8 @@ void key_description(const struct key *k, char *text, size_t room)
 
 /* ---- cleave help ------------------------------------------------------------------------------------------------- */
 
-/* Path in the table of keys of a key as typed by a user: indices are dropped, `materials` becomes `material`. */
+/* Converts a path typed by a user to the path in the table of keys: indices are dropped, `materials` becomes
+ * `material`. */
 static void path_of_table(const char *key, char *path, size_t room)
 {
     size_t used = 0, skip = 0;
@@ -124,7 +125,7 @@ static void path_of_table(const char *key, char *path, size_t room)
     text_harmless(path);
 }
 
-/* True if k is the key `path` or below it; "" holds all keys. */
+/* Returns true if k is the key `path` or below it; every key is below "". */
 static bool is_below(const struct key *k, const char *path)
 {
     size_t length = strlen(path);
@@ -132,7 +133,7 @@ static bool is_below(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
-/* REFUSED with the key nearest to `path` by edit distance. */
+/* Returns REFUSED with a message that names the key nearest to `path` by edit distance. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
@@ -144,7 +145,7 @@ static status help_unknown(const char *path)
     return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
 }
 
-/* Is k a key whose last name is `leaf`? */
+/* Returns true if `leaf` is the last part of the path of k. */
 static bool has_leaf(const struct key *k, const char *leaf)
 {
     return k->type != KEY_GROUP && !strcmp(key_leaf(k), leaf);
@@ -166,7 +167,7 @@ static void print_key(FILE *out, const struct key *k)
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 
-/* Prints what takes the place of a word that is no key, and the keys that concern it. */
+/* Prints the equivalent of a word that is no key, and the keys that concern it. */
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
@@ -210,7 +211,7 @@ status scene_help(FILE *out, const char *key)
 
 /* ---- cleave.1 ---------------------------------------------------------------------------------------------------- */
 
-/* Writes text with the characters escaped that have a meaning in troff. */
+/* Writes a text with escapes for characters that have a meaning in troff. */
 static void troff(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -242,7 +243,7 @@ void scene_manual_keys(FILE *out)
 
 /* ---- completion -------------------------------------------------------------------------------------------------- */
 
-/* Keys whose items are named by a number. */
+/* Returns true for the path of a list whose items are addressed by index. */
 static bool is_item_list(const char *path, size_t length)
 {
     for (int k = 0; k < keys_count; k++)
@@ -250,7 +251,7 @@ static bool is_item_list(const char *path, size_t length)
     return false;
 }
 
-/* `boundary.time` as `boundary.0.time`. */
+/* Writes the path of a key as an override uses it: `boundary.time` as `boundary.0.time`. */
 static void override_path(FILE *out, const char *path)
 {
     for (const char *c = path; *c; c++) {

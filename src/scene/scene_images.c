@@ -1,5 +1,4 @@
-/* Grey values of images and what they are made of: `materials` of an image become parts of the body whose shape it is.
- */
+/* Reads grey values of images. `materials` of an image become parts of the body whose shape the image is. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +11,7 @@ int path_order(const void *a, const void *b) { return strverscmp(*(char *const *
 
 /* ---- grey values ------------------------------------------------------------------------------------------------- */
 
-/* 255 or 100-255. */
+/* Reads one grey value or a range, such as 255 or 100-255. */
 static status grey_range_read(struct reader *r, const struct node *n, const char *text, struct voxel_part *p)
 {
     int low = -1, high = -1, end = 0;
@@ -44,7 +43,7 @@ status read_grey_values(struct reader *r, const struct node *n, struct voxel_par
 
 static bool is_void(const struct node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
-/* REFUSED if a voxel has a grey value that `in` does not hold. */
+/* REFUSED if a voxel has a grey value that is in no range of `in`. */
 static status check_covered(struct reader *r, const struct node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
@@ -84,7 +83,7 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
     return s;
 }
 
-/* A copy of a node with its children up to `deep` levels down. */
+/* Returns a copy of a node with its descendants of the next `deep` levels, in the arena. */
 static struct node *node_copy(struct reader *r, const struct node *n, struct node *parent, const char *without)
 {
     struct node *copy = arena_new(r, sizeof *copy);
@@ -102,7 +101,8 @@ static int material_called(const struct scene *s, const char *name)
     return -1;
 }
 
-/* The part of a body that one entry of `materials` is: the same image with its grey values alone, moved likewise. */
+/* Reads one entry of `materials` as a part of a body: the image restricted to the grey values of the entry, with the
+ * motions of the solid. */
 static status read_grey_part(struct reader *r, const struct node *solid, const struct node *entry, struct scene_body *b)
 {
     const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;

@@ -1,5 +1,5 @@
-/* Scenes that build on others: reads the files that a scene includes, and lays the scene over them. What comes later
- * goes before: of a list of files the last, then the scene itself. */
+/* Reads the files that a scene includes, and merges the scene over them. Later files take precedence over earlier
+ * ones, and the scene takes precedence over all files. */
 #include "scene_internal.h"
 
 #include <stdio.h>
@@ -10,7 +10,7 @@
 
 enum { CHAIN_MOST = 8, KEYS_MOST = 1100 };
 
-/* Files that are being read, from the scene on. */
+/* The chain of files that are being read, from the scene on. */
 struct chain {
     const struct chain *up;
     dev_t device;
@@ -32,7 +32,7 @@ bool group_is_merged(const char *path)
 
 static bool is_empty(const struct node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
-/* REFUSED for a mapping with two equal keys, of which one would be lost. */
+/* REFUSED for a mapping with two equal keys, one of which would be lost. */
 static status check_twins(const struct reader *r, const struct node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys; no mapping of a scene has so many", map->n);
@@ -43,7 +43,7 @@ static status check_twins(const struct reader *r, const struct node *map)
     return OK;
 }
 
-/* Lays the entries of `over` over those of `under`, which keeps its place in the tree. `group`: its path. */
+/* Merges the entries of `over` into `under`; values of `over` take precedence. group: path of both in the scene. */
 static status merge(struct reader *r, struct node *under, struct node *over, const char *group)
 {
     char path[64];
@@ -80,7 +80,7 @@ static int length_of(const struct chain *chain)
     return n;
 }
 
-/* Path of an included file, from the folder of the one that names it. */
+/* Returns the path of an included file, relative to the folder of the including file. */
 static char *path_from(struct reader *r, const struct node *n)
 {
     const char *from = file_of(r, n->origin);
@@ -93,7 +93,7 @@ static char *path_from(struct reader *r, const struct node *n)
 
 static status include_all(struct reader *r, struct node *root, const struct chain *chain);
 
-/* Reads the file that n names, with what it includes itself. */
+/* Reads the file that n names, and the files that it includes. */
 static status include_file(struct reader *r, const struct node *n, const struct chain *chain, struct node **root)
 {
     struct stat file;
@@ -123,7 +123,7 @@ static status include_file(struct reader *r, const struct node *n, const struct 
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Lays a scene over what it includes. */
+/* Merges a scene over the files that it includes. */
 static status include_all(struct reader *r, struct node *root, const struct chain *chain)
 {
     struct node *list = node_find(root, "include"), *file;

@@ -1,4 +1,4 @@
-/* Reads the interfaces of a scene: bodies that are joined become one, of several materials. */
+/* Reads the interfaces of a scene: bodies that are joined become one body of several materials. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "scene_internal.h"
 
-/* The two bodies of an interface, by their names. */
+/* Finds the two bodies of an interface by their names. */
 static status interface_bodies(struct reader *r, const struct node *n, struct scene_interface *face)
 {
     const struct scene *s = r->scene;
@@ -32,7 +32,7 @@ static status interface_bodies(struct reader *r, const struct node *n, struct sc
     return OK;
 }
 
-/* A material of its own for a body, the same as before: bonds know bodies that are one by their materials. */
+/* Gives a body a copy of its material: bonds distinguish joined bodies by their materials. */
 static status material_apart(struct reader *r, const struct node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;
@@ -47,7 +47,8 @@ static status material_apart(struct reader *r, const struct node *n, struct scen
     return OK;
 }
 
-/* The stretch at which bonds across it break: that of a material between both, with its toughness. */
+/* Computes the critical stretch of bonds across an interface from its energy release rate, for a material with the
+ * harmonic mean of the Young's moduli of both bodies, and otherwise with the properties of the softer one. */
 static status interface_strength(struct reader *r, const struct node *n, struct scene_interface *face)
 {
     struct scene *s = r->scene;

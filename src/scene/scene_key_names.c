@@ -1,4 +1,4 @@
-/* Names of keys of a scene: finding one, and the nearest to a misspelt one. */
+/* Finds keys of a scene by name, and the key nearest to a misspelt name. */
 #include <string.h>
 
 #include "scene_internal.h"

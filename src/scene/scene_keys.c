@@ -1,4 +1,5 @@
-/* The table of keys of a scene: what each sets, its unit, range and default. Reading, echo and help use this table. */
+/* Defines the table of keys of a scene: meaning, unit, range and default of each. Reading, echo and help use this
+ * table. */
 #include "scene_internal.h"
 #include "scene_shapes.h"
 
@@ -28,7 +29,7 @@
 #define INSIDE(a, b)                                                                                                   \
     {                                                                                                                  \
         a, b, true, true                                                                                               \
-    } /* a itself is outside */
+    } /* a itself is excluded */
 #define REQUIRED "required"
 #define NONE "-"
 #define KEY(path_, type_, unit_, place_, range_, fallback_, help_, ...)                                                \

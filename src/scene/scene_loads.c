@@ -58,7 +58,7 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
     return OK;
 }
 
-/* Reads one component: a number, or a formula of what is in `of`, beside which value is 1. */
+/* Reads one component of a vector: a number, or a formula of the arguments in `of`; the value is 1 then. */
 static status read_formula(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
                            struct expression *f)
 {
@@ -80,7 +80,7 @@ status read_formulas(struct reader *r, const struct key *k, const struct node *n
     return OK;
 }
 
-/* Component d of what a boundary prescribes. */
+/* Reads component d of the vector that a boundary prescribes. */
 static status read_load_value(struct reader *r, const struct key *k, const struct node *n, struct boundary *b, int d)
 {
     return read_formula(r, k, n, EXPRESS_SPACE | EXPRESS_TIME, &b->value[d], &b->formula[d]);
@@ -143,14 +143,14 @@ status read_axis_of(struct reader *r, const struct node *n, const char *group, r
     return length2 > 0 && isfinite(length2) ? OK : fault(r, list, "has no length; as [0, 0, 1]");
 }
 
-/* Reads what is driven on circles. */
+/* Reads the prescribed rotation of a boundary. */
 static status read_rotation(struct reader *r, const struct node *n, struct boundary *b)
 {
     TRY(read_group(r, n, n, "boundary.rotation", b));
     TRY(read_axis_of(r, n, "boundary.rotation", b->axis_of));
     b->rotates = true;
     b->components = (uint8_t)((1 << r->dim) - 1);
-    for (int d = 0; d < r->dim; d++) b->value[d] = 1; /* it moves */
+    for (int d = 0; d < r->dim; d++) b->value[d] = 1; /* a rotation moves all components */
     return OK;
 }
 
@@ -195,7 +195,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
     return OK;
 }
 
-/* Reads the face and the depth of what is driven, where it has them. */
+/* Reads the face and the depth of a driven layer, if they are given. */
 static status read_layer(struct reader *r, const struct node *map, struct boundary *b)
 {
     const struct node *depth = node_find(map, "depth");
@@ -220,7 +220,7 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
 }
 
-/* Does a value that is not 0 carry a unit? */
+/* Returns true for a value with a unit that is not 0. */
 static bool carries_unit(struct reader *r, const struct node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -232,7 +232,8 @@ static bool carries_unit(struct reader *r, const struct node *n, real value)
     return unit;
 }
 
-/* REFUSED for a value beside a column of a file that has its unit: one of both says how large the load is. */
+/* REFUSED for a value with a unit beside a file column with a unit: only one of both can give the magnitude of the
+ * load. */
 static status check_time_unit(struct reader *r, const struct node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -296,7 +297,7 @@ static status read_boundary(struct reader *r, const struct node *n, struct bound
     return check_time_unit(r, kind, b);
 }
 
-/* Gravity is one more load, behind those of the list. */
+/* Appends gravity to the boundaries as one more load. */
 static status gravity_add(struct reader *r, const struct node *n)
 {
     struct scene *s = r->scene;
@@ -322,7 +323,7 @@ status read_boundaries(struct reader *r, const struct node *root)
     s->boundary = NEW("boundary conditions", (list ? list->n : 0) + falls, struct boundary);
     for (int k = 0; n; k++, n = n->next) {
         struct boundary *b = &s->boundary[k];
-        s->boundaries++; /* what is read of it is freed when the rest is refused */
+        s->boundaries++; /* released with the scene if the rest is refused */
         b->body = -1, b->end = s->duration;
         fault_place(r, n, b->place, sizeof b->place);
         snprintf(b->name, sizeof b->name, "boundary%d", k);
@@ -339,7 +340,7 @@ status read_boundaries(struct reader *r, const struct node *root)
 const char *const probe_names[PROBES] = {"tip",    "break",    "reaction", "patch", "spall", "point",  "line",
                                          "energy", "momentum", "pulse",    "exact", "sif",   "growth", "rigid"};
 
-/* The kind, and the mapping of its keys (NULL: none): `tip`, `tip:` or `tip: {at: [..]}`. */
+/* Finds the kind of a probe and the mapping of its keys, NULL if there are none: `tip`, `tip:` or `tip: {at: [..]}`. */
 static status kind_of_probe(struct reader *r, const struct node *n, enum probe_kind *kind, const struct node **map)
 {
     struct node word = *n, list = {.kind = NODE_MAP, .n = 1, .first = &word};
@@ -396,7 +397,7 @@ static status check_rigid(struct reader *r, const struct node *n, const struct n
     return fault(r, map ? map : n, "plane spaces only in this version");
 }
 
-/* Takes the outer radius from the contours and checks radii and direction of a sif probe. */
+/* Sets the outer radius from the contours, and checks radii and direction of a sif probe. */
 static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
 {
     enum { CONTOURS_MAX = 16 };

@@ -1,4 +1,4 @@
-/* Reads what stands beside a solid: move, rotate, mirror and pattern, in the order of the scene. */
+/* Reads the motions of a solid: move, rotate, mirror and pattern, in the order of the scene. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ bool is_motion(const struct node *n)
     return is;
 }
 
-/* Axis of a rotation: z unless the scene gives one. REFUSED without length, and in the plane. */
+/* Reads the axis of a rotation, by default z. REFUSED for an axis without length, and for any axis in the plane. */
 static status read_turning_axis(struct reader *r, const struct node *n, struct solid_motion *m)
 {
     const struct node *axis = node_find(n, "axis");
@@ -25,7 +25,7 @@ static status read_turning_axis(struct reader *r, const struct node *n, struct s
     return fault(r, axis, "has no length; an axis such as [0, 0, 1] is expected");
 }
 
-/* Of a rotation: the middle of the box round what turns, unless the scene gives a point. */
+/* Reads the centre of a rotation, by default the centre of the bounding box of the solid. */
 static status read_about(struct reader *r, const struct node *n, const struct solid *s, struct solid_motion *m)
 {
     for (int d = 0; d < r->dim && !m->has_about; d++) {

@@ -1,4 +1,4 @@
-/* Numbers of a scene: plain ones, expressions, and the variables that these contain. */
+/* Reads numbers of a scene: plain ones, expressions, and the variables in expressions. */
 #include "scene_internal.h"
 
 #include <ctype.h>
@@ -8,14 +8,15 @@
 enum { CHAIN_MOST = 32, NAME_LONGEST = 40 };
 
 struct variable {
-    const struct node *n; /* its key is the name */
+    const struct node *n; /* node whose key is the name of the variable */
     struct quantity q;
     enum { WAITING, OPEN, KNOWN } state;
 };
 
 /* ---- variables --------------------------------------------------------------------------------------------------- */
 
-/* Its value, by those of others. False with a complaint. */
+/* Evaluates a variable, and first the variables on which it depends. Returns false on failure, with the fault in
+ * what[room]. */
 static bool evaluate(struct reader *r, struct variable *v, char *what, size_t room)
 {
     bool fine = true;
@@ -31,7 +32,7 @@ static bool evaluate(struct reader *r, struct variable *v, char *what, size_t ro
     r->variables_open--;
     v->state = KNOWN;
     if (!fine || quantity_bounded(v->q.value, UNIT_NONE, what, room)) return fine;
-    what[strcspn(what, ";")] = '\0'; /* of no key, it has no unit to expect */
+    what[strcspn(what, ";")] = '\0'; /* a variable has no key, and so no expected unit to name */
     return false;
 }
 
@@ -60,14 +61,14 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
         return NULL;
     }
     if (evaluate(r, v, why, sizeof why)) return &v->q;
-    const bool further = strncmp(why, "needs ", 6) == 0; /* the last of a chain is the one to look at */
+    const bool further = strncmp(why, "needs ", 6) == 0; /* the last variable of a chain is the one with the fault */
     snprintf(what, room, "%s%.40s%s%s", further ? "" : "needs ", further ? "" : name, further ? "" : ", which ", why);
     return NULL;
 }
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* REFUSED for a name that is none, or that means something else in an expression. */
+/* REFUSED for a text that is no name, and for a name with a meaning in expressions. */
 static status check_variable_name(struct reader *r, const struct node *n)
 {
     size_t length = 0;
@@ -79,7 +80,7 @@ static status check_variable_name(struct reader *r, const struct node *n)
     return meaning ? fault(r, n, "is %s in expressions; another name is expected, as %.20s1", meaning, n->key) : OK;
 }
 
-/* Does a text contain a name as a whole word? */
+/* Returns true if a text contains a name as a whole word. */
 static bool has_word(const char *text, const char *name)
 {
     const size_t length = strlen(name);
@@ -98,7 +99,7 @@ static bool is_used(const struct node *n, const struct node *variable)
     return false;
 }
 
-/* REFUSED for an override of a variable that no value contains: a name that is misspelt would change nothing. */
+/* REFUSED for an override of a variable that no value contains: a misspelt name would have no effect. */
 static status check_overrides(struct reader *r, const struct node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {
@@ -147,7 +148,7 @@ bool number_of_text(struct reader *r, real *value, const char *text, enum unit u
     struct quantity q;
     if (number_read(value, text, unit, infinite, what, room)) return true;
     const bool known = quantity_of_text(r, text, &q, other, sizeof other);
-    if (known && unit == UNIT_ANGLE && q.bare) { /* 30 might be degrees */
+    if (known && unit == UNIT_ANGLE && q.bare) { /* a bare 30 could be degrees */
         snprintf(what, room, "has no unit; %s is expected, as %s", unit_rows[unit].name, unit_rows[unit].example);
         return false;
     }

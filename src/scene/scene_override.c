@@ -1,12 +1,12 @@
-/* Overrides `-s key=value`, laid over the tree before it is read: dotted keys, items of lists by number (0 or [0]) or
- * by name. */
+/* Applies overrides `-s key=value` to the tree before it is read. Keys are joined by dots; items of lists are
+ * addressed by index (0 or [0]) or by name. */
 #include "scene_internal.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes the next `key` or `[number]` off the path: *index is -1 for a key. False: malformed. */
+/* Cuts the next `key` or `[index]` off the path; *index is -1 for a key. Returns false if the path is malformed. */
 static bool step_of_path(const char **path, const char **key, size_t *length, int *index)
 {
     const char *c = *path;
@@ -39,7 +39,8 @@ static struct node *new_entry(struct reader *r, struct node *map, const char *ke
     return n;
 }
 
-/* Name of an item of a list: its `name`. For a probe: the `name` below its kind, else the kind. NULL: it has none. */
+/* Returns the name of an item of a list: its `name`; for a probe the `name` below its kind, else the kind. NULL: no
+ * name. */
 static const char *item_name(const struct node *list, const struct node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -52,14 +53,14 @@ static const char *item_name(const struct node *list, const struct node *item)
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Marks a node with the override `origin`, for a message about that override; the tree is not used after it. */
+/* Marks a node with the override `origin`, for a message about this override; the tree must not be used afterwards. */
 static const struct node *blamed(struct node *n, int origin)
 {
     n->origin = origin;
     return n;
 }
 
-/* Item number `index` of a list, from 0. REFUSED if the node is no list or has fewer items. */
+/* Finds item `index` of a list, from 0. REFUSED if the node is no list or has fewer items. */
 static status item_of(struct reader *r, struct node *list, int index, int origin, struct node **out)
 {
     if (list->kind != NODE_LIST)
@@ -73,7 +74,7 @@ static status item_of(struct reader *r, struct node *list, int index, int origin
     return OK;
 }
 
-/* The names of a list's items for a message: ` or by name (pull, hold)`. */
+/* Returns the names of a list's items for a message: ` or by name (pull, hold)`. */
 static const char *names_text(struct reader *r, const struct node *list)
 {
     char text[192] = "";
@@ -88,7 +89,8 @@ static const char *names_text(struct reader *r, const struct node *list)
     return arena_text(r, text, strlen(text));
 }
 
-/* An item of a list by number or name. Items also go by the key of their list and their number, as boundary0. */
+/* Finds an item of a list by index or name. Items are also addressed by the key of their list and their index, as in
+ * boundary0. */
 static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin,
                           struct node **out)
 {
@@ -123,7 +125,7 @@ static void write_out(struct reader *r, struct node *n, const char *key, const c
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
-/* The node that holds the keys of an item. Keys of a probe are below its kind, which a path may leave out: probes.0.at
+/* Returns the node with the keys of an item. Keys of a probe are below its kind, which a path may omit: probes.0.at
  * is probes.0.point.at. */
 static struct node *probe_keys(struct reader *r, struct node *item, const char *key, size_t length, int origin)
 {
@@ -135,7 +137,8 @@ static struct node *probe_keys(struct reader *r, struct node *item, const char *
     return item->first;
 }
 
-/* The node of `key` below a mapping, made if it is missing, or the item of a list of this number or name. */
+/* Finds the node `key` in a mapping, which is created if it is missing, or the item of a list with this index or
+ * name. */
 static status scene_override_entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
                                       struct node **out)
 {
@@ -156,7 +159,7 @@ static status scene_override_entry_of(struct reader *r, struct node *map, const 
     return OK;
 }
 
-/* Replaces the value of a node; its key and place in the tree stay. */
+/* Replaces the value of a node; its key and its position in the tree are kept. */
 static void replace(struct node *n, const struct node *value)
 {
     struct node whole = *value;

@@ -9,7 +9,7 @@
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Reads the fracture strength from at most one of three keys; two could contradict each other. */
+/* Reads the fracture strength from at most one of three keys, since two could contradict each other. */
 static status read_strength(struct reader *r, const struct node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -29,8 +29,8 @@ static status read_strength(struct reader *r, const struct node *n, struct mater
     return OK;
 }
 
-/* REFUSED for a Poisson's ratio that bonds do not have: bond-based peridynamics has one elastic constant, an isotropic
- * solid two. */
+/* REFUSED for a Poisson's ratio that bonds cannot have: bond-based peridynamics has one elastic constant, an
+ * isotropic solid two. */
 static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
 {
     const struct scene *s = r->scene;
@@ -43,7 +43,7 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
                  material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
 
-/* Reads the slope beyond yield from one of two keys. REFUSED if it is not below young. */
+/* Reads the hardening modulus from one of two keys. REFUSED if it is not below Young's modulus. */
 static status read_hardening(struct reader *r, const struct node *n, struct material *m)
 {
     const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
@@ -58,8 +58,7 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
                  shown(r, tangent ? tangent : hardening));
 }
 
-/* Critical stretch from G_c: in closed form, or for the model with rotations (mospd) from the work that separates the
- * lattice. */
+/* Uses a closed form, or for the model with rotations (mospd) the work that separates the lattice. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
@@ -70,7 +69,8 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
 }
 
-/* REFUSED where nothing can scatter, and without the number that the distribution is told by. */
+/* Reads the scatter of strength. REFUSED for a material without strength, and if the parameter of the distribution
+ * is missing. */
 static status read_scatter(struct reader *r, const struct node *n, struct material *m)
 {
     struct strength_scatter *s = &m->scatter;
@@ -91,7 +91,8 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     return OK;
 }
 
-/* REFUSED where viscosity cannot act. Cells have one time step with it: levels that are left to choose are 0. */
+/* REFUSED if viscosity has no effect. Sets the number of levels to 0 if it is automatic: with viscosity all cells
+ * have one time step. */
 static status read_viscosity(struct reader *r, const struct node *n, struct material *m)
 {
     struct scene *s = r->scene;
@@ -154,7 +155,7 @@ status read_materials(struct reader *r, const struct node *root)
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
-/* Path and checksum of a particle list. */
+/* Reads the path and the checksum of a particle list. */
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
 {
     fault_place(r, n, b->place, sizeof b->place);
@@ -164,7 +165,7 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
     return r->files ? particle_list_look(&b->list, b->file, r->dim) : OK;
 }
 
-/* REFUSED for what a rigid body cannot have, and for what only it has. */
+/* REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
 static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -185,7 +186,7 @@ static status check_rigid_body(struct reader *r, const struct node *n, const str
     return OK;
 }
 
-/* Reads one body; `number`: how many there are before it. REFUSED without shape or particles, or with both. */
+/* Reads one body. number: index of the body. REFUSED if it has neither shape nor particles, or both. */
 static status scene_parts_read_body(struct reader *r, const struct node *n, struct scene_body *b, int number)
 {
     const struct node *shape = node_find(n, "shape"), *file = node_find(n, "particles");
@@ -210,7 +211,7 @@ static status scene_parts_read_body(struct reader *r, const struct node *n, stru
     return OK;
 }
 
-/* Deformable bodies first, then rigid ones, each in the order of the scene. */
+/* Sorts deformable bodies before rigid ones, each in the order of the scene. */
 static void sort_bodies(struct scene *s, int n)
 {
     struct scene_body *sorted = NEW("bodies", n, struct scene_body);
@@ -251,7 +252,7 @@ status read_bodies(struct reader *r, const struct node *root)
     const struct node *n = many->first;
     for (int k = 0; k < n_bodies; k++, n = n->next) {
         snprintf(s->body[k].name, sizeof s->body[k].name, "body%d", k);
-        s->bodies = k + 1; /* for whoever frees a refused scene */
+        s->bodies = k + 1; /* number of bodies to release if the scene is refused */
         TRY(scene_parts_read_body(r, n, &s->body[k], k));
     }
     s->bodies = 0;
@@ -272,8 +273,8 @@ status read_bodies(struct reader *r, const struct node *root)
 
 /* ---- initial states ---------------------------------------------------------------------------------------------- */
 
-/* Polarisation of a pulse: along its direction (default) or across it. Round-off is removed from the vector. REFUSED
- * for any other direction. */
+/* Reads the polarisation of a pulse: along its direction (default) or across it. Removes round-off from the vector.
+ * REFUSED for any other direction. */
 static status read_polarisation(struct reader *r, const struct node *n, struct wave_pulse *w)
 {
     const int dim = r->dim;
@@ -306,7 +307,7 @@ static status read_pulse(struct reader *r, const struct node *n, struct scene_in
     return read_polarisation(r, node_find(n, "polarisation"), &initial->pulse);
 }
 
-/* A rigid rotation is the velocity gradient of w x (X - centre). */
+/* Reads a rigid rotation as the velocity gradient of w x (X - centre). */
 static status read_initial_rotation(struct reader *r, const struct node *map, struct scene_initial *initial)
 {
     const struct node *n = node_find(map, "rotation"), *gradient = node_find(map, "velocity_gradient"),
@@ -320,7 +321,7 @@ static status read_initial_rotation(struct reader *r, const struct node *map, st
     TRY(read_number(r, key_find("initial.rotation", "rate"), node_find(n, "rate"), &rate));
     const real scale = rate / sqrt(dot(w, w, DIM_MAX));
     for (int a = 0; a < r->dim; a++)
-        for (int b = 0; b < r->dim; b++) { /* row a, column b of w x: -w_c or w_c, c the third */
+        for (int b = 0; b < r->dim; b++) { /* row a, column b of the matrix of w x: -w_c or w_c with the third axis c */
             const real sign = (b - a + 3) % 3 == 1 ? -1 : 1;
             if (a != b) initial->velocity_gradient[a * r->dim + b] = sign * scale * w[3 - a - b];
         }
@@ -328,7 +329,7 @@ static status read_initial_rotation(struct reader *r, const struct node *map, st
     return OK;
 }
 
-/* Numbers, or formulas of the place. */
+/* Reads an initial velocity: numbers, or formulas of the position. */
 static status read_initial_velocity(struct reader *r, const struct node *n, struct scene_initial *initial)
 {
     if (!n) return OK;
@@ -365,7 +366,7 @@ status read_initials(struct reader *r, const struct node *root)
 
 /* ---- growth ------------------------------------------------------------------------------------------------------ */
 
-/* Reads one growth rule and normalises its direction. REFUSED for keys without a meaning and for an unknown probe. */
+/* Reads one growth rule and normalises its direction. REFUSED for keys without meaning and for an unknown probe. */
 static status read_growth(struct reader *r, const struct node *n, struct growth_rule *g, int number)
 {
     real length;
@@ -407,7 +408,7 @@ static status check_growth_probes(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* Called after the probes are read: a sif probe may control a growth. */
+/* Called after the probes are read, since a sif probe can control growth. */
 status read_growths(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -425,8 +426,7 @@ status read_growths(struct reader *r, const struct node *root)
 
 /* ---- frames of regions ------------------------------------------------------------------------------------------- */
 
-/* REFUSED for a name whose files are those of the whole body or of another region, and for more frames than a run may
- * have. */
+/* Reads the frame series of a region. REFUSED for a name whose files are used already, and for too many frames. */
 static status read_frame_region(struct reader *r, const struct node *n, int number)
 {
     struct scene *s = r->scene;

@@ -1,4 +1,4 @@
-/* Reads a scene: file to nodes, nodes to struct scene, the scene as run written out. */
+/* Reads a scene: from the file to nodes, from nodes to struct scene, and writes the scene as run to its text. */
 #include "scene/scene_read.h"
 
 #include <ctype.h>
@@ -9,8 +9,8 @@
 #include "base/memory.h"
 #include "scene_internal.h"
 
-/* Name of a scene from its path: the file name without folder and ending; characters that a name may not have become
- * _. */
+/* Derives the name of a scene from its path: the file name without folder and extension, with _ for characters that
+ * a name cannot have. */
 static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
 {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
@@ -23,14 +23,14 @@ static void name_from_path(char name[NAME_MAX_LENGTH], const char *path)
     if (length == 0) strcpy(name, "scene");
 }
 
-/* The node of `method: auto`; NULL: the scene has another method. */
+/* Returns the node of `method: auto`; NULL if the scene has another method. */
 static const struct node *auto_method(const struct node *root)
 {
     const struct node *method = root->kind == NODE_MAP ? node_find(root, "method") : NULL;
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Makes the tree of nodes, the scene and its echo; of a scene with `method: auto` only the wish. */
+/* Creates the tree of nodes, the scene and its echo; for a scene with `method: auto` only the wish. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -55,7 +55,7 @@ static status read_scene(struct reader *r, const char *text, size_t length, stru
     *s = (struct scene){0};
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     if (!c) return status_set(FAILED, "%s: no memory to read it", r->name);
-    locale_t old = uselocale(c); /* the decimal sign is a point in every locale */
+    locale_t old = uselocale(c); /* the decimal sign is then a point in every locale */
     s->path = NEW("scene path", strlen(r->name) + 1, char);
     strcpy(s->path, r->name);
     name_from_path(s->name, r->name);
@@ -74,7 +74,7 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from a file; wish as in read_scene. */
+/* Reads a scene from a file. wish: as in read_scene. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

@@ -1,9 +1,9 @@
-/* `cleave help --reference`: the page inputs/keys.md of the manual, from the table of keys. */
+/* Writes `cleave help --reference`, the page inputs/keys.md of the manual, from the table of keys. */
 #include <string.h>
 
 #include "scene_internal.h"
 
-/* Writes text as a cell of a table in Markdown: characters with a meaning there are escaped. */
+/* Writes a text as a cell of a Markdown table, with escapes for characters that have a meaning there. */
 static void cell(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {
@@ -26,7 +26,7 @@ static void row(FILE *out, const struct key *k)
     fputc('\n', out);
 }
 
-/* True if k is at the top of a scene; *has_keys: true if other keys are below k, which follow k in the table. */
+/* Returns true if k is at the top of a scene. *has_keys: true if other keys are below k; they follow k in the table. */
 static bool is_top(const struct key *k, bool *has_keys)
 {
     const size_t length = strlen(k->path);

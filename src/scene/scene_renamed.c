@@ -1,10 +1,10 @@
-/* Keys of scenes that had another name before, which still works, with one line that says so; keys that are gone. */
+/* Replaces keys by which earlier versions named present keys, and notes them in the scene; refuses removed keys. */
 #include "scene_internal.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Old and new path, which differ in the last key only. */
+/* Old and new path; they differ in the last key only. */
 static const struct {
     const char *old, *now;
 } renamed[] = {
@@ -15,7 +15,7 @@ static const struct {
     {"time.rest", "time.active_set"},
 };
 
-/* Keys of an earlier version that no longer exist, and what replaces them. */
+/* Keys of earlier versions that no longer exist, with their replacement. */
 #define TABLE_REMOVED "is no longer a key, as `method: auto` chooses by pilot runs alone; remove it"
 static const struct {
     const char *path, *what;
@@ -24,7 +24,7 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Adds a pair of names to the text that engine_warn shows. */
+/* Adds a pair of names to the note that engine_warn prints. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);

@@ -1,5 +1,6 @@
-/* The table of keys as a JSON schema (draft 7), by which editors complete and check scenes. It refuses unknown keys and
- * words and numbers out of range; whether a formula or what a key says by hand makes sense only the program knows. */
+/* Writes the table of keys as a JSON schema (draft 7), with which editors complete and check scenes. The schema
+ * refuses unknown keys and words, and numbers out of range; formulas and values of keys that functions read are
+ * checked only by the program. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ static void write_string(FILE *out, const char *text, size_t length)
     fputc('"', out);
 }
 
-/* Words a|b|c; those that are digits also as numbers, which YAML makes of them. */
+/* Writes the words a|b|c; words of digits also as numbers, since YAML reads them as numbers. */
 static void write_words(FILE *out, const char *words)
 {
     const char *between = "";
@@ -34,7 +35,7 @@ static void write_words(FILE *out, const char *words)
     fputs("]}", out);
 }
 
-/* A number by itself in the range of its key; formulas and units are texts. */
+/* Writes the range of a plain number; formulas and numbers with units are texts. */
 static void write_numbers(FILE *out, const struct key *k, const char *type)
 {
     char least[32], most[32];
@@ -53,7 +54,7 @@ static void write_list_of(FILE *out, const char *definition)
     fprintf(out, "{\"type\": \"array\", \"items\": {\"$ref\": \"#/definitions/%s\"}}", definition);
 }
 
-/* The required keys of a group, if it has any. */
+/* Writes the list of required keys of a group, if there are any. */
 static void write_required(FILE *out, const char *group, const char *begin)
 {
     const char *between = begin;
@@ -76,7 +77,7 @@ static bool has_children(const char *group)
     return any;
 }
 
-/* Values of keys that functions read, by the form that the table says; a form that is not known here: anything. */
+/* Writes the type of a key that a function reads, by its form in the table; any value if the form is unknown here. */
 static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
@@ -107,7 +108,7 @@ static void write_by_hand(FILE *out, const struct key *k)
         fputs("{}", out);
 }
 
-/* The kinds of probes: a word, or a mapping with one of them. */
+/* Writes the type of a probe: a word, or a mapping with one kind of probe. */
 static void write_probe(FILE *out)
 {
     const char *between = "";
@@ -118,7 +119,8 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-/* Entries of `parts` have the keys of `bodies.parts`, those of `materials` the keys of `material`. */
+/* Returns the group of the items of a list: bodies.parts for `parts`, material for `materials`, else the list
+ * itself. */
 static const char *items_group(const struct key *k)
 {
     if (strcmp(k->path, "materials") == 0) return "material";
@@ -140,7 +142,7 @@ static void write_list_items(FILE *out, const struct key *k)
     fputc('}', out);
 }
 
-/* The alternatives for the value of a key. */
+/* Writes the alternative types of the value of a key. */
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {
@@ -165,7 +167,7 @@ static void write_alternatives(FILE *out, const struct key *k)
     } else if (type == KEY_LIST) {
         write_list_items(out, k);
     } else if (type == KEY_MAP || type == KEY_PART) {
-        const struct key *form = key_find(k->path, "form"); /* exact: step bar */
+        const struct key *form = key_find(k->path, "form"); /* the short form `exact: step bar` */
         if (form && form->type == KEY_CHOICE) write_words(out, form->words), fputs(", ", out);
         write_object(out, k->path);
     } else {
@@ -173,7 +175,8 @@ static void write_alternatives(FILE *out, const struct key *k)
     }
 }
 
-/* Is the mapping that holds this key merged with those of other scenes? There an empty value takes a key away. */
+/* Returns true if the mapping with this key is merged with the mappings of other scenes, where an empty value
+ * removes a key. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];
@@ -197,7 +200,8 @@ static void write_property(FILE *out, const struct key *k)
     fputs("]}", out);
 }
 
-/* What a mapping of the keys below a group consists of; another scene can complete one that is merged. */
+/* Writes the type of a mapping with the keys of a group. Required keys are omitted if the mapping is merged with
+ * another scene's. */
 static void write_members(FILE *out, const char *group)
 {
     const char *between = "";

@@ -1,5 +1,5 @@
-/* Solids from files: surfaces, meshes and images. Files are sought as particle lists are, and known by their contents.
- */
+/* Reads solids from files: surfaces, meshes and images. Files are searched as particle lists are, and identified by
+ * the hash of their contents. */
 #include "scene/shape_file.h"
 
 #include <glob.h>
@@ -18,7 +18,7 @@ enum { SLICES_MOST = 65536 };
 
 /* ---- names of files ---------------------------------------------------------------------------------------------- */
 
-/* FNV-1a of the hashes of all files, in order; of one file its own. */
+/* Combines the hash of a file with the hashes of the files before (FNV-1a); a single file keeps its own hash. */
 static void contents_add(struct shape_file *f, uint64_t contents)
 {
     if (f->files == 0)
@@ -37,7 +37,8 @@ static status shape_path_add(struct reader *r, const struct node *n, struct shap
     return OK;
 }
 
-/* Files by a pattern with stars, numbers in their names in order; sought in the scene's folder, then in the current. */
+/* Adds the files that match a pattern with stars, sorted with numbers compared by value; searches the scene's
+ * folder, then the current one. */
 static status pattern_add(struct reader *r, const struct node *n, struct shape_file *f)
 {
     const char *slash = strrchr(r->name, '/');
@@ -104,9 +105,9 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
     return same;
 }
 
-#define CURVE_FINE 0.01 /* distance of chords from curved edges of elements [spacings] */
+#define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* One spacing: as far as the outermost particles of a lattice may lie below a face. */
+/* Returns one spacing: the largest depth of the outermost particles of a lattice below a face [m]. */
 static real spacing_given(struct reader *r, const struct node *n)
 {
     real spacing = NAN;
@@ -117,7 +118,8 @@ static real spacing_given(struct reader *r, const struct node *n)
     return NAN;
 }
 
-/* Reads the file of solid n unless a solid before had it; `f` is taken over or freed. */
+/* Reads the file of solid n, unless an earlier solid has read it. Takes ownership of f, and frees it if it is not
+ * needed. */
 static status shape_take(struct reader *r, const struct node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
@@ -138,7 +140,7 @@ static status shape_take(struct reader *r, const struct node *n, struct shape_fi
     return OK;
 }
 
-/* REFUSED if the scene says which contents it was written for, and the file has others. */
+/* REFUSED if the scene gives the hash of the contents, and the file has another. */
 static status check_contents(struct reader *r, const struct node *n, const struct shape_words *words, uint64_t contents)
 {
     char found[NAME_MAX_LENGTH];
@@ -150,7 +152,7 @@ static status check_contents(struct reader *r, const struct node *n, const struc
                  words->contents, found);
 }
 
-/* The length that the number 1 of the file is, by unit or scale. */
+/* Reads the length unit of the coordinates in the file, from the key unit or scale. */
 static status read_unit(struct reader *r, const struct node *n, struct shape_words *words)
 {
     const struct node *unit = node_find(n, "unit"), *scale = node_find(n, "scale");
@@ -166,7 +168,8 @@ static status read_unit(struct reader *r, const struct node *n, struct shape_wor
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
 
-/* The part of a mesh that a solid is: all of it, or a set, which is closed or as far as `within` from its faces. */
+/* Finds the hull of the part of a mesh of which a solid consists: the whole mesh, a set of elements, or the points
+ * within a distance `within` [m] of a set of nodes or faces. */
 static status read_mesh_set(struct reader *r, const struct node *n, const struct shape_words *words,
                             const struct geometry *g, struct solid *s)
 {
@@ -219,7 +222,7 @@ status read_mesh(struct reader *r, const struct node *n, struct solid *s) { retu
 
 /* ---- images ------------------------------------------------------------------------------------------------------ */
 
-/* What an image is: its files, the size of its voxels, where it lies. */
+/* Reads an image: its files, the size of its voxels and its position. */
 static status read_voxels(struct reader *r, const struct node *n, struct shape_file **known)
 {
     const struct node *file = node_find(n, "file"), *slice = node_find(n, "slice");
@@ -241,7 +244,7 @@ static status read_voxels(struct reader *r, const struct node *n, struct shape_f
     return shape_take(r, n, f, known);
 }
 
-/* The voxels of these grey values, which solids with the same ones share. */
+/* Returns the voxels with the given grey values; solids with equal grey values share them. */
 static const struct voxel_part *grey_part_of(struct shape_file *f, const struct voxel_part *wanted)
 {
     for (int k = 0; k < f->parts; k++)

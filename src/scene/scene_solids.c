@@ -1,4 +1,4 @@
-/* Reads the geometry of a scene: solids, regions and cracks, and checks that they are well formed. */
+/* Reads the geometry of a scene: solids, regions and cracks, and checks that they are valid. */
 #include "scene_internal.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "geometry/geometry.h"
 
 enum { SOLIDS_MOST = 200000 };
-#define EFFORT_MOST 1e5 /* primitive solids that one place of a lattice is compared with */
+#define EFFORT_MOST 1e5 /* largest number of primitive solids with which a lattice position is compared */
 
 /* ---- shapes ------------------------------------------------------------------------------------------------------ */
 
@@ -39,7 +39,7 @@ static status check_box(struct reader *r, const struct node *n, const struct sol
     return OK;
 }
 
-/* REFUSED for an axis without length and for a hole or section that does not fit. */
+/* REFUSED for an axis without length, and for a hole or section that does not fit. */
 static status check_round(struct reader *r, const struct node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
@@ -64,7 +64,7 @@ static status check_solid(struct reader *r, const struct node *n, const struct s
     return check_round(r, n, s);
 }
 
-/* Reads the corners of a polygon and what makes them round. REFUSED if edges cross or a corner has no room. */
+/* Reads the corners of a polygon and their radii. REFUSED if edges cross or a rounded corner does not fit. */
 static status read_corners(struct reader *r, const struct node *n, struct solid *s)
 {
     const struct key *k = key_find("solid.polygon", "corners");
@@ -96,7 +96,7 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
     }
 }
 
-/* Reads an extrusion, whose shape lies in the plane of the other two axes. */
+/* Reads an extrusion. Its section is in the plane of the other two axes. */
 static status read_extrusion(struct reader *r, const struct node *n, struct solid *s)
 {
     const struct node *shape = node_find(n, "shape");
@@ -109,7 +109,8 @@ static status read_extrusion(struct reader *r, const struct node *n, struct soli
     return read;
 }
 
-/* Reads the keys of a solid of this kind. REFUSED if the space does not have it, or for an infinite solid of a body. */
+/* Reads the keys of a solid of this kind. REFUSED for kinds that the space does not have, and for an infinite solid
+ * in a body. */
 static status read_shape(struct reader *r, const struct node *n, const struct solid_word *word, struct solid *s)
 {
     char group[32];
@@ -137,7 +138,7 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
 
-/* The node of the region of this name; in an extrusion's plane, of the section. REFUSED with the nearest name. */
+/* Finds the node of the region with this name, or of the section in an extrusion. REFUSED with the nearest name. */
 static status region_called(struct reader *r, const struct node *n, const struct node **called)
 {
     const struct node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
@@ -154,7 +155,7 @@ static status region_called(struct reader *r, const struct node *n, const struct
     return fault(r, n, "there is no %s %s; the nearest is %s", word, shown(r, n), nearest->key);
 }
 
-/* Reads the region of a name as if it stood here. REFUSED if that needs itself. */
+/* Reads the region of a name in place of the reference. REFUSED if the region refers to itself. */
 static status read_called(struct reader *r, const struct node *n, struct region *region)
 {
     struct naming here = {.outer = r->naming};
@@ -167,7 +168,7 @@ static status read_called(struct reader *r, const struct node *n, struct region 
     return read;
 }
 
-/* A named region as one solid: that solid itself where the region is one as described, or a group. */
+/* Reads a named region as one solid: as the only solid of the region, or as a group. */
 static status read_named(struct reader *r, const struct node *n, struct solid *s)
 {
     s->kind = SOLID_GROUP;
@@ -181,7 +182,7 @@ static status read_named(struct reader *r, const struct node *n, struct solid *s
     return OK;
 }
 
-/* Reads what a mapping gives names to; *count: how many, also on failure. */
+/* Reads the named regions of a mapping; *count: number of regions that have been read, also on failure. */
 static status read_names(struct reader *r, const struct node *map, struct named_region *named, int *count)
 {
     for (const struct node *n = map->first; n; n = n->next) {
@@ -196,7 +197,7 @@ static status read_names(struct reader *r, const struct node *map, struct named_
     return OK;
 }
 
-/* The mapping of a key; NULL if it is not given. */
+/* Finds the mapping of a key; NULL if it is not given. */
 static status names_find(struct reader *r, const struct node *root, const char *key, const struct node **map)
 {
     *map = node_find(root, key);
@@ -205,7 +206,7 @@ static status names_find(struct reader *r, const struct node *root, const char *
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
 }
 
-/* Sections are read to say what is wrong with them; extrusions read them again. */
+/* Reads all named sections, so that faults in unused ones are found; extrusions read them again. */
 static status read_sections(struct reader *r)
 {
     const struct node *map = r->sections;
@@ -236,7 +237,7 @@ status read_regions(struct reader *r, const struct node *root)
 
 static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before);
 
-/* Reads what add, subtract or intersect does: with a solid; or with a list, or what `n` moves as a whole: a group. */
+/* Reads the operand of add, subtract or intersect: a solid, or a group if it is a list or has motions. */
 static status read_operation(struct reader *r, const struct node *n, const struct node *what, struct solid *s)
 {
     const bool cutting = r->cutting;
@@ -254,8 +255,8 @@ static status read_operation(struct reader *r, const struct node *n, const struc
     return read;
 }
 
-/* Reads one solid, possibly inside add, subtract or intersect, and what moves it. `signed_before`: it is inside one
- * already. */
+/* Reads one solid with its motions, possibly below add, subtract or intersect. signed_before: the solid is below one
+ * of these already. */
 static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
 {
     const struct node *child = NULL;
@@ -284,7 +285,7 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
     return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
 }
 
-/* `intersect`: items that do not say what they do are to be intersected. */
+/* Reads a list of solids. intersect: solids without an operation are intersected. */
 static status read_solids(struct reader *r, const struct node *n, struct region *region, bool intersect)
 {
     if (n->kind == NODE_LIST && n->n == 0) return fault(r, n, "an empty list; at least one solid is expected");
@@ -315,7 +316,7 @@ static void crack_make(struct crack *c, int n)
     c->n = n, c->width = 0;
 }
 
-/* n = (b - a) x (c - a) */
+/* Computes n = (b - a) x (c - a). */
 static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++) {
@@ -324,7 +325,7 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
     }
 }
 
-/* REFUSED unless every corner lies in the plane and on the inner side of every edge, to a millionth of the size. */
+/* REFUSED unless every corner is in the plane, and on the inner side of every edge, to a millionth of the size. */
 static status check_polygon(struct reader *r, const struct node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
@@ -360,7 +361,7 @@ static status read_polygon(struct reader *r, const struct node *n, struct crack 
     return check_polygon(r, n, c);
 }
 
-/* Reads the place of a crack: a point on a line, a segment in the plane, a polygon in space. */
+/* Reads the position of a crack: a point in 1D, a segment in 2D, a polygon in 3D. */
 static status read_crack_place(struct reader *r, const struct node *n, struct crack *c)
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
@@ -389,7 +390,7 @@ static status read_crack(struct reader *r, const struct node *n, struct crack *c
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
-/* Appends the slits of the meshes of a shape, wherever its copies are. */
+/* Appends the slits of the meshes of a shape to the cracks, for each copy of a mesh. */
 static void take_slits(struct scene *s, const struct region *shape)
 {
     const struct placement there = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

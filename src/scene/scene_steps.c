@@ -1,9 +1,9 @@
-/* Conditions on load steps (solver static, steps). */
+/* Checks the settings of load steps (solver static). */
 #include <stdlib.h>
 
 #include "scene_internal.h"
 
-/* REFUSED for what only a run in time has. */
+/* REFUSED for keys that need a run in time. */
 static status check_steps_motion(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -31,7 +31,7 @@ static status check_steps_motion(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for loads of which load steps do not know where they lead. */
+/* REFUSED for loads that load steps do not support. */
 static status check_steps_loads(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -45,7 +45,7 @@ static status check_steps_loads(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED where no boundary loads or moves anything. */
+/* REFUSED if no boundary loads or displaces the body. */
 static status check_steps_loaded(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -71,7 +71,7 @@ status check_load_steps(struct reader *r, const struct node *root)
     const bool opening = s->steps.control == CONTROL_OPENING;
     TRY(check_steps_motion(r, root));
     TRY(check_steps_loads(r, root));
-    r->scene->active_set = false; /* an equilibrium reaches the whole body at once */
+    r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
         return fault(r, tree_at(root, "steps.then"),
                      "a release in time belongs to control load: %s follows the crack while it is unstable",
@@ -85,7 +85,7 @@ status check_load_steps(struct reader *r, const struct node *root)
                  "distance grows");
 }
 
-/* The echo of a scene has all keys, with their defaults. */
+/* Default values are accepted with any solver, since the echo of a scene has all keys. */
 status check_steps_given(struct reader *r, const struct node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

@@ -36,16 +36,16 @@ static status read_table(struct reader *r, const struct node *n, struct time_fun
 
 enum { TIMES_MAX = 1000000, UNIT_LONGEST_NAME = 40 };
 
-/* The two columns of a file that make a function of time. */
+/* Columns of time and values of a function in a file. */
 struct time_columns {
     struct csv_file in;
-    int time, value, all;                                             /* from 0; -1: not found; all there are */
+    int time, value, all; /* indices from 0, -1: not found; number of all columns */
     char time_unit[UNIT_LONGEST_NAME], value_unit[UNIT_LONGEST_NAME]; /* "": none */
-    enum unit unit;                                                   /* of the values */
+    enum unit unit;                                                   /* kind of unit of the values */
     const char *second;                                               /* name of another column of values; NULL: none */
 };
 
-/* What a boundary's value counts in, so that a column can have this unit. */
+/* Returns the kind of unit of a boundary's value, which a column of a file can have. */
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
@@ -59,7 +59,8 @@ static enum unit unit_of_boundary(const struct boundary *b)
     }
 }
 
-/* Takes column k of the header: the time, or the one that is wanted. REFUSED for units that do not fit. */
+/* Evaluates the name of column k in the header: the time, or the requested values. REFUSED for units that do not
+ * fit. */
 static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
 {
     char what[160];
@@ -81,7 +82,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
     return OK;
 }
 
-/* Finds the columns by the header. */
+/* Finds the columns of the file from its header. */
 static status time_columns_find(struct time_columns *c, const char *wanted)
 {
     bool more;
@@ -156,7 +157,7 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
     return f->n > 0 ? OK : status_set(REFUSED, "%s: has no times below its header", c->in.path);
 }
 
-/* Reads `file: name` with `column: name` beside it. A name alone is known to a reader without files. */
+/* Reads `file: name` with `column: name`. Opens no file if the reader has files = false. */
 static status read_time_file(struct reader *r, const struct node *map, struct boundary *b)
 {
     struct time_columns c = {.unit = unit_of_boundary(b)};

@@ -32,7 +32,7 @@ const struct unit_row unit_rows[UNITS] = {
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
-/* A unit: twice the powers of m, kg and s, and twice the power of ten that converts to SI. */
+/* A unit: twice the exponents of m, kg and s, and twice the power of ten of its factor to SI. */
 struct measure {
     int twice[3], ten;
 };
@@ -60,7 +60,7 @@ static const struct symbol *symbol_named(const char *name, size_t length)
     return NULL;
 }
 
-/* `mm`, `GPa`, `kg`, `%`: a symbol, or a prefix and a symbol. */
+/* Reads a symbol, or a prefix and a symbol: `mm`, `GPa`, `kg`, `%`. */
 static bool symbol_read(struct measure *m, const char *name, size_t length)
 {
     const struct symbol *symbol = symbol_named(name, length);
@@ -78,7 +78,8 @@ static bool symbol_read(struct measure *m, const char *name, size_t length)
     return true;
 }
 
-/* Twice the power behind a symbol: `^2`, `2`, `^-1`, `^0.5`, a raised digit; 2 where there is none, 0 if malformed. */
+/* Returns twice the exponent after a symbol: `^2`, `2`, `^-1`, `^0.5`, a superscript digit; 2 if there is none, 0 if
+ * it is malformed. */
 static int power_read(const char **at)
 {
     const char *c = *at;
@@ -108,7 +109,7 @@ static size_t symbol_length(const char *c)
     return n;
 }
 
-/* One factor: `kg`, `m^3`, `sqrt(m)`. */
+/* Reads one factor of a unit: `kg`, `m^3`, `sqrt(m)`. */
 static bool factor_read(struct measure *m, const char **at)
 {
     bool root = strncmp(*at, "sqrt(", 5) == 0;
@@ -125,7 +126,7 @@ static bool factor_read(struct measure *m, const char **at)
     return true;
 }
 
-/* Factors with spaces, `*` or `/` between them. */
+/* Reads factors separated by spaces, `*` or `/`, and multiplies them. */
 static bool unit_read(struct measure *sum, const char *text)
 {
     *sum = (struct measure){{0, 0, 0}, 0};
@@ -153,7 +154,8 @@ static const struct unit_row *unit_of(const int twice[3])
     return NULL;
 }
 
-/* Is the word at c a unit: a symbol alone, or with 2 or 3 as its power? Names of variables may begin like one. */
+/* Returns true if the word at c is a unit: a symbol, alone or with 2 or 3 as its exponent. Names of variables can
+ * begin with a symbol. */
 static bool is_unit_word(const char *c)
 {
     if (strncmp(c, "sqrt(", 5) == 0) c += 5;
@@ -162,8 +164,8 @@ static bool is_unit_word(const char *c)
     return !isalnum((unsigned char)*c) && *c != '_';
 }
 
-/* Length of the unit that a text begins with, as far as it goes: factors with spaces, `*` or `/` between them, the
- * first without such a sign. 0: it begins with none. */
+/* Returns the length of the unit at the beginning of a text, 0 if there is none: as many factors as possible,
+ * separated by spaces, `*` or `/`, with no separator before the first. */
 static size_t unit_length(struct measure *sum, const char *text)
 {
     const char *end = text;
@@ -209,7 +211,7 @@ void unit_text(const int twice[3], char *text, size_t room)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Length of `[+-] digits [. digits] [e [+-] digits]`, 0 if there is none. */
+/* Returns the length of `[+-] digits [. digits] [e [+-] digits]`, or 0. */
 static size_t number_length(const char *c)
 {
     const char *start = c;
@@ -231,7 +233,7 @@ static size_t number_length(const char *c)
     return (size_t)(c - start);
 }
 
-/* `length` characters times 10^ten, rounded once. */
+/* Returns the number in the first `length` characters times 10^ten, rounded once. */
 static real number_value(const char *c, size_t length, int ten)
 {
     char text[NUMBER_LONGEST + 32];
@@ -245,8 +247,8 @@ static real number_value(const char *c, size_t length, int ten)
     return strtod(text, NULL);
 }
 
-/* Complaint about a number in a form that other languages read (grouped digits, decimal comma, base 60, hexadecimal,
- * octal); NULL: none. */
+/* Returns the fault of a number in a form that other languages accept (grouped digits, decimal comma, base 60,
+ * hexadecimal, octal); NULL: none. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -266,14 +268,15 @@ struct complaint {
     size_t room;
 };
 
-/* Writes the complaint and the expected unit; returns false. */
+/* Writes the fault and the expected unit; returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
     snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
     return false;
 }
 
-/* Power of ten that converts the unit to SI, *ten; false with a complaint for a unit of another quantity. */
+/* Sets *ten to the power of ten that converts the unit to SI. Returns false, with a message, for a unit of another
+ * kind. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
@@ -289,7 +292,8 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     return complain(c, wrong, unit);
 }
 
-/* Seconds of min and h, which are no powers of ten and combine with no other unit; 0: another unit. */
+/* Returns the seconds of min and h, which are no powers of ten and cannot be combined with other units; 0 for
+ * another unit. */
 static int clock_seconds(const char *text, enum unit unit)
 {
     static const struct {
@@ -301,7 +305,7 @@ static int clock_seconds(const char *text, enum unit unit)
     return 0;
 }
 
-/* Radians of rad and deg, which every angle has: 30 without a unit might be either; 0: another unit. */
+/* Returns the radians of rad and deg; 0 for another unit. Every angle needs a unit, since 30 could mean either. */
 static real angle_radians(const char *text)
 {
     if (strcmp(text, "rad") == 0) return 1;
@@ -316,7 +320,7 @@ static bool infinite_read(real *value, const char *text)
     return true;
 }
 
-/* The divisor of a fraction and its length; 1 and 0 where there is none. */
+/* Reads the divisor of a fraction and returns its length; 1 and 0 if there is none. */
 static size_t divisor_read(const char *c, real *divisor)
 {
     const char *start = c;
@@ -331,7 +335,7 @@ static size_t divisor_read(const char *c, real *divisor)
     return (size_t)(c - start) + length;
 }
 
-/* Bounds of numbers [SI]: beyond them products of a few numbers overflow or underflow. */
+/* Bounds of the magnitude of numbers [SI]: products of a few larger or smaller numbers overflow or underflow. */
 #define NUMBER_LEAST 1e-30
 #define NUMBER_MOST 1e30
 
@@ -376,8 +380,8 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     return in_bounds(c, *value, unit);
 }
 
-/* Letters of a unit of time or angle that is no power of ten, with which a text begins, and the seconds or radians of
- * it; 0: it does not. */
+/* Returns the length of min, h, rad or deg at the beginning of a text, and sets *factor to its seconds or radians; 0
+ * if there is no such unit. */
 static size_t factor_length(const char *text, real *factor, bool *is_time)
 {
     const size_t letters = symbol_length(text);
@@ -426,7 +430,7 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
     real factor = 1;
     bool is_time = false;
     *wrong = length == 0 ? "is no number" : length > NUMBER_LONGEST ? "has too many digits" : trap(text, length);
-    if (length > 0 && text[length] == ',') *wrong = NULL; /* it may part operands of a function */
+    if (length > 0 && text[length] == ',') *wrong = NULL; /* the comma can separate operands of a function */
     if (*wrong) return 0;
     const char *unit = text + length + strspn(text + length, " ");
     size_t letters = with_unit ? factor_length(unit, &factor, &is_time) : 0;

@@ -1,4 +1,4 @@
-/* Reads values from nodes by the table of keys, and makes the messages about faults. */
+/* Reads values from nodes by the table of keys, and writes the messages about faults. */
 #include "scene_internal.h"
 
 #include <ctype.h>
@@ -19,7 +19,8 @@ const char *shown_text(struct reader *r, const char *text)
 {
     size_t length = strlen(text), cut = length;
     if (cut > SHOWN_LONGEST) cut = SHOWN_LONGEST;
-    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80) cut--; /* whole letters only */
+    while (cut < length && cut > 0 && ((unsigned char)text[cut] & 0xC0) == 0x80)
+        cut--; /* keep whole UTF-8 characters */
     char *copy = arena_new(r, cut + 4);
     memcpy(copy, text, cut);
     text_harmless(copy);
@@ -34,7 +35,7 @@ const char *shown(struct reader *r, const struct node *n)
     return *n->text ? shown_text(r, n->text) : "no value";
 }
 
-/* Name of a node in messages: its key, or the key of its list with its index: `velocity[1]`. */
+/* Writes the name of a node for messages: its key, or the key of its list with an index, as in `velocity[1]`. */
 static void node_name(const struct node *n, char *name, size_t room)
 {
     if (n->key) {
@@ -95,7 +96,7 @@ status fault_both(const struct reader *r, const struct node *a, const struct nod
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
 }
 
-/* Form of the value of a key, for messages about missing keys. */
+/* Returns the form of the value of a key, for messages about missing keys. */
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
@@ -237,7 +238,7 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
     return check_range(r, k, n, *value);
 }
 
-/* The value of an expression that is a whole number, to rounding. */
+/* Reads an expression whose value is a whole number within rounding. */
 static status read_whole(struct reader *r, const struct node *n, real *value)
 {
     char what[256];
@@ -303,7 +304,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
     return OK;
 }
 
-/* The nearest of the words a|b|c, NULL: none is like the text. */
+/* Returns the word of a|b|c that is most similar to the text; NULL if none is similar. */
 static const char *word_near(struct reader *r, const char *words, const char *text)
 {
     const char *nearest = NULL;
@@ -339,7 +340,7 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
     return OK;
 }
 
-/* Reads any text into a name, [NAME_MAX_LENGTH]: what others have called so. */
+/* Reads any text into name[NAME_MAX_LENGTH]: a name from another file. */
 static status read_any_text(struct reader *r, const struct node *n, char *name)
 {
     const size_t length = strlen(n->text);
@@ -382,7 +383,7 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
     return OK;
 }
 
-/* dim x dim numbers, row by row or in one list. */
+/* Reads dim x dim numbers, row by row or in one list. */
 static status read_matrix(struct reader *r, const struct key *k, const struct node *n, real *matrix)
 {
     int dim = r->dim, entry = 0;
@@ -421,7 +422,7 @@ static status fault_reference(struct reader *r, const struct node *n, const char
     return fault(r, n, "there is no %s %s; the nearest is %s", what, shown(r, n), nearest);
 }
 
-/* Index of the material of this name. REFUSED with the nearest name. */
+/* Finds the index of the material of this name. REFUSED with the nearest name. */
 static status scene_value_read_material(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;
@@ -435,7 +436,7 @@ static status scene_value_read_material(struct reader *r, const struct node *n, 
     return fault_reference(r, n, "material", m[nearest].name);
 }
 
-/* Index of the body of this name. REFUSED with the nearest name. */
+/* Finds the index of the body of this name. REFUSED with the nearest name. */
 static status scene_value_read_body(struct reader *r, const struct node *n, int *index)
 {
     const struct scene *s = r->scene;

@@ -9,7 +9,7 @@
 #include "scene_internal.h"
 
 #define WITHIN_USUAL 0.01
-#define BUDGET_USUAL 300.0 /* [s] */
+#define BUDGET_USUAL 300.0 /* default of accuracy.budget [s] */
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
@@ -39,7 +39,7 @@ static status accuracy_read(struct reader *r, const struct node *root, struct pi
 
 /* ---- the scene with a provisional method ------------------------------------------------------------------------- */
 
-/* Has a material of the scene this key? */
+/* Returns true if a material of the scene has this key. */
 static bool material_key(const struct node *root, const char *key)
 {
     const struct node *one = node_find(root, "material"), *many = node_find(root, "materials");
@@ -48,8 +48,8 @@ static bool material_key(const struct node *root, const char *key)
     return has;
 }
 
-/* Reads the scene with stand-ins for what pilot runs choose, which contradict no other key. spacing: [m], where the
- * scene gives none. */
+/* Reads the scene with provisional values for the choices of the pilot runs; these values contradict no other key.
+ * spacing: for a scene without one [m]. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
                                real spacing)
 {
@@ -75,14 +75,14 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     return read;
 }
 
-/* Reads the scene as adaptive, or as pd where adaptive is refused, as it is for bodies that are joined. */
+/* Reads the scene with method adaptive, or with pd if adaptive is refused, as it is for joined bodies. */
 static status provisional_read_any(struct reader *r, const char *text, size_t length, struct scene *s, real spacing)
 {
     const status read = provisional_read(r, text, length, s, "adaptive", spacing);
     return read == REFUSED ? provisional_read(r, text, length, s, "pd", spacing) : read;
 }
 
-/* Reads the scene at its own spacing, or at one that suits its lengths, which are known from a reading at 1 m. */
+/* Reads the scene at its own spacing, or at one that suits its lengths, which follow from a first reading at 1 m. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
 {
     TRY(provisional_read_any(r, text, length, s, 1));

@@ -1,4 +1,4 @@
-/* Words of command lines by the grammar of scenes. */
+/* Reads words of command lines by the grammar of scenes. */
 #include "scene/words.h"
 
 #include "base/edit_distance.h"

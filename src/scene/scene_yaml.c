@@ -97,7 +97,7 @@ static status fault_at(struct parse *p, yaml_mark_t mark, const char *what)
     return fault_mark(p->r, p->origin, (int)mark.line + 1, (int)mark.column + 1, "%s", what);
 }
 
-/* Line and column of a byte offset: faults of the encoding come with an offset only. */
+/* Returns the line and column of a byte offset, since faults of the encoding have an offset only. */
 static yaml_mark_t mark_of_offset(const struct parse *p, size_t offset)
 {
     yaml_mark_t mark = {0};
@@ -128,8 +128,8 @@ static status next_event(struct parse *p, yaml_event_t *event)
     return fault_at(p, mark, "more than 1000000 YAML events; long data belong into a particle list");
 }
 
-/* Complaint about an event that a scene may not use: features by which one text stands for another, NUL characters,
- * deep nesting; NULL: none. */
+/* Returns the fault of an event that a scene cannot contain: aliases, anchors and tags, NUL characters, deep
+ * nesting; NULL: none. */
 static const char *event_refusal(const yaml_event_t *e, int depth)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;

@@ -1,4 +1,4 @@
-/* Spacings that suit the lengths of a scene. */
+/* Chooses spacings from the lengths of a scene. */
 #include "scene/spacings.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ struct lengths {
     real of[LENGTHS_MOST];
 };
 
-/* Extent along an axis of the box that a body begins with [m]; 0: it begins with another solid. */
+/* Returns the extent along an axis of the box that is the first solid of a body [m]; 0 if the first solid is no box. */
 static real box_extent(const struct scene *s, int body, int axis)
 {
     const struct region *shape = &s->body[body].shape;
@@ -59,10 +59,10 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
     }
 }
 
-/* Relative tolerance of lengths, which have few digits in scenes. */
+/* Relative tolerance of lengths: scenes give them with few digits. */
 #define DIGITS 1e-6
 
-/* Least whole number of spacings <= h in a length. */
+/* Returns the least number of equal spacings <= h in a length. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
 static bool length_divides(real unit, real length)
@@ -71,8 +71,8 @@ static bool length_divides(real unit, real length)
     return fabs(count - round(count)) < 1e-6 * count;
 }
 
-/* True if h divides all lengths and, with `even`, 2 h the edges of the body: cells of two spacings end with the
- * body. */
+/* Returns true if h divides all lengths and, with `even`, 2 h divides the edges of the body, so that cells of two
+ * spacings end at its faces. */
 static bool spacing_fits(const struct lengths *l, const struct scene *s, real h, bool even)
 {
     for (int k = 0; k < l->n; k++)
@@ -105,9 +105,10 @@ real spacing_fit(const struct scene *s, real h, bool even)
 #define IN_HOLE 4.0      /* ... in the radius of a hole, a cylinder, a ball */
 #define IN_CRACK 8.0     /* ... in a crack, or from its end to a face */
 #define IN_PULSE 10.0    /* ... in a pulse or a wavelength */
-#define IN_RING 12.5     /* ... in the radius of a ring of a sif probe, which wants 6 */
+#define IN_RING 12.5     /* ... in the radius of a ring of a sif probe, which requires at least 6 */
 #define PARTICLES_MOST 5e4
-static const double particles_usual[] = {0, 200, 3000, 8000}; /* in 1, 2, 3 dimensions, or more where lengths ask */
+static const double particles_usual[] = {0, 200, 3000,
+                                         8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
@@ -122,7 +123,8 @@ static double body_spacing(const struct scene *s, const struct region *shape)
     return least;
 }
 
-/* Returns the distance [m] of X [dim] from the nearest face of the box round the first body on which X is not. */
+/* Returns the distance of X [dim, m] from the nearest face of the bounding box of the first body; faces on which X
+ * is do not count. */
 static double distance_to_face(const struct scene *s, const real *X)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -172,7 +174,7 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing at which the boxes round all bodies have so many particles [m]. */
+/* Returns the spacing at which the bounding boxes of all bodies contain this number of particles [m]. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];
