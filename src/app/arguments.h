@@ -1,4 +1,4 @@
-/* The command line of the commands that read a scene. */
+/* Reads the command line of the commands that read a scene. */
 #ifndef CLEAVE_ARGUMENTS
 #define CLEAVE_ARGUMENTS
 
@@ -14,14 +14,13 @@ struct run_arguments {
     bool resume, overwrite, quiet;
 };
 
-/* The whole number behind an option; REFUSED unless it is from least to most. */
+/* Reads the whole number that follows an option. REFUSED unless it is from least to most. */
 status option_count(int *count, const char *option, const char *text, int least, int most);
-/* Removes an option without value, which this command alone has, from argv wherever it stands. Returns true if it was
- * there. */
+/* Removes an option without a value, specific to one command, from argv. Returns true if argv contained it. */
 bool arguments_take(int *argc, char **argv, const char *option);
-/* argv[0]: the command. REFUSED with the usage line for malformed words. */
+/* Reads the words of a command; argv[0] is its name. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
-/* `key=value` behind -s, into a->override, which has room. */
+/* Appends the text `key=value` of an option -s to a->override, which must have memory for it. */
 status arguments_override(struct run_arguments *a, const char *text);
 void arguments_free(struct run_arguments *a);
 

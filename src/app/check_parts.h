@@ -1,4 +1,5 @@
-/* The parts of `cleave check`: the measured cost of a run, and advice. */
+/* Declares the parts of `cleave check`: the measured cost of a run, descriptions and advice. Functions say_* print to
+ * standard output, functions advise_* write lines with remarks to a file. */
 #ifndef CLEAVE_CHECK_PARTS
 #define CLEAVE_CHECK_PARTS
 
@@ -9,9 +10,9 @@
 
 /* ---- check_cost.c ------------------------------------------------------------------------------------------------ */
 
-/* Basis of the time of a run. TRIED: all of its steps. SCALED: its first steps, times the ratio of all steps to the
- * first ones in the same scene with larger particles. FIRST: its first steps alone, too little where many particles
- * convert. */
+/* Basis of the estimated run time. TRIED: all steps, measured. SCALED: the first steps, times the ratio of all steps to
+ * the first ones in an equal scene with larger particles. FIRST: the first steps alone, an underestimate if many
+ * particles convert. */
 enum cost_basis { COST_TRIED, COST_SCALED, COST_FIRST };
 
 /* Quartiles of measured times [s]. */
@@ -19,6 +20,7 @@ struct quartiles {
     double lower, median, upper;
 };
 
+/* Estimated cost of a run; times are processor time of one thread. */
 struct cost {
     double make;        /* from the scene to step 0; by the caller [s] */
     double step;        /* a first step, samples included, whole body active; static: an iteration;
@@ -32,10 +34,10 @@ struct cost {
     real overload,
         overload_at; /* largest ratio of stretch to critical stretch of the intact body [1]; its pseudo-time [s] */
     enum cost_basis basis;
-    double coarser, growth; /* SCALED: factor on the spacing; all steps over first ones [1] */
-    double all_peridynamic; /* a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
+    double coarser, growth; /* SCALED: factor on the spacing; time of all steps over that expected from the first [1] */
+    double all_peridynamic; /* time of a run with all particles peridynamic [s]; NAN: not adaptive, or too large */
     double bytes;           /* peak memory of a run without conversion [byte] */
-    struct warnings found;  /* by the trial steps of this scene, of all of them if they were taken */
+    struct warnings found;  /* warnings of the trial steps of this scene */
 };
 
 /* Estimates the cost of a run by trial steps with the current team. a: arguments of the scene, by which other scenes
@@ -94,6 +96,8 @@ void advise_sections(const struct run *e, FILE *out);
 struct length_text {
     char text[32];
 };
+
+/* Returns a length [m] as text with `digits` digits, in the largest unit in which the spacing [m] is not below 0.1. */
 struct length_text length_in_words(real length, int digits, real spacing);
 
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
@@ -111,12 +115,12 @@ void say_filled(const struct run *e);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
-/* Writes a line for each part of the scene that limits its accuracy: what, by how much, and what to do. The run has
- * taken no step. */
+/* Writes a line for each part of the scene that limits its accuracy, with the size of the error and a remedy. The run
+ * has taken no step. */
 void advise(const struct run *e, FILE *out);
 
-/* Adds a line for each part of the scene that costs more than it has to, and for ends of cracks that lie on bonds. The
- * run has taken no step. */
+/* Adds a line for each setting of the scene that costs more than necessary, and for ends of cracks that are exactly on
+ * bonds. The run has taken no step. */
 void hints_find(const struct run *e, struct warnings *to);
 
 /* Returns the error of the stiffness of a part of some layers of particles in bending, twisting and tension [%].

@@ -1,5 +1,5 @@
-/* The commands of the program. Arguments: the words after `cleave`, the name of the command first. The return value is
- * the exit status; for any but OK status_message gives the reason. */
+/* Declares the commands of the program. The arguments of a command are the words after `cleave`, with its name first.
+ * The return value is the exit status; unless it is OK, status_message returns the reason. */
 #ifndef CLEAVE_COMMANDS
 #define CLEAVE_COMMANDS
 
@@ -8,8 +8,8 @@
 
 #include "base/base.h"
 
-/* `words`: the form of the arguments, from which usage, manual and completion are made: names in capitals stand for
- * values, an option is followed by the one that it takes. */
+/* A command. words: the form of its arguments, from which usage, manual and completion are made. Names in capitals
+ * denote values; an option is followed by its value. */
 struct command {
     const char *name, *words, *meaning;
     status (*call)(int argc, char **argv);
@@ -17,7 +17,7 @@ struct command {
 extern const struct command commands[];
 extern const int commands_count;
 
-/* Forms of commands that say them when a word is wrong, too. */
+/* Forms of arguments that commands also print when a word is wrong. */
 #define CHECK_WORDS "SCENE [-s KEY=VALUE]... [-t THREADS] [--no-trial]"
 #define SWEEP_WORDS                                                                                                    \
     "SCENE -s KEY=VALUE,...|FROM:TO:STEP... [-o DIR] [-j RUNS] [-t THREADS] [--list] [--collect] [--overwrite] [-q]"
@@ -43,24 +43,28 @@ status command_export(int argc, char **argv);
 status command_help(int argc, char **argv);
 status command_info(int argc, char **argv);
 
-/* The command of this name. REFUSED with the nearest name. */
+/* Finds the command of this name. REFUSED with the nearest name in the message. */
 status command_find(const char *name, const struct command **found);
 
-/* From the first call on signals that ask the program to end set what this returns; the second interrupt ends it at
- * once. */
+/* Installs handlers for signals that request the end of the program. Returns the flag that they set; a second interrupt
+ * ends the program at once. */
 const volatile sig_atomic_t *stop_signals(void);
 
 /* Sets the commit of the source tree that `cleave --version` and `cleave info` print; "" (the initial value): none is
- * printed. `name` is kept by reference. Only the program's main file knows the commit, so that no test is linked anew
- * when it changes. */
+ * printed. `name` is kept by reference. Only the program's main file contains the commit, so that a new commit does not
+ * relink the tests. */
 void version_commit(const char *name);
 
 /* Prints one line: version and commit. */
 void version_print(FILE *out);
 
-/* `cleave --help` and `cleave COMMAND --help`. */
+/* Prints `cleave --help`. */
 void usage_print(FILE *out);
+
+/* Prints `cleave COMMAND --help`. */
 void usage_print_of(FILE *out, const struct command *c);
+
+/* Returns true for -h and --help. */
 static inline bool wants_help(const char *word)
 {
     return (word[0] == '-' && word[1] == 'h' && !word[2]) || __builtin_strcmp(word, "--help") == 0;
@@ -79,13 +83,15 @@ status manual_run_print(FILE *out);
 /* Prints the manual page cleave.1 (troff). */
 status manual_print(FILE *out);
 
-/* The schema of scenes beside the program, installed or built; false: it is not there (schema_path.c). */
+/* Finds the JSON schema of scenes of the program, installed or built, and writes its path to path[room]. Returns false
+ * if there is none (schema_path.c). */
 bool schema_path(char *path, size_t room);
 
-/* The kinds of `cleave new`, with blanks between them. */
+/* Prints the kinds of `cleave new`, separated by blanks. */
 void new_kinds_print(FILE *out);
 
-/* Completion of commands, options, keys and words for `bash` or `zsh`, as a script. REFUSED for another shell. */
+/* Prints a script that completes commands, options, keys and words in the shell `bash` or `zsh`. REFUSED for another
+ * shell. */
 status completion_print(FILE *out, const char *shell);
 
 #endif

@@ -1,10 +1,10 @@
-/* Runs of LAMMPS, for `cleave compare`. */
+/* Reads runs of LAMMPS for `cleave compare`. */
 #ifndef CLEAVE_COMPARE_LAMMPS
 #define CLEAVE_COMPARE_LAMMPS
 
 #include "output/output.h"
 
-/* Does the folder hold a run of LAMMPS, as `cleave export lammps` writes it? */
+/* Returns true if the folder contains a run of LAMMPS that `cleave export lammps` has set up. */
 bool lammps_run_holds(const char *folder);
 
 /* Lists the frames of a run of LAMMPS, as frames_list does. */
