@@ -1,4 +1,4 @@
-/* The command line of the commands that read a scene. */
+/* Reads the command line of the commands that read a scene. */
 #include "arguments.h"
 
 #include <stdlib.h>
@@ -18,7 +18,7 @@ status arguments_override(struct run_arguments *a, const char *text)
     return OK;
 }
 
-/* A whole number from least to most; false: it is none. */
+/* Reads a whole number. Returns false unless the text is a number from least to most. */
 static bool count_read(int *count, const char *text, int least, int most)
 {
     char *end;

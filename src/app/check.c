@@ -37,7 +37,7 @@ static void say_frames(const struct run *e)
                (long long)e->frame->mesh.points);
 }
 
-/* Names of the first few bodies from one to end, joined ones as a+b, and how many more there are. */
+/* Prints the names of the first few bodies from `from` to end, joined ones as a+b, and the number of further bodies. */
 static void say_names(const struct scene *s, int from, int end)
 {
     enum { NAMED = 6 };
@@ -53,7 +53,7 @@ static void say_names(const struct scene *s, int from, int end)
     if (n > NAMED) printf(" and %d more", n - NAMED);
 }
 
-/* Which peridynamic particles meet, and by which law. */
+/* Prints between which peridynamic particles contact acts, and its law. */
 static void say_contact_of_bonds(const struct scene *s)
 {
     if (s->contact_between == CONTACT_NONE && s->rigids == 0) return;
@@ -132,7 +132,7 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Basis of the estimated run time. */
+/* Prints the basis of the estimated run time. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -165,7 +165,7 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Range of the factors on the strength of a material. */
+/* Prints the range of the random factors on the strength of a material. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;
@@ -197,8 +197,8 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up
- * [s]. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
+/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up [s]. The engine
+ * cannot be used afterwards. FAILED if one of the first steps fails. */
 static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made)
 {
     struct cost cost = {.make = made};
@@ -212,8 +212,9 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Sets up the scene, prints what it resolves and needs, and its cost unless `trial` is false. start: of the reading of
- * the scene, on team_thread_clock [s]. REFUSED or FAILED if the set-up or a trial step is. */
+/* Sets up the scene, prints its resolved settings and its memory, and its cost unless `trial` is false. start: time
+ * at which the reading of the scene began, on team_thread_clock [s]. REFUSED or FAILED if the set-up or a trial step
+ * is. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};

@@ -25,12 +25,12 @@
 #define REACHED 4 /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
-#define BESIDE_FACE 1.5                        /* distance at which a probe is at a face [spacings] */
-#define AROUND 3                               /* spacings about a probe in which its face is looked at */
-#define ALONG_AXIS 0.999                       /* component of a normal from which on a face is along the axes */
-enum { PULL_MOMENTS = 100, PULL_PLACES = 64 }; /* times, and particles of a support, that are looked at */
-#define ON_MIRROR 1e-6                         /* distance of a face that lies on a plane of symmetry [spacings] */
-/* time per bond and step [ns]: 2D, 3D */
+#define BESIDE_FACE 1.5  /* largest distance at which a probe counts as at a face [spacings] */
+#define AROUND 3         /* distance around a probe within which its face is searched [spacings] */
+#define ALONG_AXIS 0.999 /* least component of a normal for which a face counts as aligned with the axes */
+enum { PULL_MOMENTS = 100, PULL_PLACES = 64 }; /* numbers of times, and of particles of a support, that are evaluated */
+#define ON_MIRROR 1e-6                         /* largest distance of a face on a plane of symmetry [spacings] */
+/* Time per bond and step by model, in 2D and 3D [ns]. */
 static const real bond_ns[][3] = {
     [MODEL_BOND] = {0.44, 0.55}, [MODEL_OSPD] = {0.75, 0.86}, [MODEL_MOSPD] = {1.05, 2.2}};
 
@@ -38,7 +38,8 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Edge of a box along d with its images beyond planes of symmetry [m]; INFINITY: it lies between two of them. */
+/* Returns the edge of a box along d, with its mirror images at planes of symmetry [m]; INFINITY if it is between two
+ * of them. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -59,9 +60,9 @@ real solid_size(const struct run *e, const struct solid *a)
     return real_min(least, solid_width(a, e->scene->dim));
 }
 
-/* How far the stiffness of a part made of bonds and families is off in bending, twisting and stretching, by its layers,
- * the worst of the three [%]: in the plane, in space, at horizons of 3.015 spacings and Poisson's ratios up to 1/3.
- * The first row is of all thinner ones, the last of all thicker ones. */
+/* Largest relative error of the stiffness in bending, twisting and stretching of a part made of bonds or families,
+ * by its number of layers [%]: in 2D, in 3D, for horizons of 3.015 spacings and Poisson's ratios up to 1/3. The
+ * first row applies to all thinner parts, the last to all thicker ones. */
 static const struct {
     double layers;
     int bonds[2], rotating[2], uncorrected[2];
@@ -70,7 +71,8 @@ static const struct {
                    {5, {2, 12}, {10, 30}, {28, 48}},
                    {7, {2, 8}, {3, 12}, {23, 39}},
                    {10, {2, 6}, {2, 4}, {17, 31}}};
-#define USUAL_HORIZON 0.5 /* spacings from 3.015 within which these hold */
+#define USUAL_HORIZON                                                                                                  \
+    0.5 /* largest difference of the horizon from 3.015 spacings for which the table applies [spacings] */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
@@ -97,7 +99,8 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
-/* Parts of bodies thinner than FEATURE horizons. What a shape subtracts cuts bonds and cells, however thin it is. */
+/* Writes a line for parts of bodies thinner than FEATURE horizons. Subtracted solids cut bonds and cells, however
+ * thin they are. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -115,7 +118,7 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Is this end of a pre-crack a tip, as the body goes on there? */
+/* Returns true if an end of a pre-crack is a tip, with material of the body ahead of it. */
 static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
     const struct tips *t = &fracture->tips;
@@ -124,7 +127,7 @@ static bool is_tip(const struct fracture_state *fracture, const real *end)
     return false;
 }
 
-/* Share of a crack that lies in bodies. */
+/* Returns the share of the length of a crack that is inside bodies. */
 static real share_within(const struct scene *s, const real *from, const real *to)
 {
     enum { PLACES = 1000 };
@@ -139,8 +142,8 @@ static real share_within(const struct scene *s, const real *from, const real *to
     return (real)within / PLACES;
 }
 
-/* Cracks whose two tips are not FEATURE horizons apart. What comes from a face or a plane of symmetry is half of a
- * crack of twice the length. */
+/* Writes a line for cracks whose tips are less than FEATURE horizons apart. A crack that begins at a face or a plane
+ * of symmetry is half of a crack of twice the length. */
 static void advise_cracks(const struct scene *s, const struct fracture_state *fracture, FILE *out)
 {
     for (int k = 0; k < s->cracks && s->method != METHOD_MPM && s->dim == 2; k++) {
@@ -162,8 +165,8 @@ static void advise_cracks(const struct scene *s, const struct fracture_state *fr
     }
 }
 
-/* Is place X at a face of a shape that is curved or slanted: does its normal there, or some spacings beside X, differ
- * from all axes? */
+/* Returns true if X is at a curved or slanted face of a shape: the normal at X, or some spacings from X, is along no
+ * axis. */
 static bool at_stepped_face(const struct scene *s, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0};
@@ -179,8 +182,8 @@ static bool at_stepped_face(const struct scene *s, const struct region *shape, c
     return stepped;
 }
 
-/* Point probes of stress at curved or slanted faces: measured with the elliptic membrane LE1 of NAFEMS, 20 to 80 points
- * across. */
+/* Writes a line for point probes of stress at curved or slanted faces. The error was measured with the elliptic
+ * membrane LE1 of NAFEMS, with 20 to 80 points across. */
 static void advise_faces(const struct scene *s, FILE *out)
 {
     for (int k = 0; k < s->probes && s->method != METHOD_PD && s->dim > 1; k++)
@@ -196,13 +199,13 @@ static void advise_faces(const struct scene *s, FILE *out)
         }
 }
 
-/* Rise time of a pulse or ramp [s]; INFINITY for other functions of time. */
+/* Returns the rise time of a pulse or ramp [s]; INFINITY for other functions of time. */
 static real rise_time(const struct time_function *f)
 {
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
 }
 
-/* Loads and pulses shorter than WAVE spacings. */
+/* Writes a line for loads and pulses shorter than WAVE spacings. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
     for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
@@ -223,7 +226,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
                 length_in_words(s->initial[k].pulse.width / WAVE, 2, s->spacing).text);
 }
 
-/* Bodies that collide so fast that the ringing of the front may break or yield them. */
+/* Writes a line for bodies that collide so fast that oscillations behind the wave front can break or yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
     const struct shock shock = shock_expected(s);
@@ -236,7 +239,7 @@ static void advise_shocks(const struct scene *s, FILE *out)
             shock.speed, shock.share);
 }
 
-/* Coarse cells that the scene gives and that do not carry its loads. */
+/* Writes a line for coarse cells of the scene in which its loads act. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -244,14 +247,14 @@ static void advise_levels(const struct run *e, FILE *out)
     if (frame_levels_coarse(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
-/* Body of a particle; joined ones are one. */
+/* Returns the index of the body of a particle; joined bodies have one index. */
 static int body_of(const struct scene *scene, const struct particles *part, int32_t i)
 {
     return scene->body[part->body[i]].joined;
 }
 
-/* Number of pairs of a body's particles near a crack's end, within their horizon, that the crack cuts if longer by 1e-7
- * of its length and does not cut if shorter by as much. */
+/* Returns the number of pairs of a body's particles near the end of a crack, within their horizon, that the crack
+ * cuts if it is longer by 1e-7 of its length and does not cut if it is shorter by as much. */
 static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int room)
 {
     const struct particles *p = &e->part;
@@ -276,7 +279,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     return tied;
 }
 
-/* Adds a hint for each pre-crack whose ends lie exactly on bonds. */
+/* Adds a hint for each pre-crack whose ends are exactly on bonds. */
 static void hint_ties(const struct run *e, struct warnings *to)
 {
     enum { ROOM = 1024 };
@@ -295,7 +298,7 @@ static void hint_ties(const struct run *e, struct warnings *to)
     }
 }
 
-/* Formulas without a value at some time of the run. */
+/* Writes a line for formulas without a value at some time of the run. */
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
@@ -305,7 +308,8 @@ static void advise_formulas(const struct run *e, FILE *out)
     }
 }
 
-/* Widens the span of displacements along d by those of what a support drives, at time t [m]. */
+/* Extends the range low..high of displacements along d by the displacements of particles that a support drives, at
+ * time t [m]. */
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
@@ -317,7 +321,8 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
     }
 }
 
-/* Finds unintended separation: points of the current frame that are pulled more than a cell apart share no nodes. */
+/* Writes a line for unintended separation: points of the current frame that are pulled more than a cell apart have
+ * no common nodes. */
 static void advise_separation(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -342,7 +347,7 @@ static void advise_separation(const struct run *e, FILE *out)
 
 /* ---- parts that are not needed ----------------------------------------------------------------------------------- */
 
-/* Adds a hint where a state-based model has the Poisson's ratio of bonds. */
+/* Adds a hint if a state-based model has the Poisson's ratio of the bond-based model. */
 static void hint_model(const struct scene *s, struct warnings *to)
 {
     const real wanted = material_bond_poisson(s->space);
@@ -355,8 +360,8 @@ static void hint_model(const struct scene *s, struct warnings *to)
                  s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Largest stress that the speeds and tractions of boundaries and initial states can make [Pa]; INFINITY: unknown, with
- * body forces, tables in time, or waves that add up. */
+/* Returns the largest stress that the speeds and tractions of boundaries and initial states can cause [Pa]; INFINITY
+ * if it is unknown: with body forces, tables in time, or waves that add up. */
 static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -383,7 +388,7 @@ static real stress_reached(const struct run *e)
     return REACHED * (density * e->tables.wave_speed * sqrt(speed2) + traction) + e->probing->strain_stress;
 }
 
-/* Adds a hint for bodies in the current frame that the reference frame could hold. */
+/* Adds a hint for bodies in the current frame for which the reference frame is possible. */
 static void hint_frame(const struct run *e, struct warnings *to)
 {
     const real reached = stress_reached(e);
@@ -411,8 +416,8 @@ static bool has_notch(const struct scene *s)
     return notch;
 }
 
-/* Adds a hint where no bond of a peridynamic method can break, and nothing meets rigid bodies, which material points
- * cannot. */
+/* Adds a hint if a peridynamic method is used although no bond can break. Contact with rigid bodies is an exception,
+ * since material points do not support it. */
 static void hint_method(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;

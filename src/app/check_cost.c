@@ -1,7 +1,7 @@
-/* Estimates the cost of a run from trial steps, in processor time of one thread: what other programs compute meanwhile
- * does not count, and a team on cores of its own takes as long on the clock. A short run is tried as a whole. Of a long
- * run the first steps are timed with the whole body active; the effect of inactive parts, conversion and reference runs
- * is that in the same scene with larger particles, tried as a whole. */
+/* Estimates the cost of a run from trial steps, in processor time of one thread: time of other programs does not
+ * count, and a team with a core per thread takes the processor time as wall-clock time. A short run is tried as a
+ * whole. Of a long run the first steps are timed with the whole body active; the effect of inactive parts,
+ * conversion and reversion is measured in an equal scene with larger particles, which is tried as a whole. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -21,21 +21,21 @@
 enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define SECONDS_ENOUGH 0.15
 #define SECONDS_MOST 1.0
-#define SECONDS_WHOLE 1.5          /* of a trial of a whole run [s]                                     */
-#define PATIENCE 3.0               /* factor on it, for conversion or a busy machine                    */
-#define WALL_MOST 60.0             /* wall clock of it [s]                                               */
-#define COARSER_MOST 4.0           /* factor on the spacing: a body still breaks in about the same places */
-#define FRAME_BYTES 72             /* per particle: copy for the writer, its room, order                */
-#define PARTS_BYTES 56             /* ... more where there are bonds: parts of a broken body, damage    */
-#define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: itself 2.1 MB, its room for conversions 2 MB, */
+#define SECONDS_WHOLE 1.5          /* time of a trial of a whole run [s] */
+#define PATIENCE 3.0               /* factor on SECONDS_WHOLE, for conversion or a busy machine */
+#define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */
+#define COARSER_MOST 4.0           /* factor on the spacing up to which a body breaks in about the same positions */
+#define FRAME_BYTES 72             /* per particle: copy for the writer, its buffer, the sort order */
+#define PARTS_BYTES 56             /* ... in addition with bonds: fragments of a broken body, damage */
+#define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: 2.1 MB of code and data, 2 MB of conversion buffers, */
                                    /* the file of all frames 1.1 MB                                     */
-#define START_SECONDS 0.02         /* of a process: its start, the summary                              */
-#define FILE_SECONDS 4e-3          /* per frame, checkpoint or profile, of any size; measured, as the next: */
+#define START_SECONDS 0.02         /* of a process: its start and the summary */
+#define FILE_SECONDS 4e-3          /* per frame, checkpoint or profile of any size; both values are measured: */
 #define FILE_SECONDS_PARTICLE 8e-8 /* 0.25 ms to 26 ms a frame for 160 to 320,000 particles             */
-#define BONDS_MOST 2e8             /* of a body tried with all particles peridynamic                    */
-#define BONDS_TRIED 2e7            /* of one with larger particles that stands for it                    */
+#define BONDS_MOST 2e8             /* of a body that is tried with all particles peridynamic */
+#define BONDS_TRIED 2e7            /* of a coarser body that is tried in its place */
 
-/* Quartiles of measured times, which are sorted here; the median is the one in the middle. */
+/* Returns the quartiles of n measured times, which are sorted in place. */
 static struct quartiles quartiles_of(double *spent, int n)
 {
     const double median = median_of(spent, n);
@@ -69,7 +69,7 @@ static status time_steps(struct run *e, struct quartiles *step)
     return OK;
 }
 
-/* Median time of one evaluation of bond forces [s]. */
+/* Returns the median time of one evaluation of bond forces [s]. */
 static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -82,7 +82,7 @@ static double time_force(struct run *e)
     return median_of(spent, n);
 }
 
-/* Time of contact in a step, where it stands [s]. */
+/* Returns the time of contact in a step in the present state [s]. */
 static double time_contact(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -99,8 +99,8 @@ static double time_contact(struct run *e)
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
-/* Makes scene and engine with one more override (key NULL: none); the caller frees both in any case. rest: keep
- * inactive parts. */
+/* Creates scene and engine with one more override (key NULL: none); the caller releases both, also on failure. rest:
+ * keep inactive parts. */
 static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
@@ -114,7 +114,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     return engine_make(e, s, NULL);
 }
 
-/* Processor time of all steps [s]; NAN if they fail or take far longer than expected. */
+/* Returns the processor time of all steps [s]; NAN if they fail or take far longer than expected. */
 static double all_steps(struct run *e)
 {
     const double start = team_thread_clock(), began = team_clock();
@@ -129,8 +129,8 @@ static double all_steps(struct run *e)
     return engine_baseline(e) == OK ? team_thread_clock() - start : NAN;
 }
 
-/* Time of all steps of another scene [s]: measured where `whole`, else extrapolated from the first steps; NAN:
- * unknown. found: takes the warnings of its steps, if not NULL. */
+/* Returns the time of all steps of another scene [s]: measured if `whole`, else extrapolated from the first steps;
+ * NAN if unknown. found: receives the warnings of its steps; NULL: ignored. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -150,8 +150,8 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Time of all steps over that expected from the first ones, in the same scene with larger particles; NAN: unknown.
- * first: expected time of this scene [s]. */
+/* Returns the time of all steps over the time expected from the first ones, measured in an equal scene with larger
+ * particles [1]; NAN if unknown. first: expected time of this scene [s]. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -167,27 +167,27 @@ static double growth_of(struct cost *c, const struct scene *s, const struct run_
 
 /* ---- the estimate ------------------------------------------------------------------------------------------------ */
 
-/* Neighbours of a particle inside the body, by the volume of a full family. */
+/* Returns the number of neighbours of a particle inside the body, from the volume of a full family. */
 static double family_size(const struct family *f) { return f->full / f->cell_volume; }
 
-/* Time of output [s]: frames, the initial one and two checkpoints included. */
+/* Returns the time of output [s], with the initial frame and two checkpoints. */
 static double output_seconds(const struct run *e)
 {
     double files = (double)(e->scene->frames < e->clock.steps ? e->scene->frames : e->clock.steps) + 3;
-    for (int k = 0; k < e->scene->n_series; k++) /* of regions: of each, all particles are brought up to date */
+    for (int k = 0; k < e->scene->n_series; k++) /* all particles are updated for each frame of a region */
         files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
     return START_SECONDS + files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
                                     FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
 }
 
-/* Factors below and above the time of a run between which it is, by the basis of that time: measured, as scenes of all
- * kinds take (tests/scenes/long_forecast.sh). */
+/* Factors from the estimated time of a run to its bounds, by the basis of the estimate. The values are empirical,
+ * from scenes of all kinds (tests/scenes/long_forecast.sh). */
 static const struct {
     double below, above;
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
 #define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
 
-/* Time and basis of the whole run. */
+/* Sets the time and the basis of the whole run. */
 static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
                      const struct run_arguments *a)
 {
@@ -196,7 +196,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     struct warnings found = {0};
     if (first < PATIENCE * SECONDS_WHOLE) loop = try_other(a, NULL, NULL, true, &found);
     c->basis = COST_TRIED;
-    if (!isnan(loop)) { /* those of the first steps are among them, perhaps at a time that differs in its last digits */
+    if (!isnan(loop)) { /* includes the warnings of the first steps, whose time may differ in the last digits */
         warnings_free(&c->found);
         warnings_join(&c->found, &found, 0);
     }
@@ -211,7 +211,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Time of a step over its number of particles [s], all of them peridynamic and larger; NAN: unknown. */
+/* Returns the time of a step per particle with all particles peridynamic and larger [s]; NAN if unknown. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};
@@ -232,7 +232,8 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* A run with all particles peridynamic: by its first steps, or of too many bonds by those of larger particles. */
+/* Sets the time of a run with all particles peridynamic from its first steps, or from those of larger particles if
+ * there are too many bonds. */
 static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const struct scene *s = e->scene;
@@ -259,7 +260,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
     c->all_peridynamic = NAN;
     e->warnings.silent = true;
     if (scene_in_steps(e->scene)) {
-        c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* a checkpoint after each load step */
+        c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
         const status result = cost_load_steps(c, e);
         warnings_join(&c->found, &e->warnings, known);
         TRY(result);
@@ -267,7 +268,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
         return OK;
     }
     if (scene_at_rest(e->scene)) {
-        /* conjugate gradients difference forces centrally: two evaluations per iteration (solver_tangent) */
+        /* conjugate gradients use central differences of forces: two evaluations per iteration (solver_tangent) */
         c->step = (e->scene->solver == SOLVER_CG ? 2 : 1) * time_force(e);
         c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;

@@ -1,4 +1,4 @@
-/* How much of each cell of a body's lattice its shape covers, beside whether a particle fills it. */
+/* Computes the share of each lattice cell that the shape of a body covers, and whether a particle fills the cell. */
 #include "check_cover.h"
 
 #include <math.h>
@@ -6,8 +6,10 @@
 #include "base/memory.h"
 #include "scene/fill.h"
 
-#define CELLS_MOST 6e6 /* of the box round a body: larger ones take too long */
-enum { PLACES = 64 };  /* within a cell that a face crosses; parts of several cells are known by more */
+#define CELLS_MOST 6e6 /* largest number of cells of the bounding box of a body; more take too long */
+enum {
+    PLACES = 64
+}; /* points sampled in a cell that a face crosses; sampling errors average out over a part of several cells */
 
 bool piece_contains(const struct piece *p, const real *X, real tolerance)
 {
@@ -16,7 +18,8 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
 }
 
-/* Can points of a piece be within a distance of X? False for what the parts leave of the body's own material. */
+/* Returns true if points of a piece can be within a distance of X. Returns false for the remainder of a body outside
+ * its parts of other materials. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -66,8 +69,8 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
-/* Does a face cross a cell, as far as its neighbours tell? They are filled and it is not, or the other way round; or
- * there are none, and the shape comes near. */
+/* Returns true if a face seems to cross a cell: its neighbours are filled and the cell is not, or vice versa; or
+ * there are no neighbours, and the shape is near. */
 static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
@@ -89,7 +92,7 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Can a cell that a face crosses have several? It stands alone along an axis, or between two others, or beside none. */
+/* Returns true if several faces can cross a cell: it has no neighbours along an axis, or is between two faces. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
@@ -104,7 +107,7 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Is a solid a surface from a file, of which places are dear? */
+/* Returns true if a solid is a surface from a file, for which each point is expensive to test. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;
@@ -115,7 +118,7 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Share of a cell behind a plane face at the distance and with the normal of the shape's in its middle. */
+/* Returns the share of a cell behind a plane face, from distance and normal of the shape at the centre of the cell. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;
@@ -125,8 +128,8 @@ static real share_behind(const struct cover *c, const struct region *shape, cons
     return share < 0 ? 0 : share > 1 ? 1 : share;
 }
 
-/* Share of a cell by places of a Weyl sequence (Roberts' constants), which begins elsewhere in each cell. plane: one
- * face crosses it. */
+/* Returns the share of a cell that is inside, from the points of a Weyl sequence (Roberts' constants) with a
+ * different start in each cell. plane: one face crosses the cell. */
 static real share_within_cell(const struct cover *c, const struct piece *p, int64_t cell, bool plane)
 {
     static const real step[][DIM_MAX] = {{0.7548776662466927, 0.5698402909980532},

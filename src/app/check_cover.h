@@ -1,33 +1,33 @@
-/* Share of each lattice cell that a body, or the part of it that is of one material, covers (check_cover.c). */
+/* Computes the share of each lattice cell that a body, or its part of one material, covers (check_cover.c). */
 #ifndef CLEAVE_CHECK_COVER
 #define CLEAVE_CHECK_COVER
 
 #include "scene/scene.h"
 
-/* The points of a body, or those of one of its materials. */
+/* A body, or its part of one material. */
 struct piece {
     const struct scene *scene;
     int body, material; /* index into scene.material; ANY_MATERIAL: the whole body */
 };
 enum { ANY_MATERIAL = -1 };
 
-/* Does the piece contain X? The shape of the body is grown by `tolerance` [m]. */
+/* Returns true if the piece contains X [m]. The shape of the body is enlarged by `tolerance` [m]. */
 bool piece_contains(const struct piece *p, const real *X, real tolerance);
 
-/* Computes a box round the piece [m]. Returns false if the piece has no end, or no point of it is known. */
+/* Computes a bounding box of the piece [m]. Returns false if the piece is unbounded, or has no known point. */
 bool piece_bounds(const struct piece *p, real from[DIM_MAX], real to[DIM_MAX]);
 
-/* Lattice cells of the box round a piece, each about the position of a particle; x varies fastest. */
+/* Lattice cells of the bounding box of a piece, one per particle position; x varies fastest. */
 struct cover {
     int dim;
     int64_t n[DIM_MAX], cells;
-    real first[DIM_MAX], spacing; /* place of cell 0 [m] */
-    float *share;                 /* [cells] that lies in the shape [1] */
-    uint8_t *filled;              /* [cells] does a particle stand there? */
+    real first[DIM_MAX], spacing; /* centre of cell 0, edge of a cell [m] */
+    float *share;                 /* [cells] share of the cell inside the shape [1] */
+    uint8_t *filled;              /* [cells] true if a particle is in the cell */
 };
 
-/* Computes the cells of a piece. Returns false, with nothing to free, for bodies in a line or from a list, for pieces
- * without an end, and for more cells than are quick to compute. */
+/* Computes the cells of a piece. Returns false, with nothing to release, for bodies in 1D or from a list, for
+ * unbounded pieces, and for more cells than can be computed quickly. */
 bool cover_make(struct cover *c, const struct piece *p);
 void cover_place(const struct cover *c, int64_t cell, int64_t *at);
 void cover_free(struct cover *c);

@@ -1,29 +1,30 @@
-/* What `face` of a load or support holds beside what its author may mean: all that the body shows along an axis, so
- * slopes and curves, too. Where the body has a shape its normal tells; else how columns of particles beside each other
- * end. */
+/* Compares the particles of a `face` of a load or support with the surfaces normal to its axis. A face consists of
+ * all particles that are visible along the axis, so that it includes slopes and curves. Normals of the shape are
+ * used if the body has one, else the end heights of neighbouring columns of particles. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define ELSEWHERE                                                                                                      \
-    10.0 /* [degrees] between the normal of a surface and the axis of the face: more is another direction */
-#define SHARE_LEAST 0.05  /* of the area, that is worth words: a row at the edge of a slope is less in a face of 20 */
-enum { AWAY = 4 };        /* [columns] over which heights are compared: steps of slopes of 14 degrees and more */
-#define COLUMNS_MOST 16.0 /* places of columns in the box across the axis, over particles of the face */
+#define ELSEWHERE 10.0 /* [degrees] largest angle between the normal of a surface and the axis of an aligned face */
+#define SHARE_LEAST                                                                                                    \
+    0.05 /* least share of the area that is reported; a row at the edge of a slope is less in a face of 20 rows */
+enum { AWAY = 4 }; /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
+#define COLUMNS_MOST                                                                                                   \
+    16.0 /* largest number of columns in the bounding box across the axis, over the number of particles of the face */
 
-/* Ends of columns across the axis of a face, by their places in a box [spacings]. */
+/* End heights of columns of particles along the axis of a face, on a grid across the axis [spacings]. */
 struct ends {
     int axes, axis[DIM_MAX - 1], n[DIM_MAX - 1];
     real low[DIM_MAX - 1];
-    real *height; /* [n] along the axis, outwards [spacings]; NAN: none */
+    real *height; /* [n] height along the axis, outwards [spacings]; NAN: none */
 };
 
-/* What looks elsewhere. */
+/* Areas of the part of a face that is not normal to its axis. */
 struct elsewhere {
-    real area, other, angle; /* of the face; of what looks elsewhere [m^2]; its angle times area [degree m^2] */
-    real aligned, last;      /* what looks along the axis: its ends that lie deepest and farthest out [m] */
+    real area, other, angle; /* of the face; of this part [m^2]; angle times area [degree m^2] */
+    real aligned, last;      /* coordinates of the aligned part along the axis: deepest and outermost end [m] */
 };
 
 static int64_t place_of(const struct ends *c, const real *X, real spacing)
@@ -34,7 +35,7 @@ static int64_t place_of(const struct ends *c, const real *X, real spacing)
     return place;
 }
 
-/* The ends of columns with an area; false where they are too scattered for a table. */
+/* Creates the grid of column heights. Returns false if the columns are too scattered for a table. */
 static bool ends_make(struct ends *c, const struct particles *p, const struct scene *scene, const struct boundary *b,
                       const struct face *f)
 {
@@ -64,8 +65,8 @@ static bool ends_make(struct ends *c, const struct particles *p, const struct sc
     return true;
 }
 
-/* Slope of the ends of columns at a place, along one axis: the lesser of those to both sides, so that a step is none.
- */
+/* Returns the slope of the column heights along one axis: the smaller one of both sides, so that a single step does
+ * not count. */
 static real slope_along(const struct ends *c, int64_t place, int k)
 {
     int64_t stride = 1;
@@ -77,7 +78,7 @@ static real slope_along(const struct ends *c, int64_t place, int k)
     return isnan(after) ? isnan(before) ? 0 : before : isnan(before) || after < before ? after : before;
 }
 
-/* Cosine of the angle between the axis of a face and the surface at particle i, whose cube shows there. */
+/* Returns the cosine of the angle between the axis of a face and the surface at particle i. */
 static real cosine_at(const struct scene *scene, const struct particles *part, const struct boundary *b,
                       const struct ends *c, int64_t i)
 {
@@ -93,7 +94,7 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Adds up the cubes of a face that show from a place along its axis on (-INFINITY: all). */
+/* Sums the areas of a face from a coordinate along its axis on (-INFINITY: all). */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct face *f, const struct ends *c, real from)
 {
@@ -111,7 +112,8 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Where a region would begin that leaves out nearly all that looks elsewhere; INFINITY: no plane does. */
+/* Returns the coordinate from which a region excludes nearly all of the face that is not normal to its axis;
+ * INFINITY if no plane does. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct face *f, const struct ends *c,
                           const struct elsewhere *all)
 {
@@ -123,7 +125,7 @@ static real elsewhere_cut(const struct run *e, const struct boundary *b, const s
     return INFINITY;
 }
 
-/* Do all bodies of a face have a shape whose normals are known? */
+/* Returns true if all bodies of a face have a shape with known normals. */
 static bool has_normals(const struct scene *s, const struct boundary *b)
 {
     bool all = true;

@@ -1,11 +1,12 @@
-/* How well a lattice fills the shapes of bodies: slanting and curved faces are steps of it. */
+/* Compares the volume of the particles of a body with the volume of its shape: a lattice follows slanting and curved
+ * faces in steps. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "check_parts.h"
 
-/* Are all its solids boxes along the axes, whose volume the spacing tells? */
+/* Returns true if all solids are boxes along the axes, whose volume follows from the spacing. */
 static bool all_boxes(const struct region *shape)
 {
     bool boxes = true;
@@ -13,7 +14,8 @@ static bool all_boxes(const struct region *shape)
     return boxes;
 }
 
-/* Particles of a body, also those that are not made where it is the only one; joined bodies count as the first. */
+/* Returns the number of particles of a body. Includes particles that are not created if it is the only body; joined
+ * bodies count as the first. */
 static int64_t particles_of(const struct scene *scene, const struct particles *part, int body)
 {
     int64_t n = 0;

@@ -1,21 +1,22 @@
-/* Thin parts of bodies of any shape, in layers of particles: what cut-off families and locking cells do to them. */
+/* Counts the particle layers across thin parts of bodies of any shape, and reports errors from incomplete families
+ * and locking cells. */
 #include <math.h>
 
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define CELLS_MOST 2e7 /* of the box round a body: larger ones take too long */
+#define CELLS_MOST 2e7 /* largest number of cells of the bounding box of a body; more take too long */
 /* Parts that are measured are called thin from half as many layers on: steps of curved faces take some. */
 #define SHARE_LEAST 0.5  /* of its particles; a smaller share are edges and steps of faces */
-enum { RUNS_MOST = 64 }; /* layers that are counted */
+enum { RUNS_MOST = 64 }; /* largest number of layers that are counted */
 
-/* Sites of a body's particles in the box round them. */
+/* Sites of a body's particles in their bounding box. */
 struct layer_map {
     int dim;
     int64_t n[DIM_MAX], stride[DIM_MAX];
     real low[DIM_MAX], spacing; /* [m] */
     uint8_t *filled;            /* [sites] */
-    bool mirror[DIM_MAX][2];    /* a plane of symmetry behind the lowest, the highest site of an axis */
+    bool mirror[DIM_MAX][2];    /* a plane of symmetry is behind the lowest, the highest site of an axis */
 };
 
 static int64_t layer_site(const struct layer_map *m, const struct particles *p, int64_t i)
@@ -56,8 +57,8 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Particles that follow each other from a site along an axis, up or down, the site left out; *mirrored: they end at a
- * plane of symmetry. */
+/* Returns the number of consecutive particles along an axis from a site, up or down, without the site itself.
+ * *mirrored: they end at a plane of symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -74,7 +75,8 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
     return run;
 }
 
-/* Layers across the body at a site, the fewest along the axes; slanting parts have up to 1.4 times as many. */
+/* Returns the number of layers across the body at a site: the least along the axes. Slanting parts have up to 1.4
+ * times as many. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
 {
     double least = RUNS_MOST;
@@ -87,7 +89,8 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Layers across the thin parts of a body, their median; INFINITY: less than half of it is thinner than `most`. */
+/* Returns the median number of layers across the thin parts of a body; INFINITY if less than half of it is thinner
+ * than `most`. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;
@@ -123,20 +126,21 @@ double check_layers(const struct run *e, int body, double most)
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
 
-/* How far bending is off, in plane strain and space [%]: of families of 10 layers by static bending with ospd and
- * mospd, less with more layers. */
+/* Returns the relative error in bending, in plane strain and 3D [%], of families: for 10 layers from static bending
+ * with ospd and mospd; smaller with more layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
-/* Of cells of two spacings: a beam of N layers is 1 + b/N^2 times as stiff, b = 0.65/(1 - 2 nu); cantilevers of 8 and
- * 16 layers at ratios of 0.3 to 0.4995 lie within a fifth of b. */
+/* Returns the relative error in bending of cells of two spacings [%]: a beam of N layers is 1 + b/N^2 times as
+ * stiff, with b = 0.65/(1 - 2 nu), an empirical fit to cantilevers of 8 and 16 layers with nu from 0.3 to 0.4995,
+ * which is within a fifth of b. */
 static double soft_cells(double poisson, double layers)
 {
     const double more = 0.65 / (1 - 2 * poisson) / (layers * layers);
     return 100 * more / (1 + more);
 }
-#define SOFT_FAMILIES 0.4 /* ratios below which nothing is said */
+#define SOFT_FAMILIES 0.4 /* Poisson's ratios up to which nothing is reported */
 #define SOFT_CELLS 0.45
-#define SOFT_MOST 2.0 /* less is not worth a line [%] */
+#define SOFT_MOST 2.0 /* least error that is reported [%] */
 
 void advise_incompressible(const struct run *e, FILE *out)
 {

@@ -19,7 +19,7 @@ void say_levels(const struct run *e)
                (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
-/* A number, as 52 million. */
+/* Writes a large number as text, such as 52 million, and returns it. */
 static const char *many(double n, bool millions, char text[static 32])
 {
     if (millions)
@@ -49,7 +49,7 @@ static const char *much_memory(double bytes, char text[static 32])
     return text;
 }
 
-/* Points that lie in coarse cells, made or not. */
+/* Returns the number of material points in coarse cells, including points that are not created. */
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;

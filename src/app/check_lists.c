@@ -1,14 +1,15 @@
-/* What `cleave check` says of thin parts of bodies from lists that are no lattice: families near their faces have no
- * weights of their own, and no solid tells how thick the parts are. */
+/* Reports thin parts of bodies from lists that are no lattice: families near their faces have no weights of their
+ * own, and no solid gives the thickness of the parts. */
 #include <math.h>
 
 #include "check_parts.h"
 
-#define THIN_SHARE 0.05 /* of a body's particles that a part must have to be one */
-#define PROBE 0.9       /* [spacings] distance of a particle from a place of the body, also of a scattered one */
+#define THIN_SHARE 0.05 /* least share of a body's particles in a thin part that is reported */
+#define PROBE                                                                                                          \
+    0.9 /* [spacings] largest distance of a particle from a position inside the body, also for scattered particles */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Is there a particle of a body near X? */
+/* Returns true if there is a particle of a body near X. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -19,8 +20,8 @@ static bool body_at(const struct run *e, int body, const real *X)
     return n > ROOM;
 }
 
-/* Layers of a body through particle i along the axis in which they are fewest, up to LAYERS_MOST; planes of symmetry do
- * not end a body. */
+/* Returns the number of layers of a body through particle i along the axis with the fewest, up to LAYERS_MOST;
+ * planes of symmetry do not end a body. */
 static int layers_at(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
@@ -44,7 +45,7 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Layers of the thinnest part of a body that holds THIN_SHARE of it. */
+/* Returns the number of layers of the thinnest part that contains THIN_SHARE of a body. */
 static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;

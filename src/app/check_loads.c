@@ -1,17 +1,17 @@
-/* What `cleave check` says of loads and supports: on how many particles they act, on what area, with which force and
- * moment. Beside planes of symmetry these are of the part that is computed. */
+/* Prints for each load and support the number of its particles, its area, force and moment. With planes of symmetry
+ * these belong to the computed part of the body. */
 #include <math.h>
 #include <stdio.h>
 
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define NOTHING 1e-10 /* sums that are round-off, as share of what adds up without signs */
-enum { SAID = 20 };   /* loads and supports of which a line is written */
+#define NOTHING 1e-10 /* largest sum that counts as round-off, as a share of the sum of absolute values */
+enum { SAID = 20 };   /* largest number of loads and supports that are printed */
 
 /* ---- when -------------------------------------------------------------------------------------------------------- */
 
-/* When a load is looked at [s]; why there. */
+/* Time at which a load is evaluated [s], and the reason for this time. */
 struct instant {
     real t;
     const char *why;
@@ -23,7 +23,7 @@ static void instant_try(const struct time_function *f, real t, real duration, re
     *best = t, *most = fabs(time_function_at(f, t));
 }
 
-/* Time of the largest factor, the first of several. */
+/* Returns the time of the largest factor, the first of several. */
 static real largest_factor_at(const struct time_function *f, real duration, real *most)
 {
     real best = *most = 0;
@@ -40,9 +40,9 @@ static real largest_factor_at(const struct time_function *f, real duration, real
     return best;
 }
 
-enum { MOMENTS = 200, PLACES = 64 }; /* times, and particles of a load, that are looked at where there is a formula */
+enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a load, at which formulas are evaluated */
 
-/* Vector of the k-th particle of a load at a time [dim]. */
+/* Function for the vector of the k-th particle of a load at a time [dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
@@ -52,8 +52,8 @@ static real square_sum(const struct load *l, const struct particles *p, vector_f
     return sum;
 }
 
-/* Time at which the vectors of a load are largest, of evenly spread ones and those of its table: the last one unless
- * they are larger before. */
+/* Returns the time at which the vectors of a load are largest, among evenly spaced times and the times of its table:
+ * the last time, unless they are larger at an earlier one. */
 static real largest_at(const struct load *l, const struct particles *p, vector_fn *vector, real duration)
 {
     const struct time_function *f = &l->boundary->time;
@@ -87,7 +87,7 @@ struct resultant {
     real force[DIM_MAX], moment[DIM_MAX];
 }; /* [N], about the origin [N m] */
 
-/* Sums over the particles of a load; what is round-off counts as 0. */
+/* Returns the sums over the particles of a load; round-off is set to 0. */
 static struct resultant resultant_at(const struct load *l, const struct particles *p, real t)
 {
     struct resultant r = {{0}, {0}};
@@ -117,16 +117,16 @@ static void say_vector(const real *a, int n)
 
 /* ---- areas ------------------------------------------------------------------------------------------------------- */
 
-/* The faces on which a pressure acts, beside the shapes of their bodies. */
+/* Faces on which a pressure acts, compared with the shapes of their bodies. */
 struct faced {
     const struct run *e;
     real area;       /* of the faces [m^2] */
     real along, off; /* projected to the shapes' surfaces [m^2]; times the distance from them,
                         outside positive [m^3] */
-    bool unknown;    /* there is a body of which no distance is known */
+    bool unknown;    /* for one of the bodies no distance is known */
 };
 
-/* Has a body a shape with distances, of its own? */
+/* Returns true if a body has a shape of its own for which distances are known. */
 static bool has_distance(const struct scene *s, int body)
 {
     const struct region *shape = &s->body[body].shape;
@@ -154,9 +154,10 @@ static void face_beside_shape(void *context, int32_t i, int axis, int side, real
     f->off += area * side * normal[axis] * off;
 }
 
-/* Steps of a slanting or curved surface have more area than it, and lie about it; by how much they lie beside it in the
- * mean, the volume between both over the area, is what a bore is wider than its shape: the flux of the shape's normals
- * through closed steps is that through the surface. */
+/* Prints area and mean distance of the faces of a pressure load, compared with the surface of the shape. Steps of a
+ * slanting or curved surface have a larger area and are on both sides of it. The mean distance is the volume between
+ * both over the area, by which a bore is wider than its shape: the flux of the shape's normals through closed steps
+ * equals the flux through the surface. */
 static void say_pressed(const struct run *e, int which)
 {
     const struct load *l = &e->loads.load[which];
@@ -177,7 +178,8 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Edge of the face of a box that shows along b->face, as far as b's region reaches; false: not known by so little. */
+/* Computes the area of the face of a box that is visible along b->face, within the region of b. Returns false if it
+ * does not follow from the box. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -257,7 +259,7 @@ static void say_mean_displacement(const struct particles *part, const struct loa
     printf(" m%s", drives_by_place(l->boundary) ? " in the mean" : "");
 }
 
-/* Mean displacement when it is largest and at the end, and how fast it grows in time. */
+/* Prints the mean displacement at its maximum and at the end, and its growth rate. */
 static void say_displacement(const struct scene *scene, const struct particles *part, const struct load *l)
 {
     const bool explicit = scene->solver == SOLVER_EXPLICIT, frozen = l->boundary->frozen;

@@ -1,7 +1,8 @@
-/* Necks of bodies: ligaments between a hole, a notch or a slot and an edge, which have too many or too few rows of
- * particles for their width. Runs of particles along one axis are compared along another one: a neck is a run that is
- * shorter than those on both sides of it. There the width along the axis is measured beside the rows. Both count by
- * the compliance of the neck: their inverses, in the mean over a length equal to the width. */
+/* Finds necks of bodies, ligaments between a hole, a notch or a slot and an edge, that have too many or too few rows
+ * of particles for their width. Runs of particles along one axis are compared along another one: a neck is a run
+ * that is shorter than the runs on both sides of it. The width along the axis is measured there and compared with
+ * the rows. Both are averaged by the compliance of the neck, as the mean of their inverses over a length equal to
+ * the width. */
 #include <math.h>
 
 #include "base/arrays.h"
@@ -9,41 +10,42 @@
 #include "check_uneven.h"
 #include "scene/fill.h"
 
-#define NARROW 12       /* rows; in wider necks a row is less than the errors that are allowed */
-#define COVERED 0.02    /* share of a cell that counts */
-#define WITHIN 1e-6     /* depth from which on a point is not on the surface [spacings] */
-#define OFF_LEAST 0.02  /* relative error of necks in the mean; also at the narrowest place, */
-#define OFF_CURVED 0.05 /* unless the sides are curved or slanted, which lattices follow in steps */
-#define GROWTH 0.25     /* by which a neck is wider on both sides [spacings] */
-#define LENGTH_OFF 0.02 /* of pieces in a line */
-#define POINTS_MOST 4e6 /* of pieces in a line; longer ones take too long */
+#define NARROW 12       /* rows; in wider necks one row is less than the reported errors */
+#define COVERED 0.02    /* least share of a covered cell */
+#define WITHIN 1e-6     /* least depth of a point that is not on the surface [spacings] */
+#define OFF_LEAST 0.02  /* least relative error of necks that is reported, in the mean and at the narrowest position,  \
+                         */
+#define OFF_CURVED 0.05 /* ... and if the sides are curved or slanted, which lattices follow in steps */
+#define GROWTH 0.25     /* least increase of the width on both sides of a neck [spacings] */
+#define LENGTH_OFF 0.02 /* least relative error of lengths in 1D that is reported */
+#define POINTS_MOST 4e6 /* largest number of points of pieces in 1D; more take too long */
 enum {
-    LONGEST = 64,   /* columns of one number of rows; longer ones are no neck but a part */
+    LONGEST = 64,   /* largest number of columns with one number of rows; more are a part, not a neck */
     SAMPLES = 5,    /* lines in a column of cells; odd, so that the lattice is one of them */
-    FINE = 32,      /* points in a cell where the piece ends within it */
-    NECKS_MOST = 64 /* that are measured in a piece */
+    FINE = 32,      /* points in a cell inside which the piece ends */
+    NECKS_MOST = 64 /* largest number of necks that are measured in a piece */
 };
 
 struct necks {
     const struct cover *cover;
     const struct run *engine;
     const struct piece *piece;
-    int axis; /* of the widths */
+    int axis; /* axis of the widths */
     int64_t stride[DIM_MAX];
-    uint8_t *rows;  /* [cells] 1 + particles in the run along the axis that the cell is in, at most NARROW; 0: it
-                       is in none */
-    uint8_t *seen;  /* [cells] belongs to runs that were compared */
+    uint8_t *rows;  /* [cells] 1 + number of particles in the run along the axis through the cell, at most NARROW; 0: no
+                       run */
+    uint8_t *seen;  /* [cells] belongs to runs that have been compared */
     int64_t *stack; /* [cells] */
     int measured;
 };
 
-/* The width of a piece along an axis, on a line. */
+/* The width of a piece along an axis, on one line. */
 struct chord {
     real middle, width;
 };
 
-/* Does a run go on, from a cell, at the next one along the axis? Runs are of particles, or of cells without particles
- * that the piece covers in part. way: -1 or 1. */
+/* Returns true if a run continues from a cell to the next one along the axis. Runs consist of particles, or of cells
+ * without particles that the piece covers partly. way: -1 or 1. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
     const struct cover *c = k->cover;
@@ -54,7 +56,7 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Number of cells of the run that begins at a cell. */
+/* Returns the number of cells of the run that begins at a cell. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -62,7 +64,7 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Is there a particle beside a run, before it or after it along the axis? */
+/* Returns true if there is a particle next to a run, before or after it along the axis. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -103,7 +105,7 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
     return found;
 }
 
-/* Is a cell the last one before a plane of symmetry across an axis? */
+/* Returns true if a cell is the last one before a plane of symmetry normal to an axis. */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct run *e = k->engine;
@@ -135,18 +137,19 @@ static bool chord_measure(const struct necks *k, const real *X, struct chord *ch
     return true;
 }
 
-/* Chords beside each other across a neck, SAMPLES in a column, from `first` to `last`; number 0 is on the lattice. */
+/* Parallel chords across a neck, SAMPLES in a column, from `first` to `last`; chord 0 is on the lattice. */
 enum { CHORDS_MOST = SAMPLES * (LONGEST + 8 * NARROW) };
 struct chords {
     int across, first, last;                 /* axis; numbers of chords, first <= 0 <= last */
-    bool mirrored[2];                        /* it ends at a plane of symmetry */
+    bool mirrored[2];                        /* the piece ends at a plane of symmetry */
     real X[DIM_MAX];                         /* point of chord 0 */
     struct chord chord[2 * CHORDS_MOST + 1]; /* chord m is [CHORDS_MOST + m] */
 };
 
 static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS_MOST + m]; }
 
-/* Measures chords from the first one to both sides, each through the middle of the one before. reach: on each side. */
+/* Measures chords from the first one to both sides, each through the midpoint of the previous one. reach: number of
+ * chords on each side. */
 static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
 {
     real X[DIM_MAX];
@@ -173,7 +176,7 @@ static bool chords_measure(struct chords *p, const struct necks *k, const int *r
     return true;
 }
 
-/* Returns the number of the narrowest chord from..to, the middle one of those that are as narrow. */
+/* Returns the number of the narrowest chord from..to; of several equal ones the middle one. */
 static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
 {
     int best = from, end;
@@ -183,7 +186,7 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Rows of particles in the column of a chord: those between the ends of the chord on the lattice. */
+/* Returns the number of particle rows in the column of a chord: those between the ends of the chord on the lattice. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
@@ -194,8 +197,9 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Does the piece widen on both sides of its narrowest chord, by more than its middle shifts? In bent strips of one
- * width the middle shifts more. *even: it widens by half a spacing or more at once, on both sides. */
+/* Returns true if the piece widens on both sides of its narrowest chord by more than its midline shifts; the midline
+ * shifts more in bent strips of constant width. *even: the piece widens by half a spacing or more at once, on both
+ * sides. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -216,7 +220,8 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
     return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
 }
 
-/* Relative error of a neck: of its rows, by the mean of the inverse widths over a length equal to its width. */
+/* Returns the relative error of the rows of a neck, by the mean of the inverse widths over a length equal to its
+ * width. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -229,7 +234,7 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns a cell of the run of particles through a neck, or -1: the cell that the middle of the neck is in. */
+/* Returns the cell at the centre of a neck, which is in its run of particles, or -1 if it is in none. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -241,7 +246,8 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Is the width less at the last place along an axis that is in the piece, within a spacing from X? */
+/* Returns true if the width is smaller at the last position along an axis that is inside the piece, within a spacing
+ * from X. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};
@@ -252,8 +258,9 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Is the width nowhere less along the third axis, up to where the piece ends there or widens? Sections of round rods
- * are narrower at their sides; section by section (check_sections.c) they are compared as a whole. */
+/* Returns true if the width is nowhere smaller along the third axis, up to the end of the piece or to where it
+ * widens. Sections of round rods are narrower at their sides; these sections are compared as a whole
+ * (check_sections.c). */
 static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -267,8 +274,8 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns the neck at the narrowest chord; of a curved one the narrowest place is that of a parabola through three
- * chords. */
+/* Returns the neck at the narrowest chord; the narrowest position of a curved neck is that of a parabola through
+ * three chords. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -290,7 +297,8 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Adds a neck to the list if it is off. cell: of its first column, on the lattice; columns: with as many rows. */
+/* Adds a neck to the list if its error is large. cell: cell of its first column, on the lattice; columns: number of
+ * columns with equal rows. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -312,7 +320,7 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_keep(list, &u, false);
 }
 
-/* Marks the runs of one number of rows that lie beside each other: they are one neck, and were compared. */
+/* Marks neighbouring runs with one number of rows: they are one neck, and have been compared. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;
@@ -331,7 +339,8 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Follows runs of one number of rows across, from one that is the first of them, and judges them if they are a neck. */
+/* Follows runs with one number of rows across the axis, from the first of them, and evaluates them if they are a
+ * neck. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);
@@ -374,7 +383,7 @@ void judge_necks(struct uneven_list *list, const struct run *e, const struct cov
     memory_free(k.stack);
 }
 
-/* Adds a piece of a line from `low` to `high` [m] if its particles are too many or too few. first: position of a
+/* Adds a piece in 1D from `low` to `high` [m] if its particles are too many or too few. first: position of a
  * particle of the lattice [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {

@@ -16,7 +16,7 @@ static void mark_driven(const struct bond_source *source, const struct particles
         if (f->of[i] >= 0 && part->flag[i] & FLAG_DRIVEN) driven[f->of[i]] = true;
 }
 
-/* The pieces of a body beside its heaviest one; particles without any bond are named by a warning. */
+/* Prints the fragments of a body except the heaviest one; particles without any bond are reported by a warning. */
 static void say_body(const struct scene *s, const struct fragments *f, const bool *driven, int body)
 {
     int64_t pieces = 0, particles = 0, free_ones = 0, first = -1;

@@ -1,6 +1,6 @@
-/* Narrow parts whose width is no multiple of the spacing have a row of particles too many or too few, also where the
- * volume of the whole body is right. Sections of the shape across each axis are compared with the particles in them,
- * part by part; steps of slanting and curved faces even out along a part. */
+/* Finds narrow parts with a particle row too many or too few because their width is no multiple of the spacing, also
+ * if the volume of the whole body is right. The area of each section of the shape across an axis is compared with
+ * the particles in it; along a part, errors from steps of slanting and curved faces average out. */
 #include <math.h>
 #include <stdio.h>
 
@@ -8,28 +8,28 @@
 #include "check_parts.h"
 #include "check_uneven.h"
 
-#define OFF_LEAST 0.02    /* of the area of sections, */
-#define OFF_SLANTING 0.05 /* where their faces slant or are curved, which steps follow no better */
-#define ALIKE 0.2         /* sections of a part differ by less in area, */
-#define EVEN 0.04         /* and by less than this where faces lie along the axis */
-#define COVERED 0.02      /* share of a cell that counts */
-enum { SLICES = 8, SLICES_LEAST = 3, SLICES_SLANTING = 32 }; /* of a part that are taken together */
+#define OFF_LEAST 0.02    /* least relative error of the area of sections that is reported, */
+#define OFF_SLANTING 0.05 /* ... and if faces are slanting or curved, which steps follow with this error */
+#define ALIKE 0.2         /* largest relative difference in area of the sections of one part, */
+#define EVEN 0.04         /* ... and of sections with faces along the axis */
+#define COVERED 0.02      /* least share of a covered cell */
+enum { SLICES = 8, SLICES_LEAST = 3, SLICES_SLANTING = 32 }; /* numbers of sections of a part that are summed */
 
 /* A connected set of cells in a slice across an axis. */
 struct section {
-    int64_t slice, cell, n; /* one of its cells, how many */
-    real area, filled;      /* of the shape, of particles [cells] */
-    int32_t before, after;  /* the largest section that it touches in the slices beside it; -1: none */
+    int64_t slice, cell, n; /* index of the slice, of one of its cells; number of cells */
+    real area, filled;      /* area of the shape, of the particles [cells] */
+    int32_t before, after;  /* largest section that it touches in the previous and in the next slice; -1: none */
 };
 
 struct sections {
     const struct cover *cover;
     int axis, across[2];
-    int64_t stride, side[2]; /* from a cell to the next slice; to neighbours in the slice */
+    int64_t stride, side[2]; /* index offset from a cell to the next slice; to neighbours in the slice */
     int32_t n;
     struct section *section;
     int32_t *of;    /* [cells] section of a cell, -1: none */
-    uint8_t *named; /* [cells] bit d: part of a width along axis d that is too large or too small */
+    uint8_t *named; /* [cells] bit d: belongs to a reported part, with a wrong width along axis d */
 };
 
 static bool is_covered(const struct cover *c, int64_t cell) { return c->filled[cell] || c->share[cell] > COVERED; }
@@ -41,7 +41,7 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Marks all cells of a slice that hang together with one of them. stack: room for a slice. */
+/* Marks all cells of a slice that are connected to cell `first`. stack: memory for a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;
@@ -64,7 +64,7 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* The larger of two sections; -1: none. */
+/* Returns the larger of two sections; -1: none. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
@@ -103,15 +103,15 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Is a section one of a part that goes on on both sides, of nearly the same area as another? */
+/* Returns true if a section has neighbours on both sides and nearly the given area. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
            fabs(s->section[k].area - area) <= ALIKE * area;
 }
 
-/* Width of a section along one of the axes across: its cells, by area or filled, over the lines along the axis that
- * they lie in [cells]. */
+/* Returns the width of a section along one of the axes across: its area, of the shape or of particles, over the
+ * number of its lines along this axis [cells]. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
     const struct cover *c = s->cover;
@@ -129,7 +129,7 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Widths and place of a section, of the axis along which they differ most. */
+/* Returns the widths and the position of a section, along the axis with the largest difference of widths. */
 static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -156,12 +156,12 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
     return u;
 }
 
-/* Adds up sections of a part from one on, at most `most`. */
+/* Sums over consecutive sections of a part, at most `most` of them. */
 struct stretch {
     int slices;
     int32_t middle;
     real area, filled;
-    bool even; /* all hold as many particles: their faces lie along the axis */
+    bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
@@ -177,7 +177,7 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
-/* Marks the cells of a part, section by section both ways from one of them, as those of a width along `axis`. */
+/* Marks the cells of a part in both directions from one of its sections, for a width along `axis`. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -193,8 +193,8 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Looks along a part from one of its sections on: SLICES of them, or all if there are fewer. Where they are uneven, as
- * faces slant, four times as many, over which steps even out. */
+/* Evaluates a part from one of its sections on: SLICES of them, or all if there are fewer. If they are uneven, as
+ * slanting faces are, four times as many, over which steps average out. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];
@@ -212,7 +212,7 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
     uneven_keep(list, &u, known);
 }
 
-/* Judges the sections of a piece across each axis. */
+/* Evaluates the sections of a piece across each axis. */
 static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {
@@ -223,7 +223,7 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
     }
 }
 
-/* Judges the narrow parts of a body, or of its parts of one material: the piece of the list. */
+/* Evaluates the narrow parts of the piece of the list: a body, or its parts of one material. */
 static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;

@@ -6,7 +6,7 @@
 #include "geometry/geometry.h"
 #include "scene/shape_file.h"
 
-/* How many free surfaces inside the mesh there are, where nodes are doubled, for geometry_slits. */
+/* Returns the number of free surfaces inside a mesh, at doubled nodes, for geometry_slits. */
 static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;

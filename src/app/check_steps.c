@@ -8,20 +8,24 @@
 #include "fracture/tips.h"
 #include "quasistatic/load_steps.h"
 
-#define AT_ONCE 1e-3       /* share of the largest loads that is there before the first load step */
-#define FALLS 1e-6         /* share by which loads fall that is no round-off */
-#define LOADS_LOOKS 64     /* moments at which loads are looked at */
-#define FEW 20.0           /* spacings of crack, or ahead of it: errors of loads, measured beside handbooks */
-#define NOTHING_BREAKS 0.8 /* overload at a crack tip below which no advance comes: Griffith's load is at 0.9 */
-#define SLOWER 2.0         /* equilibria with a long crack take more iterations than the first one */
-#define LEAST_SHARE 0.1    /* of the largest run time: a body that parts early, equilibria found in fewer iterations */
-#define SPACINGS 2.0       /* of an advance */
+#define AT_ONCE 1e-3   /* share of the largest loads above which loads count as present before the first load step */
+#define FALLS 1e-6     /* least relative decrease of a load that is not round-off */
+#define LOADS_LOOKS 64 /* number of times at which loads are evaluated */
+#define FEW                                                                                                            \
+    20.0 /* least length of a crack, and of material ahead of it [spacings]; loads deviate from handbooks below */
+#define NOTHING_BREAKS                                                                                                 \
+    0.8 /* ratio of stretch to critical stretch at a crack tip below which no increment occurs: 0.9 at Griffith's load \
+         */
+#define SLOWER 2.0      /* factor on the number of iterations of the first equilibrium for those with a long crack */
+#define LEAST_SHARE 0.1 /* least run time over the largest: for a body that separates early, and for fewer iterations  \
+                         */
+#define SPACINGS 2.0    /* length of a crack increment [spacings] */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
-enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies turn, of grips [spacings] */
+enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies rotate, and of grips [spacings] */
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Tips of pre-cracks. */
+/* Returns the number of tips of pre-cracks. */
 static int tips_of_cracks(const struct fracture_state *fracture)
 {
     int n = 0;
@@ -31,7 +35,8 @@ static int tips_of_cracks(const struct fracture_state *fracture)
 
 static bool is_sif_driven(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && sif_fault(e, NULL) == NULL; }
 
-/* How far bodies go on from a tip, straight ahead (side 1) or back (-1) [m]; 0 where they are lists of particles. */
+/* Returns the distance that bodies extend from a tip, straight ahead (side 1) or back (-1) [m]; 0 for bodies from
+ * lists. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
 {
     const real most = 2 * (particles_longest(part) + s->spacing), step = 0.5 * s->spacing;
@@ -46,7 +51,7 @@ static real way_within(const struct scene *s, const struct particles *part, cons
     return way;
 }
 
-/* Length of the pre-crack that ends at a tip, as far as it lies in bodies; INFINITY: not known [m]. */
+/* Returns the length of the pre-crack behind a tip, inside bodies [m]; INFINITY if unknown. */
 static real crack_behind(const struct scene *s, const struct particles *part, const struct tip *tip)
 {
     for (int k = 0; k < s->cracks && s->dim == 2; k++)
@@ -85,7 +90,7 @@ void say_load_steps(const struct run *e)
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
 
-/* Loads that do not grow from nothing. */
+/* Writes a line for loads that do not grow from zero. */
 static void advise_growth(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -109,7 +114,7 @@ static void advise_growth(const struct run *e, FILE *out)
             falls, s->steps.control == CONTROL_ENERGY ? "energy" : "opening");
 }
 
-/* Tips with little crack behind them or little body ahead. */
+/* Writes a line for tips with a short crack behind them or little material ahead. */
 static void advise_lengths(const struct run *e, FILE *out)
 {
     const real h = e->scene->spacing;
@@ -128,7 +133,7 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Spacings over which particles of a load lie along an axis; 0: over all of the bodies. */
+/* Returns the width of the particles of a load along an axis [spacings]; 0 if they extend over all of the bodies. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -141,7 +146,8 @@ static int support_width(const struct scene *scene, const struct particles *part
     return high - low > to - from - 0.5 * h ? 0 : (int)lround((high - low) / h) + 1;
 }
 
-/* Pins and rollers that hold the rotation of the body on them: some columns of particles, too few for a grip. */
+/* Writes a line for supports that are meant as pins or rollers but constrain rotation: they hold several columns of
+ * particles, but too few for a grip. */
 static void advise_supports(const struct run *e, FILE *out)
 {
     for (int b = 0; b < e->loads.n; b++) {
@@ -150,7 +156,7 @@ static void advise_supports(const struct run *e, FILE *out)
         if (by->kind != BOUNDARY_VELOCITY || by->side != 0 || by->rotates || l->n == 0) continue;
         for (int across = 0; across < e->part.dim; across++) {
             const int columns = support_width(e->scene, &e->part, l, across);
-            const bool turns_it = by->components & ~(1 << across); /* held along another axis */
+            const bool turns_it = by->components & ~(1 << across); /* another component is held */
             if (!turns_it || columns <= PIN_MOST || columns > GRIP_LEAST) continue;
             fprintf(out,
                     "accuracy       boundary %s holds particles over %d spacings along %c, so that the body cannot "
@@ -171,7 +177,8 @@ void advise_load_steps(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Equilibria of an advance: of bonds that break one pair after another, or as many as the scene lets break at once. */
+/* Returns the number of equilibria of a crack increment: pairs of bonds break one after another, or as many at once
+ * as the scene allows. */
 static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -188,7 +195,7 @@ static double equilibria_of_advance(const struct run *e)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Advances of all cracks, at the most. */
+/* Returns the largest number of increments of all cracks. */
 static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;

@@ -1,7 +1,7 @@
-/* Tests whether a scene is its own mirror image, on its particles: matter, cracks, initial velocities and loads; and
- * whether half of it can be run: rigid bodies and cracks that grow are mirror images, too, no rigid body flies, on
- * which mirrors do not act, no layer of particles lies in the plane, and no ring of stress-intensity factors crosses
- * it, as the body must contain them. */
+/* Tests whether a scene equals its mirror image, by its particles: matter, cracks, initial velocities and loads.
+ * Also tests whether half of the scene can be run: rigid bodies and growing cracks must have mirror images, no rigid
+ * body may be free, since mirrors do not act on it, no layer of particles may be in the plane, and no integration
+ * domain of stress-intensity factors may cross it, since the body must contain these domains. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@
 
 #define NEAR_ENOUGH 1e-6 /* [spacings], and share of a largest component */
 
-/* Index of the particle of the body at X [m], [dim]; -1: none. */
+/* Returns the index of the particle at X [dim, m], or -1. */
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
@@ -28,7 +28,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* True if values a, [n], at mirror twins are equal, or with `odd` opposite. twin: [n] index of the mirror image. */
+/* Returns true if the values a[n] are equal at mirror twins, or with `odd` opposite. twin: index of the mirror image
+ * [n]. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -37,7 +38,7 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
     return true;
 }
 
-/* True if material, body, kind, volume and damage by cracks are equal at twins. */
+/* Returns true if material, body, kind, volume and damage by cracks are equal at twins. */
 static bool matter_agrees(const struct particles *p, const int32_t *twin)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -47,7 +48,7 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* A number for the kind and time function of a load, such that loads that differ in either do not cancel in sums. */
+/* Returns a number for the kind and the time function of a load, such that sums over different loads do not cancel. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -58,8 +59,7 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Sums, per particle, of the marked loads on component d into `ask`, [n], and of the marks of driving loads into
- * `held`, [n]. */
+/* Sums the marked loads on component d to ask[n], and the marks of prescribed motions to held[n], per particle. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -80,13 +80,13 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
     }
 }
 
-/* True if loads, constraints and initial velocities are mirror images across `axis`. */
+/* Returns true if loads, constraints and initial velocities are mirror images across `axis`. */
 static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
     bool same = true;
     for (int b = 0; b < loads->n; b++) {
-        const struct boundary *l = loads->load[b].boundary; /* a formula's symmetry is unknown */
+        const struct boundary *l = loads->load[b].boundary; /* the symmetry of a formula is unknown */
         same &= !l->rotates && l->formula[0].n + l->formula[1].n + l->formula[2].n == 0;
     }
     for (int d = 0; d < p->dim && same; d++) {
@@ -99,8 +99,8 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Finds the mirror image of every particle in the plane at `at` [m], twin[n]; false if a particle has none, or is its
- * own: then half a layer would be left. */
+/* Finds the mirror image twin[n] of every particle in the plane at `at` [m]. Returns false if a particle has none,
+ * or is its own image: half a layer would remain then. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -115,7 +115,8 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
     return true;
 }
 
-/* Is rigid body b the mirror image of a? By how far both are from some of the particles and their images. */
+/* Returns true if rigid body b is the mirror image of a, by the distances of both from some of the particles and
+ * from their images. */
 static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
                         const struct scene_body *a, const struct scene_body *b)
 {
@@ -148,10 +149,10 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
     return true;
 }
 
-/* Equal, or both not given. */
+/* Returns true for equal numbers, and if neither is given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Has every crack that grows a mirror image that grows alike? */
+/* Returns true if every growing crack has a mirror image with equal settings. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {
@@ -173,7 +174,7 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
     return true;
 }
 
-/* Does no ring of stress-intensity factors cross the plane? */
+/* Returns true if no integration domain of stress-intensity factors crosses the plane. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
     const struct observed seen = run_observed(e);

@@ -1,4 +1,4 @@
-/* The list of the narrow parts that hold too many or too few rows of particles, and what `cleave check` prints. */
+/* Keeps a list of the narrow parts with too many or too few particle rows, and prints it. */
 #include "check_uneven.h"
 
 #include <math.h>
@@ -6,11 +6,12 @@
 #include "check_parts.h"
 #include "scene/fill.h"
 
-#define SAME_WIDTH 0.05 /* relative difference of widths that are counted together */
-#define SAME_PLACE 2    /* distance within which a width is the same one [spacings] */
-enum { TRIED = 8 };     /* numbers of rows for which a spacing is sought */
+#define SAME_WIDTH 0.05 /* largest relative difference of widths that are counted together */
+#define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
+enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Is the error of a part smaller than that of all on a full list? Errors of equal parts differ by sampling. */
+/* Returns false if the list is full and the error of a part is smaller than all errors in it. Sampling makes errors
+ * of equal parts differ. */
 bool uneven_matters(const struct uneven_list *list, real off)
 {
     return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
@@ -21,7 +22,7 @@ static bool same_width(const struct uneven *a, const struct uneven *b)
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
 }
 
-/* Were both measured at one place, one in the body and one in its part of a material? */
+/* Returns true if both were measured at one position, one in the body and one in its part of a material. */
 static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
 {
     real r2 = 0;
@@ -77,7 +78,7 @@ real piece_end(const struct piece *p, const real *X, int axis, real step, real m
     return fabs(inside);
 }
 
-/* Ends of a part along its axis [m]. */
+/* Computes the ends of a part along its axis [m]. */
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
@@ -85,8 +86,8 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
     *high = u->at[u->axis] + piece_end(p, u->at, u->axis, 0.05 * h, most);
 }
 
-/* Replaces the width of a part, which is known to a few percent, by the one through its place, if that is much alike
- * and is what makes the sections uneven. */
+/* Replaces the width of a part, which is known to a few percent, by the width through its point `at`, if both are
+ * similar and this width explains the error of the sections. */
 static void width_measure(struct uneven *u, const struct piece *p)
 {
     real low, high;
@@ -97,7 +98,8 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Rows between low and high on the lattice of a body at another spacing; -1: it has none. */
+/* Returns the number of rows between low and high on the lattice of a body with another spacing; -1: the body has no
+ * lattice then. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -115,7 +117,7 @@ struct length_unit {
     const char *name;
 };
 
-/* The largest unit in which a spacing is not below 0.1. */
+/* Returns the largest unit in which a spacing is not below 0.1. */
 static struct length_unit unit_of_spacing(real spacing)
 {
     static const struct length_unit unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};
@@ -124,8 +126,9 @@ static struct length_unit unit_of_spacing(real spacing)
     return unit[k];
 }
 
-/* Prints the nearest smaller and larger spacing that divide a width and whose lattice has that many rows in it, cut to
- * six digits; where the present one divides it, what makes it fit. */
+/* Prints the nearest smaller and larger spacing that divide a width and whose lattice has the matching number of
+ * rows in it, cut to six digits; if the present spacing divides the width, prints how the lattice can be shifted to
+ * fit. */
 static void say_spacings(const struct uneven *u, const struct piece *p, FILE *out)
 {
     const struct length_unit unit = unit_of_spacing(p->scene->spacing);
@@ -165,7 +168,7 @@ static void say_place(const real *at, int dim, FILE *out)
     fprintf(out, dim > 1 ? ") m" : " m");
 }
 
-/* Prints the name of the body, that of the part's material if it is one of several, and the place. */
+/* Prints the name of the body, the material of the part if it is one of several, and the position. */
 static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
 {
     fprintf(out, "accuracy       body %s: ", p->scene->body[p->body].name);

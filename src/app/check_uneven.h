@@ -1,4 +1,4 @@
-/* Narrow parts of bodies that hold too many or too few rows of particles for their width: the list of the worst. */
+/* Lists the narrow parts of bodies with too many or too few particle rows for their width. */
 #ifndef CLEAVE_CHECK_UNEVEN
 #define CLEAVE_CHECK_UNEVEN
 
@@ -10,25 +10,25 @@
 /* A part whose width and rows of particles differ. */
 struct uneven {
     real off, width, filled; /* relative error of its section [1]; along `axis`: width, rows times spacing [m] */
-    real at[DIM_MAX];        /* a point in the middle of it [m] */
-    int axis, across;        /* of the width; of the section */
-    int material, more;      /* index, or ANY_MATERIAL; number of other parts of the same width */
-    bool measured;           /* the width is that through the point `at` */
+    real at[DIM_MAX];        /* point in the middle of the part [m] */
+    int axis, across;        /* axis of the width; axis normal to the section */
+    int material, more;      /* index, or ANY_MATERIAL; number of other parts of equal width */
+    bool measured;           /* the width is measured through the point `at` */
 };
 
-/* The worst parts of a body, the worst first. */
+/* Parts of a body with the largest errors, in descending order. */
 enum { UNEVEN_MOST = 3 };
 struct uneven_list {
-    struct piece piece; /* that is being judged */
+    struct piece piece; /* piece that is evaluated */
     int n;
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Can a part that is off by this be one of the worst, or like one of them? */
+/* Returns true if a part with this relative error belongs to the list, or resembles a part of it. */
 bool uneven_matters(const struct uneven_list *list, real off);
 
-/* Adds a part to the list, or counts it with another of the same width. known: it is a part that was added before, of
- * which the worst section is kept. */
+/* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
+ * its worst section is kept. */
 void uneven_keep(struct uneven_list *list, const struct uneven *u, bool known);
 
 /* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
@@ -38,11 +38,12 @@ real piece_end(const struct piece *p, const real *X, int axis, real step, real m
 /* Prints a line for each part of the list whose width is known; if there is none of these, for the worst section. */
 void say_uneven(struct uneven_list *list, FILE *out);
 
-/* Adds the necks of a piece: parts that widen on both sides, such as the ligament between a hole and an edge
- * (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that was added, of a width along axis d. */
+/* Adds the necks of a piece to the list: parts that widen on both sides, such as the ligament between a hole and an
+ * edge (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that has been added, with a width along
+ * axis d. */
 void judge_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
 
-/* Adds the pieces of a body in a line whose length is no multiple of the spacing (check_necks.c). */
+/* Adds the pieces of a body in 1D whose length is no multiple of the spacing (check_necks.c). */
 void judge_lengths(struct uneven_list *list);
 
 #endif

@@ -1,4 +1,4 @@
-/* The table of commands, from which the program, its usage, manual and completion are made. */
+/* Defines the table of commands, from which the program, its usage, manual and completion are made. */
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* `cleave compare A B`: differences of two runs: fields, energies, cracks, time taken. */
+/* Implements `cleave compare A B`: prints the differences of two runs in fields, energies, cracks and time. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@
 
 enum { KEY_LENGTH = 64 };
 
-/* Two frames count as taken at one time if they are closer than this share of the time between frames: runs with
+/* Largest difference in time of two frames that are compared, as a share of the time between frames: runs with
  * different steps have no frames at identical times. */
 static const double SAME_TIME = 0.05;
 
@@ -27,7 +27,7 @@ struct pair {
     int dim;
 };
 
-/* A folder with at least one of the files that are compared. */
+/* Returns true if the folder contains at least one of the files that are compared. */
 static bool holds_run(const char *folder)
 {
     return run_holds(folder, "summary.json") || run_holds(folder, "history.csv") ||
@@ -44,7 +44,7 @@ static void print_number(double a)
         printf(" %14.7g", a);
 }
 
-/* One figure of both runs and their difference B - A; left out where neither has it. */
+/* Prints one value of both runs and the difference B - A; prints nothing if neither run has the value. */
 static void compare_print_row(const char *label, const char *unit, double a, double b)
 {
     char text[KEY_LENGTH];
@@ -71,7 +71,7 @@ static double interval(const struct times *t)
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Indices of the last frames of equal time; false: none. */
+/* Finds the indices of the last frames of equal time. Returns false if there are none. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -95,7 +95,7 @@ struct difference {
     int64_t where;              /* particle of the largest        */
 };
 
-/* Distance of two vector (or tensor component) fields over n particles. */
+/* Returns the difference of two vector or tensor fields over n particles. */
 static struct difference field_difference(float *const *a, float *const *b, int components, int64_t n)
 {
     struct difference d = {0};
@@ -142,7 +142,7 @@ static void print_fields(const struct frame *a, const struct frame *b)
     printf("  %-28s %14lld of %lld\n", "kind differs (bond or point)", (long long)other_kind, (long long)a->n);
 }
 
-/* Why two frames cannot be compared particle by particle; NULL: they can. */
+/* Returns the reason why two frames cannot be compared particle by particle; NULL if they can. */
 static const char *particles_differ(const struct frame *a, const struct frame *b)
 {
     if (a->dim != b->dim) return "the dimensions differ";
@@ -256,14 +256,14 @@ static status compare_energies(const struct pair *p)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* A figure of summary.json; NAN: it has none. */
+/* Returns a value of summary.json; NAN if there is none. */
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Place of tip k of a run [m]; false past the last tip. */
+/* Reads the position of crack tip k of a run [m]. Returns false past the last tip. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;

@@ -1,4 +1,4 @@
-/* A run of LAMMPS as one more kind of run, and its first steps beside those that Cleave made when it was exported. */
+/* Reads runs of LAMMPS as one more kind of run, and compares their first steps with those of Cleave at the export. */
 #include "compare_lammps.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 
 bool lammps_run_holds(const char *folder) { return run_holds(folder, "plate.dump") && run_holds(folder, "in.lammps"); }
 
-/* Time step of the script [s]. */
+/* Reads the time step of the script [s]. */
 static status lammps_time_step(const char *folder, double *dt)
 {
     struct path path = path_join(folder, "in.lammps");
@@ -41,7 +41,7 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
 
 /* ---- check.csv --------------------------------------------------------------------------------------------------- */
 
-/* Columns of check.csv: X, x [m], damage and that of the start, by id. */
+/* Columns of check.csv by id: X, x [m], damage, and damage at the start. */
 struct check {
     struct history h;
     int X[DIM_MAX], x[DIM_MAX], damage, start;
@@ -49,7 +49,7 @@ struct check {
 
 static double check_at(const struct check *c, int64_t i, int column) { return c->h.value[i * c->h.columns + column]; }
 
-/* FAILED unless rows are those of n particles; they are put in the order of ids. */
+/* Sorts the rows by id. FAILED unless they belong to n particles. */
 static status check_sort(struct check *c, int64_t n, const char *path)
 {
     const int id = history_column(&c->h, "id"), columns = c->h.columns;
@@ -105,7 +105,9 @@ static void frame_fill(struct frame *f, const struct lammps_frame *from, const s
     f->material = NEW("frame.material", f->n, uint8_t), f->body = NEW("frame.body", f->n, uint8_t);
     for (int64_t i = 0; i < f->n; i++) {
         const double start = check_at(c, i, c->start);
-        f->damage[i] = (float)(start + (1 - start) * from->damage[i]); /* there, of the bonds that were made */
+        f->damage[i] =
+            (float)(start +
+                    (1 - start) * from->damage[i]); /* damage in LAMMPS counts the bonds that exist at the start */
         f->id[i] = (int32_t)i, f->kind[i] = KIND_PD;
     }
 }
@@ -162,7 +164,7 @@ status lammps_check_print(const char *folder)
     TRY(lammps_steps(dump.text, &n, &step));
     const int64_t last = step[n - 1];
     memory_free(step);
-    if (last == 0) return OK; /* LAMMPS has not come that far */
+    if (last == 0) return OK; /* LAMMPS has not reached this step */
     TRY(lammps_frame_read(&f, dump.text, last));
     const status s = check_read(&c, folder, f.n);
     if (s == OK) check_print(&c, &f);

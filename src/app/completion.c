@@ -1,12 +1,12 @@
-/* `cleave help --completion SHELL`: a script that completes commands, options, scene files, and keys behind -s, made
- * from the table of commands and that of keys. */
+/* Prints `cleave help --completion SHELL`: a script that completes commands, options, scene files, and keys after
+ * -s, from the tables of commands and of keys. */
 #include <stdio.h>
 #include <string.h>
 
 #include "commands.h"
 #include "scene/scene.h"
 
-/* Options in the form of a command, with blanks between them. */
+/* Prints the options in the form of a command, separated by blanks. */
 static void options_of(FILE *out, const struct command *c)
 {
     for (const char *at = c->words; *at; at++) {

@@ -1,4 +1,4 @@
-/* `cleave converge`: every figure of a scene with its error bar. */
+/* Implements `cleave converge`: prints each value of a scene with its error bar. */
 #include <stdio.h>
 #include <string.h>
 
@@ -12,14 +12,14 @@
 static const char usage[] = "converge " CONVERGE_WORDS;
 
 enum { RUNS_USUAL = 5, LEVELS_USUAL = 3 };
-#define BUDGET_USUAL 600.0 /* [s] */
+#define BUDGET_USUAL 600.0 /* default of --budget [s] */
 
 struct converge_arguments {
     struct convergence_request wish;
     struct varied_key *key; /* overrides, each with one value */
     const char **wanted;
     int keys, wanteds;
-    char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* without -o */
+    char folder[NAME_MAX_LENGTH + CASE_NAME_ROOM]; /* name of the folder without -o */
 };
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
@@ -95,7 +95,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* The folder; REFUSED if it is that of another scene's study, or holds files of others. */
+/* Sets and checks the folder. REFUSED if it contains the study of another scene, or other files. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_request *w = &a->wish;

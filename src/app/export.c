@@ -1,4 +1,4 @@
-/* `cleave export lammps SCENE -o DIR`: the peridynamics of a scene as input of another program. */
+/* Implements `cleave export lammps SCENE -o DIR`: writes the peridynamics of a scene as input of LAMMPS. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,7 +10,7 @@
 
 static const char usage[] = "export " EXPORT_WORDS;
 
-/* Takes the words of this command alone out of argv; what is left is that of a run. */
+/* Removes the words of this command from argv; the remaining words are those of a run. */
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;

@@ -1,4 +1,4 @@
-/* `cleave help`: which page. */
+/* Implements `cleave help`: finds the page and prints it. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "scene/scene.h"
 
-/* The page of all keys, after the line that makes an editor know them. */
+/* Prints the page of all keys, after the line with which an editor finds the schema. */
 static status help_scene(void)
 {
     char schema[4096];
@@ -17,7 +17,7 @@ static status help_scene(void)
     return scene_help(stdout, NULL);
 }
 
-/* REFUSED with the page or command that is nearest to a word that is no key, if there is one within two letters. */
+/* Returns REFUSED with the page or command nearest to a word that is no key, if there is one within two letters. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -31,7 +31,8 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
-/* Joins the words after `help` by _, as keys are: fracture energy is fracture_energy. NULL: there are none. */
+/* Joins the words after `help` by _, as in keys: fracture energy becomes fracture_energy. Returns NULL if there are
+ * none. */
 static const char *help_word(int argc, char **argv, char *joined, size_t room)
 {
     size_t used = 0;

@@ -22,7 +22,7 @@ void version_print(FILE *out)
 static const char *compiler(void)
 {
 #if defined __clang__
-    return __VERSION__; /* includes the name */
+    return __VERSION__; /* the text includes the name of the compiler */
 #else
     return "gcc " __VERSION__;
 #endif
@@ -63,7 +63,7 @@ static void print_build(void)
            release, yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);
 }
 
-/* The sets of kernels, the one in use first. */
+/* Prints the sets of kernels, beginning with the one in use. */
 static void print_kernels(void)
 {
     printf("%-18s %s: %s\n", "kernels", simd_in_use()->name, simd_in_use()->meaning);

@@ -1,4 +1,4 @@
-/* The program: one command, one exit status. */
+/* Runs one command and returns its exit status. */
 #include <fcntl.h>
 #include <poll.h>
 #include <stdio.h>
@@ -13,12 +13,12 @@
 #include "output/output.h"
 #include "simd/simd.h"
 
-/* Exit without handlers; builds that report as they exit (leaks, coverage) define LEAVE as exit. */
+/* Exits without handlers; builds that report at exit (leaks, coverage) define LEAVE as exit. */
 #ifndef LEAVE
 #define LEAVE _exit
 #endif
 
-/* `--help` anywhere behind a command, but as the value of an option. */
+/* Returns true for `--help` anywhere after a command, except as the value of an option. */
 static bool asks_help(int argc, char **argv)
 {
     bool asks = false;
@@ -40,17 +40,18 @@ static status call(int argc, char **argv)
     return c->call(argc - 1, argv + 1);
 }
 
-/* OpenMP threads wait for each other by spinning, for milliseconds: on a busy machine that slows a run many times
- * over. A short spin is set before the library starts, unless the environment sets it. Two threads on two cores
- * beside two other processes take 0.1 to 0.9 s for plate_hole with it; without it once in ten runs 2 to 23 s. */
+/* Sets a short spin of OpenMP threads before the library starts, unless the environment sets one. Threads wait for
+ * each other by spinning for milliseconds, which slows a run many times over on a busy machine. Measured for
+ * plate_hole with two threads on two cores next to two other processes: 0.1 to 0.9 s with a short spin; without it 2
+ * to 23 s in one of ten runs. */
 static void limit_spin(char **argv)
 {
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT")) return;
-    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv); /* without /proc the default stays */
+    if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv); /* without /proc the default remains */
 }
 
-/* Opens standard descriptors that are closed, as daemons leave them; the next file opened would receive one of them,
- * and all that is printed. */
+/* Opens standard descriptors that are closed, as under daemons: the next file opened would receive one of them, with
+ * all printed text. */
 static void keep_descriptors(void)
 {
     int fd;
@@ -59,7 +60,7 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
-/* Is the other end of standard output closed? */
+/* Returns true if the other end of standard output is closed. */
 static bool reader_gone(void)
 {
     struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};
@@ -75,9 +76,9 @@ int main(int argc, char **argv)
     version_commit(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);
-    if (lost && reader_gone()) LEAVE(FAILED); /* `cleave help | head` */
+    if (lost && reader_gone()) LEAVE(FAILED); /* as in `cleave help | head` */
     if (lost && result == OK) result = status_set(FAILED, "cannot write to standard output");
     if (result != OK && status_message()[0]) fprintf(stderr, "%s\n", status_message());
     fflush(stderr);
-    LEAVE(result); /* after failed writes the exit handlers of libraries may crash */
+    LEAVE(result); /* after failed writes, exit handlers of libraries can crash */
 }

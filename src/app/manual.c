@@ -1,5 +1,5 @@
-/* What the program says about itself: usage, the manual page cleave.1, and its part about runs as `cleave help run`.
- * Commands come from their table, keys from that of the scene. */
+/* Prints the usage, the manual page cleave.1, and its part about runs as `cleave help run`. Commands come from their
+ * table, keys from the table of keys. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +8,8 @@
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
-/* term NULL: a paragraph; of: names of the commands that it is true of, NULL: of all that have it. */
+/* An entry of the manual. term NULL: a paragraph. of: names of the commands to which the entry applies; NULL: all
+ * commands that have the term. */
 struct entry {
     const char *term, *text, *of;
 };
@@ -129,7 +130,7 @@ static const struct section sections[] = {
     SECTION("COPYRIGHT", copyright, false),
 };
 
-/* Words in lines of at most 100 characters that begin with `indent` blanks. */
+/* Prints words in lines of at most 100 characters that begin with `indent` blanks. */
 static void wrapped(FILE *out, const char *text, int indent)
 {
     int column = 0;
@@ -156,7 +157,7 @@ void usage_print(FILE *out)
         "\n`cleave COMMAND --help` says what a command takes; `cleave help run` what a run leaves and how it ends.\n");
 }
 
-/* Does the form of a command hold this option, as a word? */
+/* Returns true if the form of a command contains this option as a word. */
 static bool takes_option(const struct command *c, const char *term)
 {
     size_t length = strcspn(term, " ");
@@ -165,7 +166,7 @@ static bool takes_option(const struct command *c, const char *term)
     return false;
 }
 
-/* Is it of this command, by the list of names? */
+/* Returns true if an entry applies to a command, by its list of names. */
 static bool is_of(const struct entry *e, const struct command *c)
 {
     const size_t length = strlen(c->name);
@@ -187,7 +188,7 @@ void usage_print_of(FILE *out, const struct command *c)
 
 /* ---- pages ------------------------------------------------------------------------------------------------------- */
 
-/* Writes text with the characters escaped that have a meaning in troff. */
+/* Writes a text with escapes for characters that have a meaning in troff. */
 static void troff_text(FILE *out, const char *text)
 {
     for (const char *c = text; *c; c++) {

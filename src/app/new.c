@@ -1,4 +1,4 @@
-/* `cleave new`: a commented scene to begin with, of one of the kinds in inputs/new/. */
+/* Implements `cleave new`: writes a commented scene as a template, of one of the kinds in inputs/new/. */
 #include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
@@ -7,14 +7,14 @@
 #include "base/edit_distance.h"
 #include "commands.h"
 
-/* Kind, what it is, and the scene behind these two lines. */
+/* Kinds of scenes: name, description, and text of the scene. */
 static const struct kind {
     const char *name, *meaning, *text;
 } kinds[] = {
 #include "new_scenes.h"
 };
 
-/* The surface that the kind stl reads, under this name. */
+/* The surface that the kind stl reads, with this file name. */
 static const char part[] =
 #include "new_part.h"
     ;
@@ -29,7 +29,7 @@ static status kinds_print(void)
     return OK;
 }
 
-/* The kind of this name. REFUSED with the nearest. */
+/* Finds the kind of this name. REFUSED with the nearest name. */
 static status kind_find(const char *name, const struct kind **found)
 {
     const struct kind *nearest = kinds;
@@ -41,7 +41,7 @@ static status kind_find(const char *name, const struct kind **found)
                       nearest->name);
 }
 
-/* REFUSED unless the last part of the path without .yaml is a name that a run may have. */
+/* REFUSED unless the last part of the path, without .yaml, is a valid name of a run. */
 static status check_path(const char *path, int *length, const char **name)
 {
     const char *slash = strrchr(path, '/');
@@ -74,7 +74,7 @@ static void scene_write(FILE *out, const struct kind *k, const char *path, const
         fputs(k->text, out);
 }
 
-/* Opens a file that is not there yet. REFUSED if it is. */
+/* Creates a new file. REFUSED if it exists. */
 static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
@@ -92,7 +92,7 @@ static status file_close(FILE *out, const char *path)
     return status_set(FAILED, "%s: cannot be written", path);
 }
 
-/* The file of the surface beside a scene: NAME.stl for NAME.yaml. */
+/* File name of the surface that belongs to a scene: NAME.stl for NAME.yaml. */
 struct part_name {
     char text[PATH_LONGEST + 8];
 };
@@ -103,7 +103,7 @@ static struct part_name part_path(const char *path)
     return file;
 }
 
-/* Writes the surface beside a scene that reads it. */
+/* Writes the surface that belongs to a scene, if its kind reads one. */
 static status part_write(const struct kind *k, const char *path)
 {
     FILE *out;

@@ -1,4 +1,4 @@
-/* `cleave plot`: the words of the command; what they ask for is drawn by the room `plot`. */
+/* Implements `cleave plot`: reads the words of the command; the room `plot` draws. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,16 +14,16 @@ static const char usage[] = "cleave plot " PLOT_WORDS;
 
 struct plot_words {
     struct plot_request request;
-    struct run_arguments scene;          /* of --scene; its overrides */
-    const char *times, *frames, *format; /* as given */
+    struct run_arguments scene;          /* words of --scene, with its overrides */
+    const char *times, *frames, *format; /* as on the command line */
 };
 
-/* Of a film; stills have PANELS_MAX. */
+/* Largest number of frames of a film; still images have PANELS_MAX. */
 enum { FILM_FRAMES_MAX = 100000 };
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
-/* --frames: all, last, or how many. */
+/* Reads --frames: all, last, or their number. */
 static status read_frames_option(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -34,7 +34,7 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Times with units, commas between them. */
+/* Reads times with units, separated by commas. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -56,7 +56,7 @@ static status read_times(struct plot_words *w, const char *text)
     return s;
 }
 
-/* `z=4mm`, or `z`: the slice with most damage of that direction. */
+/* Reads `z=4mm`, or `z`: the slice normal to z with most damage. */
 static status read_slice(struct plot_words *w, const char *text)
 {
     struct projection *projection = &w->request.projection;
@@ -125,7 +125,7 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
-/* The format follows from the ending of -o where no other is given. */
+/* Sets the format from the file name extension of -o, unless the format is given. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;

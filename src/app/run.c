@@ -1,4 +1,4 @@
-/* `cleave run`: from a scene file to results. */
+/* Implements `cleave run`: reads a scene file, runs it and writes the results. */
 #include <math.h>
 #include <omp.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@
 
 /* ---- run --------------------------------------------------------------------------------------------------------- */
 
-/* When bonds broke first, and where how many did; how far cracks have come. */
+/* Prints when and at how many positions bonds broke first, and the growth of the longest crack. */
 static void print_breaks(const struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
@@ -79,12 +79,12 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return OK;
 }
 
-/* Makes the engine, opens the folder, runs to the end and writes the summary. */
+/* Creates the engine, opens the folder, runs to the end and writes the summary. */
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {
     double start = team_clock();
-    TRY(engine_make(e, s, out)); /* first: a scene that is refused leaves no folder behind */
+    TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
     engine_warn(e);
@@ -116,7 +116,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
 
 status command_run(int argc, char **argv)
 {
-    const volatile sig_atomic_t *stop = stop_signals(); /* before the scene, whose reading may take seconds */
+    const volatile sig_atomic_t *stop = stop_signals(); /* before the scene is read, which can take seconds */
     struct run_arguments a;
     struct pilot pilot;
     TRY(arguments_read(&a, argc, argv,

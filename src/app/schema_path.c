@@ -1,4 +1,4 @@
-/* Where the schema of scenes lies: beside the installed program, or in its build folder. */
+/* Finds the JSON schema of scenes next to the installed program, or in its build folder. */
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,19 +1,19 @@
-/* Signals that ask a command to end in good order. */
+/* Handles signals that request the orderly end of a command. */
 #include <signal.h>
 #include <unistd.h>
 
 #include "commands.h"
 
-/* Set by signals: a checkpoint and the end of the run, or of a study, are requested. */
+/* Set by signal handlers: a checkpoint and the end of the run, or of a study, are requested. */
 static volatile sig_atomic_t stop_asked;
 
 static void on_signal(int number)
 {
-    if (stop_asked) _exit(128 + number); /* the second time: at once */
+    if (stop_asked) _exit(128 + number); /* the second signal ends the program at once */
     stop_asked = 1;
 }
 
-/* For signals that batch systems send before the end of a job, some of them every second: repeated ones have no
+/* Handles signals that batch systems send before the end of a job, some of them every second: repeated ones have no
  * effect. */
 static void on_notice(int number)
 {
@@ -21,7 +21,8 @@ static void on_notice(int number)
     stop_asked = 1;
 }
 
-/* A signal that the parent process ignores stays ignored, as nohup and `&` in a script require. */
+/* Installs the handlers. A signal that the parent process ignores stays ignored, as nohup and `&` in a script
+ * require. */
 static void listen_to_signals(void)
 {
     static const struct {

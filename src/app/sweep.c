@@ -1,4 +1,5 @@
-/* `cleave sweep`: every combination of the values of some keys; runs them, or lists the commands that do. */
+/* Implements `cleave sweep`: runs every combination of the values of some keys, or lists the commands for these
+ * runs. */
 #include <stdio.h>
 #include <string.h>
 
@@ -99,7 +100,7 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
     return done;
 }
 
-/* The commands of the runs that are not the same as others. */
+/* Prints the commands of the runs, without duplicates. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
     TRY(a->options.overwrite ? study_folder_guard(s->folder) : study_folder_fits(s->folder, s->text));

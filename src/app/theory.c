@@ -1,4 +1,4 @@
-/* `cleave help theory`: the equations that the program solves, on one page, with their sources. */
+/* Prints `cleave help theory`: the equations that the program solves, on one page, with their sources. */
 #include <stdio.h>
 
 #include "commands.h"

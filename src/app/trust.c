@@ -1,4 +1,4 @@
-/* `cleave help trust`: the guarantees of a run, and the tests that check them. */
+/* Prints `cleave help trust`: the guarantees of a run, and the tests that check them. */
 #include <stdio.h>
 
 #include "commands.h"
@@ -59,7 +59,7 @@ static const char not_promised[] = "Not promised: the same bits from another bui
                                    "want of memory; that HDF5 survives a damaged particle list "
                                    "(it may crash, which is said in one line).";
 
-/* A paragraph in lines of 100 letters, each after `indent` blanks. */
+/* Prints a paragraph in lines of 100 characters, each after `indent` blanks. */
 static void paragraph(FILE *out, const char *text, int indent)
 {
     int column = 0;
