@@ -71,8 +71,7 @@ static const struct {
                    {5, {2, 12}, {10, 30}, {28, 48}},
                    {7, {2, 8}, {3, 12}, {23, 39}},
                    {10, {2, 6}, {2, 4}, {17, 31}}};
-#define USUAL_HORIZON                                                                                                  \
-    0.5 /* largest difference of the horizon from 3.015 spacings for which the table applies [spacings] */
+#define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
 int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;

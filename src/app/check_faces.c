@@ -7,12 +7,10 @@
 #include "base/memory.h"
 #include "check_parts.h"
 
-#define ELSEWHERE 10.0 /* [degrees] largest angle between the normal of a surface and the axis of an aligned face */
-#define SHARE_LEAST                                                                                                    \
-    0.05 /* least share of the area that is reported; a row at the edge of a slope is less in a face of 20 rows */
-enum { AWAY = 4 }; /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
-#define COLUMNS_MOST                                                                                                   \
-    16.0 /* largest number of columns in the bounding box across the axis, over the number of particles of the face */
+#define ELSEWHERE 10.0    /* [degrees] largest angle between the normal of a surface and the axis of an aligned face */
+#define SHARE_LEAST 0.05  /* least share of the area that is reported; a row at the edge of a slope is less */
+enum { AWAY = 4 };        /* [columns] over which heights are compared: finds steps of slopes of 14 degrees and more */
+#define COLUMNS_MOST 16.0 /* largest number of columns in the bounding box over the particles of the face */
 
 /* End heights of columns of particles along the axis of a face, on a grid across the axis [spacings]. */
 struct ends {

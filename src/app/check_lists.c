@@ -5,8 +5,7 @@
 #include "check_parts.h"
 
 #define THIN_SHARE 0.05 /* least share of a body's particles in a thin part that is reported */
-#define PROBE                                                                                                          \
-    0.9 /* [spacings] largest distance of a particle from a position inside the body, also for scattered particles */
+#define PROBE 0.9       /* [spacings] largest distance of a particle from a position inside the body */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
 /* Returns true if there is a particle of a body near X. */

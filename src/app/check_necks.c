@@ -13,8 +13,7 @@
 #define NARROW 12       /* rows; in wider necks one row is less than the reported errors */
 #define COVERED 0.02    /* least share of a covered cell */
 #define WITHIN 1e-6     /* least depth of a point that is not on the surface [spacings] */
-#define OFF_LEAST 0.02  /* least relative error of necks that is reported, in the mean and at the narrowest position,  \
-                         */
+#define OFF_LEAST 0.02  /* least relative error that is reported, in the mean and at the narrowest chord, */
 #define OFF_CURVED 0.05 /* ... and if the sides are curved or slanted, which lattices follow in steps */
 #define GROWTH 0.25     /* least increase of the width on both sides of a neck [spacings] */
 #define LENGTH_OFF 0.02 /* least relative error of lengths in 1D that is reported */

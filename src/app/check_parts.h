@@ -92,7 +92,7 @@ void say_levels_saving(const struct run *e, const struct cost *c);
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
 void advise_sections(const struct run *e, FILE *out);
 
-/* Formats a length to `digits` digits, in the largest unit in which the present spacing is not below 0.1. */
+/* Text of a length, returned by value. */
 struct length_text {
     char text[32];
 };

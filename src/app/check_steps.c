@@ -11,15 +11,11 @@
 #define AT_ONCE 1e-3   /* share of the largest loads above which loads count as present before the first load step */
 #define FALLS 1e-6     /* least relative decrease of a load that is not round-off */
 #define LOADS_LOOKS 64 /* number of times at which loads are evaluated */
-#define FEW                                                                                                            \
-    20.0 /* least length of a crack, and of material ahead of it [spacings]; loads deviate from handbooks below */
-#define NOTHING_BREAKS                                                                                                 \
-    0.8 /* ratio of stretch to critical stretch at a crack tip below which no increment occurs: 0.9 at Griffith's load \
-         */
-#define SLOWER 2.0      /* factor on the number of iterations of the first equilibrium for those with a long crack */
-#define LEAST_SHARE 0.1 /* least run time over the largest: for a body that separates early, and for fewer iterations  \
-                         */
-#define SPACINGS 2.0    /* length of a crack increment [spacings] */
+#define FEW 20.0       /* spacings of crack, or of material ahead, below which loads deviate from handbooks */
+#define NOTHING_BREAKS 0.8 /* tip stretch over critical stretch without an increment; 0.9 at Griffith's load */
+#define SLOWER 2.0         /* factor on the number of iterations of the first equilibrium for those with a long crack */
+#define LEAST_SHARE 0.1    /* least run time over the largest: early separation, fewer iterations */
+#define SPACINGS 2.0       /* length of a crack increment [spacings] */
 enum { LED_EQUILIBRIA = 3, PAIRS_AT_ONCE = 2 };
 enum { PIN_MOST = 2, GRIP_LEAST = 12 }; /* widths of supports on which bodies rotate, and of grips [spacings] */
 

@@ -2,8 +2,7 @@
 #include "base/memory.h"
 #include "scene/fill.h"
 
-#define CLEARLY 1e-6 /* margin [cells]: positions closer to a surface count as outside, and the fill decides on them   \
-                      */
+#define CLEARLY 1e-6 /* margin [cells]: positions closer to a surface are left to the fill */
 
 /* Returns true if all particle positions of cell I are inside the shape, by the margin CLEARLY. */
 static bool cell_inside(const struct grid *box, const struct region *shape, int64_t I)

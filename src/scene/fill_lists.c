@@ -27,10 +27,8 @@ enum { LOOKED_AT = 128 };
  * factor: in another unit they differ by 1e3 and more; at random places by 2 on a line, 4 in the plane and 6 in
  * space. */
 #define VOLUME_MOST 100.0
-#define CROWDED                                                                                                        \
-    0.5 /* nearest neighbours closer than this: the memory of bonds is estimated before they are made [spacings] */
-#define ONE_PLACE                                                                                                      \
-    1e-9 /* particles closer than this are at one position [longest edge of the body]; refused in fill.c */
+#define CROWDED 0.5     /* nearest neighbours closer than this: memory of bonds is estimated first [spacings] */
+#define ONE_PLACE 1e-9  /* least distance of two positions [longest edge of the body]; refused in fill.c */
 #define REACH_LEAST 1.5 /* least reach of a material point, for cells of at most one spacing [spacings] */
 
 /* The particles of one body, packed. */
