@@ -29,7 +29,10 @@ struct cover {
 /* Computes the cells of a piece. Returns false, with nothing to release, for bodies in 1D or from a list, for
  * unbounded pieces, and for more cells than can be computed quickly. */
 bool cover_make(struct cover *c, const struct piece *p);
+
+/* Writes the indices of a cell along the axes to at[DIM_MAX]. */
 void cover_place(const struct cover *c, int64_t cell, int64_t *at);
+
 void cover_free(struct cover *c);
 
 #endif

@@ -382,6 +382,7 @@ status read_axis_of(struct reader *r, const struct node *n, const char *group, r
  * formula[dim]. The value of a component with a formula is 1 (scene_loads.c). */
 status read_formulas(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
                      struct expression *formula);
+
 status read_boundaries(struct reader *r, const struct node *root);
 status read_probes(struct reader *r, const struct node *root);
 status read_frame_regions(struct reader *r, const struct node *root);

@@ -1,4 +1,4 @@
-/* Rows of the table of keys (scene_keys.c): solids, and what moves and repeats them. */
+/* Rows of the table of keys (scene_keys.c): solids, and their motions and patterns. */
 KEY("solid", KEY_GROUP, UNIT_NONE, NOWHERE, ANY, NONE,
     "what bodies and regions are made of: one of the following, or a list of them, built in order"),
     KEY("solid.box", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "axis-parallel box"),
