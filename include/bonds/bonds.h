@@ -23,8 +23,8 @@ static inline void spring_bound_add(struct spring_bound *s, real K, const real *
     s->total += K;
 }
 
-/* Returns the block-Gershgorin bound of the largest eigenvalue of the springs added to s: the maximum row sum of the
- * matrix sum K n n, plus the sum of all K [N/m]. */
+/* Returns the block-Gershgorin upper bound of the largest eigenvalue of the springs added to s: the maximum row sum of
+ * the matrix sum K n n, plus the sum of all K [N/m]. */
 static inline real spring_bound_of(const struct spring_bound *s, int dim)
 {
     real norm = 0;

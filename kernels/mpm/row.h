@@ -75,7 +75,8 @@ static ALWAYS_INLINE int points_signs(row_of_points a)
 #endif
 }
 
-/* Points processed at once: the usual number per cell, two in 1D. Further lanes are copies. */
+/* Returns the number of material points processed at once: the usual number per cell, two in 1D. Unused vector entries
+ * repeat the last point. */
 #define AT_ONCE(dim) ((dim) == 1 ? 2 : POINTS)
 
 /* Returns the smaller of a and b. */

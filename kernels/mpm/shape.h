@@ -95,9 +95,9 @@ static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row
 enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 
 #define IS_FACE(dim, shape) ((shape) == SHAPE_LINEAR && (dim) > 1)
-/* Number of directions that lie in a row; the remaining directions are across it. */
+/* Number of axes along which the four nodes of a row differ: two for the corners of a face, else one (x). */
 #define ROW_DIMS(dim, shape) (IS_FACE(dim, shape) ? 2 : 1)
-/* Rows of the patch along y and z. */
+/* Number of rows of nodes along y and along z, around one cell, that a shape function can reach; and their product. */
 #define ROWS_Y(dim, shape) ((dim) > 1 && !IS_FACE(dim, shape) ? ACROSS : 1)
 #define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
@@ -122,7 +122,7 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define FOR_ANY_TOUCHED(s, dim, shape)                                                                                 \
     FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),             \
              SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
-/* Index of row k1, k2 in the arrays of a patch. */
+/* Index of the row number k1 along y, k2 along z (variables of the enclosing loop) in arrays with one entry per row. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
 /* Position of a cell in the grid. */
