@@ -266,7 +266,7 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     if (scene_at_rest(s)) return "static solvers need the current frame";
     if (s->coupling != COUPLING_PARTIAL_STRESS && s->coupling != COUPLING_HANDSHAKE)
         return "couplings pm to pgg need the grid of the current frame";
-    if (s->cell != 2) return "it needs mpm.cell: 2";
+    if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
     if (s->irregularity > 0) return "it needs a regular lattice";
     if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
     for (int m = 0; m < s->materials; m++)

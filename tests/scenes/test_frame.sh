@@ -191,7 +191,7 @@ refuses "two bodies that touch" inputs/hopkinson_bar.yaml $mesh
 # chooses FRAME REASON SCENE [ARGUMENT...]: checks the choice that check reports.
 chooses()
 {
-    what="auto: $1, $2" frame="^frame .*: $1, as .*$2"; shift 2
+    what="auto: $1, $2" frame="^frame .*: $1 frame (.*$2"; shift 2
     "$cleave" check --no-trial "$@" >"$work/out" 2>"$work/err" || fail "$what: $(cat "$work/err")"
     holds "$what" grep -q "$frame" "$work/out"
 }
@@ -202,7 +202,7 @@ chooses reference "keeps its neighbours" $crack $few
 chooses current "mpm.shape" $crack $few -s mpm.shape=gimp
 chooses current "mpm.transfer" $crack $few -s mpm.frame=auto -s mpm.transfer=flip
 chooses current "interface_damping" $crack $few -s interface_damping=0
-chooses current "mpm.cell 2" $crack $few -s mpm.cell=3
+chooses current "mpm.cell: 2" $crack $few -s mpm.cell=3
 chooses current "couplings pm" $crack $few -s coupling=pgg
 chooses current "regular lattice" $crack $few -s particles.irregularity=0.1
 chooses current "yield" $crack $few -s "material.yield_stress=1 GPa"
