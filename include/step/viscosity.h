@@ -42,7 +42,7 @@ void viscosity_push_nodes(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 that the speeds of bodies and supports lead to expect. */
-real viscosity_step_share(const struct scene *s, const struct particles *p);
+real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p);
 
 /* The fastest collision of bodies that a scene expects. */
 struct shock {

@@ -106,8 +106,8 @@ static void frame_fill(struct frame *f, const struct lammps_frame *from, const s
     for (int64_t i = 0; i < f->n; i++) {
         const double start = check_at(c, i, c->start);
         f->damage[i] =
-            (float)(start +
-                    (1 - start) * from->damage[i]); /* damage in LAMMPS counts the bonds that exist at the start */
+            /* damage in LAMMPS counts the bonds that exist at the start */
+            (float)(start + (1 - start) * from->damage[i]);
         f->id[i] = (int32_t)i, f->kind[i] = KIND_PD;
     }
 }

@@ -92,13 +92,14 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
 }
 
 /* REFUSED if viscosity has no effect. Sets the number of levels to 0 if it is automatic: with viscosity all cells
- * have one time step. */
+ * have one time step. Switches the active set off: a region at rest beside a moving one has viscous forces. */
 static status read_viscosity(struct reader *r, const struct node *n, struct material *m)
 {
     struct scene *s = r->scene;
     if (!n) return OK;
     TRY(read_group(r, n, n, "material.viscosity", m));
     if (s->levels == LEVELS_AUTO) s->levels = 0;
+    s->active_set = false;
     const char *why = s->space == SPACE_PLANE_STRESS ? "goes with space plane strain, solid or line, where the rate of "
                                                        "volume is known"
                       : s->model != MODEL_BOND && s->method != METHOD_MPM ? "goes with model bond"

@@ -297,22 +297,41 @@ struct shock shock_expected(const struct scene *s)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the largest initial or prescribed speed [m/s]. */
-static real speed_expected(const struct scene *s, const struct particles *part)
+/* Returns the largest speed that load l gives to its particles, or 0 if the load is unbounded or of another kind [m/s].
+ * A traction moves a face at its size over density times wave speed; impedance: the least of the materials
+ * [Pa s/m]. */
+static real speed_of_load(const struct load *l, const struct particles *p, real duration, real impedance)
 {
+    const struct boundary *b = l->boundary;
+    const real size = sqrt(dot(b->value, b->value, p->dim));
+    if (b->kind == BOUNDARY_VELOCITY) {
+        const real speed =
+            b->displaces ? load_displacing_speed(l, p, duration) : real_max(size, load_velocity_jump(l, p, duration));
+        return isfinite(speed) ? speed : 0;
+    }
+    real most = b->time.n > 0 ? 0 : 1;
+    for (int k = 0; k < b->time.n; k++) most = real_max(most, fabs(time_function_at(&b->time, b->time.t[k])));
+    return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
+}
+
+/* Returns the largest initial or prescribed speed [m/s]. */
+static real speed_expected(const struct scene *s, const struct loads *loads, const struct particles *part)
+{
+    real impedance = INFINITY;
     real most = real_max(diagnostics_fastest(part, part->list[KIND_PD], part->n_of[KIND_PD]),
                          diagnostics_fastest(part, part->list[KIND_MPM], part->n_of[KIND_MPM]));
-    for (int b = 0; b < s->boundaries; b++)
-        if (s->boundary[b].kind == BOUNDARY_VELOCITY)
-            most = real_max(most, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
+    for (int m = 0; m < s->materials; m++)
+        impedance = real_min(impedance, s->material[m].density * s->material[m].wave_speed);
+    for (int b = 0; b < loads->n; b++)
+        most = real_max(most, speed_of_load(&loads->load[b], part, s->duration, impedance));
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         most = real_max(most, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
     return most;
 }
 
-real viscosity_step_share(const struct scene *s, const struct particles *p)
+real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p)
 {
-    const real speed = scene_viscous(s) ? speed_expected(s, p) : 0;
+    const real speed = scene_viscous(s) ? speed_expected(s, l, p) : 0;
     real q = 0;
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];

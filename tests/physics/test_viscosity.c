@@ -123,6 +123,48 @@ static void only_takes(void **state)
     solution_free(&a);
 }
 
+/* Four ways to drive an end at 2000 m/s, and the traction rho c v, give the same stable step: that of 5 m/s times the
+ * ratio of sqrt(1 + q^2) - q. */
+static void step_follows_every_drive(void **state)
+{
+    static char *const drive[] = {
+        "boundary[0]={velocity: [2000 m/s], region: {box: {from: [-1 mm], to: [2 mm]}}}",
+        "boundary[0]={displacement: [(2000 m/s)*t], region: {box: {from: [-1 mm], to: [2 mm]}}}",
+        "boundary[0]={velocity: [(2000 m/s)*(t + 1 s)/(1 s)], region: {box: {from: [-1 mm], to: [2 mm]}}}",
+        "boundary[0]={velocity: [1 m/s], region: {box: {from: [-1 mm], to: [2 mm]}}, time: {table: [[0 s, 2000], [1 s, "
+        "2000]]}}",
+        "boundary[0]={traction: [27495.45 MPa], face: x-}"}; /* 2700 kg/m^3 times 5091.75 m/s times 2000 m/s */
+    struct solution a;
+    real first = 0;
+    (void)state;
+    for (size_t k = 0; k < COUNT_OF(drive); k++) {
+        solution_make(&a, line, "method=mpm", "material.viscosity={}", drive[k], NULL);
+        if (a.made != OK) fail_msg("%s: %s", drive[k], status_message());
+        if (k == 0) first = a.e.clock.dt_critical;
+        if (!(fabs(a.e.clock.dt_critical / first - 1) < 1e-4))
+            fail_msg("%s: step %g, not %g", drive[k], a.e.clock.dt_critical, first);
+        solution_free(&a);
+    }
+    solution_make(&a, line, "method=mpm", "material.viscosity={}", NULL);
+    const real q = 0.2 + 1.5 * 2000 / a.s.material[0].wave_speed, slow = 0.2 + 1.5 * 5 / a.s.material[0].wave_speed;
+    const real share = (sqrt(1 + q * q) - q) / (sqrt(1 + slow * slow) - slow);
+    assert_true(fabs(first / a.e.clock.dt_critical / share - 1) < 1e-4);
+    solution_free(&a);
+}
+
+/* Regions at rest: the key time.active_set changes no bit. */
+static void rest_changes_no_bit(void **state)
+{
+    struct solution a, b;
+    (void)state;
+    solution_run(&a, flat, "method=pd", "material.viscosity={}", "time.active_set=true", NULL), solution_done(&a);
+    solution_run(&b, flat, "method=pd", "material.viscosity={}", "time.active_set=false", NULL), solution_done(&b);
+    for (int d = 0; d < 2; d++)
+        for (int64_t i = 0; i < a.e.part.n; i++) assert_true(a.e.part.v[d][i] == b.e.part.v[d][i]);
+    assert_true(a.e.diagnostics->now.momentum_error == b.e.diagnostics->now.momentum_error);
+    solution_free(&a), solution_free(&b);
+}
+
 static void refused(void **state)
 {
     (void)state;
@@ -143,7 +185,7 @@ int main(void)
                                          {"plane, bonds", flat, "pd"},  {"plane, cells", flat, "mpm"},
                                          {"solid, bonds", solid, "pd"}, {"solid, cells", solid, "mpm"}};
     static char *const method[] = {"method=pd", "method=mpm"};
-    struct CMUnitTest tests[COUNT_OF(front) + 4];
+    struct CMUnitTest tests[COUNT_OF(front) + 6];
     int n = 0;
     for (size_t k = 0; k < COUNT_OF(front); k++)
         tests[n++] = (struct CMUnitTest){
@@ -151,6 +193,8 @@ int main(void)
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(momenta_are_kept);
     for (int k = 0; k < 2; k++)
         tests[n++] = (struct CMUnitTest){.name = method[k], .test_func = only_takes, .initial_state = method[k]};
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(step_follows_every_drive);
+    tests[n++] = (struct CMUnitTest)cmocka_unit_test(rest_changes_no_bit);
     tests[n++] = (struct CMUnitTest)cmocka_unit_test(refused);
     return _cmocka_run_group_tests("viscosity", tests, (size_t)n, NULL, NULL);
 }

@@ -212,9 +212,9 @@ between "penny: area" "$(compute "$(figure "$work/penny" load_steps.crack_area)/
 "$cleave" check $pulled >"$work/out" 2>&1
 is "check: status" $? 0
 holds "check: solver" grep -q '^solver  *static: 6 load steps at most, by energy' "$work/out"
-holds "check: what leads the crack" grep -q '^cracks  *1 tip is led' "$work/out"
+holds "check: what leads the crack" grep -q '^cracks  *1 tip is driven by the hoop stress' "$work/out"
 "$cleave" check "$work/space.yaml" >"$work/solid" 2>&1
-holds "check: what leads it in space" grep -q '^cracks  *1 front is led .* straight through the body' "$work/solid"
+holds "check: what leads it in space" grep -q '^cracks  *1 front is driven by the hoop stress .* straight through the body' "$work/solid"
 ends='cracks=[{polygon: [[-1 mm, 10 mm, -1 mm], [8 mm, 10 mm, -1 mm], [8 mm, 10 mm, 2 mm], [-1 mm, 10 mm, 2 mm]]}]'
 "$cleave" check "$work/space.yaml" -s "$ends" >"$work/solid" 2>&1
 holds "check: why it is not led" grep -q '^cracks  *grow by the bonds beyond their critical stretch.* not by hoop stress: fronts are not parallel' "$work/solid"
