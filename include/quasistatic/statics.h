@@ -134,10 +134,11 @@ struct unconstrained_fragment {
 /* State of a body between two load steps, and the storage of the equilibrium solver. The nodes of the system of
  * equations are the peridynamic particles, then the nodes of the mesh that move. */
 struct statics {
-    int64_t particles; /* number of peridynamic particles, the first nodes */
-    int32_t *node;     /* [nodes] index of the particle, or of the node in the mesh */
-    real *weight;      /* [nodes] 1/2 for each plane of symmetry on which a particle lies */
-    int16_t *load;     /* [nodes DIM_MAX] boundary that prescribes a component, -1: none or a mirror */
+    int64_t particles;       /* number of peridynamic particles, the first nodes */
+    int32_t *node;           /* [nodes] index of the particle, or of the node in the mesh */
+    real *weight;            /* [nodes] 1/2 for each plane of symmetry on which a particle lies */
+    const struct mesh *mesh; /* whose nodes are unknowns; borrowed from the reference frame */
+    int16_t *load;           /* [nodes DIM_MAX] boundary that prescribes a component, -1: none or a mirror */
     struct equilibrium balance;
     struct field increment; /* [nodes] displacement increment to the next equilibrium: prescribed, else predicted [m] */
     real *applied[DIM_MAX]; /* [particles of the body] present applied forces [N] */

@@ -103,7 +103,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
         if (bonds_break_overstretched(e, within, most, &a->cost, &area) == 0) break;
         if (e->scene->steps.control == CONTROL_ENERGY) {
             unconstrained_find(e);
-            s->severs = unconstrained_check(s, &e->part, e->clock.step + 1) != OK;
+            s->severs = unconstrained_check(s, &e->part, false, e->clock.step + 1) != OK;
             if (s->severs) break;
         }
         TRY(equilibrium_at(e, s->t));

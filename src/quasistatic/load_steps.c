@@ -345,7 +345,7 @@ static void warn_at_end(struct run *e)
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;
-    const status held = unconstrained_check(e->statics, &e->part, e->clock.step + 1);
+    const status held = unconstrained_check(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
         warnings_say(&e->warnings, "the crack goes through: after its next increment a fragment of the body would be "

@@ -408,7 +408,7 @@ void unconstrained_find(struct run *e)
     struct search search = {.statics = s, .part = &e->part, .mesh = &e->frame->mesh, .loads = &e->loads};
     real free[MODES_MOST][MODES_MOST];
     unconstrained_free(s);
-    s->fragments_stale = false;
+    s->fragments_stale = false, s->mesh = search.mesh;
     unconstrained_search_begin(&search);
     cells_join(&search);
     bonded_join(&search, &e->bonds);
@@ -483,13 +483,36 @@ static real applied_sum(const struct particles *part, const struct statics *stat
     return sum / sqrt((real)nodes);
 }
 
-status unconstrained_check(const struct statics *s, const struct particles *p, int64_t step)
+/* Returns the unbalanced share of loads on a fragment with nodes of the mesh: the component of all forces in
+ * equilibrium along a free motion, to which internal forces do not contribute, over applied_sum [1]. 0 without such
+ * nodes. */
+static real unbalanced_share_of_nodes(const struct statics *s, const struct particles *p,
+                                      const struct unconstrained_fragment *f)
+{
+    real most = 0, nodes = 0;
+    for (int a = 0; a < f->motions; a++) {
+        real sum = 0;
+        for (int64_t k = 0; k < f->n; k++)
+            for (int d = 0; d < p->dim; d++) {
+                const int64_t at = f->node[k], own = s->node[at];
+                const real force = at < s->particles ? s->weight[at] * p->f[d][own] : s->mesh->grid.force[d][own];
+                sum += f->motion[(k * p->dim + d) * MODES_MOST + a] * force;
+                nodes += at >= s->particles;
+            }
+        most = real_max(most, fabs(sum));
+    }
+    return nodes > 0 && most > 0 ? most / applied_sum(p, s, f->n) : 0;
+}
+
+status unconstrained_check(const struct statics *s, const struct particles *p, bool solved, int64_t step)
 {
     for (int64_t q = 0; q < s->fragments && s->applied[0]; q++) {
         const struct unconstrained_fragment *f = &s->fragment[q];
         real size;
-        const real share = unbalanced_share(s, p, f, &size);
-        if (share <= UNHELD_MOST || size <= UNHELD_SMALL * applied_sum(p, s, f->n)) continue;
+        real share = unbalanced_share(s, p, f, &size);
+        if (size <= UNHELD_SMALL * applied_sum(p, s, f->n)) share = 0;
+        if (solved) share = real_max(share, unbalanced_share_of_nodes(s, p, f));
+        if (share <= UNHELD_MOST) continue;
         return status_set(FAILED,
                           "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
                           "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "

@@ -114,7 +114,7 @@ status engine_equilibrium_try(struct run *e, real t)
 {
     statics_unknowns_make(e);
     TRY(equilibrium_at(e, t));
-    return unconstrained_check(e->statics, &e->part, e->clock.step + 1);
+    return unconstrained_check(e->statics, &e->part, true, e->clock.step + 1);
 }
 
 /* Finds the equilibrium at load time t [s] (NAN: does nothing), and stores t and the largest stretch ratio if it

@@ -241,6 +241,11 @@ no "waves" 'initial' -s 'initial=[{velocity: [1, 0]}]'
 no "no load step" 'number' -s steps.number=0
 
 stopped "nothing holds it" "$work/loose" 'load step 1, .*nothing holds the body .*, round x = .* hold it there' $pulled -s "$grips]" -s 'probes=[]'
+# Loads on material points act on nodes of the mesh: the same pulled body by both methods that have such points.
+for method in adaptive mpm; do
+    stopped "nothing holds its points, $method" "$work/loose_$method" 'load step 1, .*nothing holds the body' $pulled -s "$grips]" -s 'probes=[]' \
+        -s method=$method
+done
 is "nothing holds it: summary" "$(figure "$work/loose" status)" failed
 holds "nothing holds it: a checkpoint" test -s "$work/loose/checkpoint.h5"
 
