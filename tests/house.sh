@@ -128,7 +128,7 @@ nothing "circles of files that are new, have grown, or are smaller than listed"
 
 # Number of functions with the whole run as argument in the rooms from `run` to `engine`, and of pairs of a file there and a part whose
 # members it can see (by included headers): both may only decrease.
-most_whole=225 most_seen=171
+most_whole=225 most_seen=170
 parts="grid/grid_part mesh/mesh_part rigid/rigid_part contact/contact coupling/coupling_part fracture/fracture_part probes/probes_part
     probes/diagnostics step/report step/stability step/damping quasistatic/statics solver/solver"
 rooms_of_run=$(for room in run grid mesh rigid contact coupling fracture solver probes step quasistatic engine; do ls src/$room/*.c; done)

@@ -15,12 +15,6 @@
 
 #define RESULTS "bench/results"
 
-#ifdef __clang__
-#define COMPILER __VERSION__
-#else
-#define COMPILER "gcc " __VERSION__
-#endif
-
 /* Longest table that is kept [lines]. */
 enum { LINES_MAX = 250 };
 
@@ -48,7 +42,8 @@ static void results_head(char *head, size_t size, const char *name, bool quick)
     snprintf(head, size,
              "# command: cleave bench %s%s\n# date: %s\n# commit: %s\n# processor: %.*s, %d cores\n"
              "# compiler: %s; kernels %s\n",
-             name, quick ? " --quick" : "", date, commit, model, m.model, m.cores, COMPILER, simd_in_use()->name);
+             name, quick ? " --quick" : "", date, commit, model, m.model, m.cores, compiler_name(),
+             simd_in_use()->name);
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */

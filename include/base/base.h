@@ -137,4 +137,7 @@ static inline void vector_product(const real *a, const real *b, real *to)
     for (int d = 0; d < 3; d++) to[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
 }
 
+/* Returns name and version of the compiler of this program. */
+const char *compiler_name(void);
+
 #endif

@@ -392,6 +392,10 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
  * the difference of speeds; 0 for prescribed displacements. */
 real load_velocity_jump(const struct load *l, const struct particles *p, real t);
 
+/* Returns the largest speed that load l gives to its particles in p between the times 0 and t [s] [m/s]:
+ * load_displacing_speed for a prescribed displacement, else load_velocity_jump. */
+real load_driven_speed(const struct load *l, const struct particles *p, real t);
+
 /* Returns the largest change, within any time span of length `within` [s], of the velocity that load l (velocity or
  * displacement) prescribes between the times 0 and t [s] [m/s]. Before time 0 the particles of the load have the
  * velocity in p. Sampled at MOMENTS times and some particles; a span shorter than the sampling interval is extended to

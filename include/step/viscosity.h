@@ -41,8 +41,9 @@ void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on
 void viscosity_push_nodes(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
- * of viscous pressure to rho c^2 that the speeds of bodies and supports lead to expect. */
-real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p);
+ * of viscous pressure to rho c^2 that the speeds of bodies, supports and loads lead to expect. speed: the largest of
+ * particles at t = 0 [m/s]. */
+real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p, real speed);
 
 /* The fastest collision of bodies that a scene expects. */
 struct shock {

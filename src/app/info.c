@@ -19,15 +19,6 @@ void version_print(FILE *out)
     fprintf(out, *commit ? "cleave %s (commit %s)\n" : "cleave %s\n", CLEAVE_VERSION, commit);
 }
 
-static const char *compiler(void)
-{
-#if defined __clang__
-    return __VERSION__; /* the text includes the name of the compiler */
-#else
-    return "gcc " __VERSION__;
-#endif
-}
-
 static const char *build_flags(void)
 {
 #ifdef __OPTIMIZE__
@@ -57,7 +48,7 @@ static void print_build(void)
     H5get_libversion(&major, &minor, &release);
     printf("%-18s %s\n", "cleave", CLEAVE_VERSION);
     if (*commit) printf("%-18s %s\n", "commit", commit);
-    printf("%-18s %s\n", "compiler", compiler());
+    printf("%-18s %s\n", "compiler", compiler_name());
     printf("%-18s %s, %s precision\n", "build", build_flags(), sizeof(real) == sizeof(double) ? "double" : "single");
     printf("%-18s OpenMP %d, HDF5 %u.%u.%u, libyaml %s, hwloc interface %u.%u\n", "libraries", _OPENMP, major, minor,
            release, yaml_get_version_string(), hwloc >> 16, hwloc >> 8 & 0xff);

@@ -75,3 +75,12 @@ double median_of(double *value, int64_t n)
     qsort(value, (size_t)n, sizeof *value, by_size);
     return value[n / 2];
 }
+
+const char *compiler_name(void)
+{
+#if defined __clang__
+    return __VERSION__; /* the text includes the name of the compiler */
+#else
+    return "gcc " __VERSION__;
+#endif
+}

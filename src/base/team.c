@@ -331,19 +331,16 @@ real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const voi
 
 /* ---- clocks ------------------------------------------------------------------------------------------------------ */
 
-double team_clock(void)
+static double clock_read(clockid_t which)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(which, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double team_thread_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+double team_clock(void) { return clock_read(CLOCK_MONOTONIC); }
+
+double team_thread_clock(void) { return clock_read(CLOCK_THREAD_CPUTIME_ID); }
 
 const char *const timer_name[TIMERS] = {
     [TIMER_BONDS] = "bonds",     [TIMER_SCATTER] = "scatter", [TIMER_GRID] = "grid",     [TIMER_GATHER] = "gather",

@@ -39,7 +39,7 @@ static void units_judge(const struct scene *s, enum rule k, const char *subject,
                         struct warnings *to)
 {
     const char *word = ACCEPT_WORDS;
-    const bool low = value<rule[k].least, high = value> rule[k].most;
+    const bool low = (value < rule[k].least), high = (value > rule[k].most);
     if ((!low && !high) || s->accept & 1u << k) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
     warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: see whether %s have the units that are meant; if so: accept: [%.*s]",
@@ -47,8 +47,7 @@ static void units_judge(const struct scene *s, enum rule k, const char *subject,
                  low ? rule[k].least : rule[k].most, rule[k].look, (int)strcspn(word, "|"), word);
 }
 
-/* ---- materials -----------------------------------------------------------------------------------------------------
- */
+/* ---- materials --------------------------------------------------------------------------------------------------- */
 
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
@@ -74,13 +73,6 @@ struct load_figures {
     int supports;
 };
 
-static real units_length(const real *value, int dim)
-{
-    real square_sum = 0;
-    for (int d = 0; d < dim; d++) square_sum += square(value[d]);
-    return sqrt(square_sum);
-}
-
 /* Returns the stress that a load which is a force makes at one place and time [Pa]: of a body force over the longest
  * edge of the box round all particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
@@ -88,9 +80,9 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
     real value[DIM_MAX] = {0}, density = 0;
     load_value_at(l, p, k, t, value);
     if (l->boundary->kind == BOUNDARY_PRESSURE) return fabs(value[0]);
-    if (l->boundary->kind == BOUNDARY_TRACTION) return units_length(value, s->dim);
+    if (l->boundary->kind == BOUNDARY_TRACTION) return sqrt(dot(value, value, s->dim));
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return (l->boundary->by_mass ? density : 1) * units_length(value, s->dim) * particles_longest(p);
+    return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest(p);
 }
 
 /* Adds a load at one place and time to the figures. */
@@ -117,8 +109,7 @@ static void load_figures_add(const struct scene *s, const struct particles *p, c
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES_OF_LOADS)
             load_figures_at(s, p, l, k, s->duration * m / MOMENTS_OF_LOADS, f);
     if (!drives || !scene_moves(s)) return;
-    const real speed =
-        l->boundary->displaces ? load_displacing_speed(l, p, s->duration) : load_velocity_jump(l, p, s->duration);
+    const real speed = load_driven_speed(l, p, s->duration);
     if (isfinite(speed)) f->speed = real_max(f->speed, speed);
 }
 
@@ -133,7 +124,7 @@ static real units_speed_at_start(const struct scene *s, const struct particles *
             low = real_min(low, s->body[b].velocity[d]), high = real_max(high, s->body[b].velocity[d]);
         apart[d] = high - low;
     }
-    return units_length(apart, s->dim);
+    return sqrt(dot(apart, apart, s->dim));
 }
 
 /* Returns the largest component of the stress at the start [Pa]. */
@@ -196,15 +187,14 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
     for (int b = 0; b < s->boundaries; b++) {
         const struct boundary *a = &s->boundary[b];
         if (a->kind != BOUNDARY_TRACTION && a->kind != BOUNDARY_PRESSURE) continue;
-        const real most = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : units_length(a->value, s->dim);
+        const real most = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : sqrt(dot(a->value, a->value, s->dim));
         snprintf(subject, sizeof subject, "boundary %s", a->name);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", most, young);
         units_judge(s, RULE_STRAIN, subject, most / young, note, to);
     }
 }
 
-/* ---- steps and particles -------------------------------------------------------------------------------------------
- */
+/* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
 /* Warns of too few or too many steps in time, and of waves that do not reach the next particle. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, struct warnings *to)

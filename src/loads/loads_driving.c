@@ -157,6 +157,11 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t)
     return most;
 }
 
+real load_driven_speed(const struct load *l, const struct particles *p, real t)
+{
+    return l->boundary->displaces ? load_displacing_speed(l, p, t) : load_velocity_jump(l, p, t);
+}
+
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
 /* Returns the change of the velocity of the k-th particle of a load between two times; before 0 it has its own velocity

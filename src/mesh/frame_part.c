@@ -179,21 +179,19 @@ void frame_move(struct reference_frame *r, struct particles *p, struct loads *lo
     if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
 }
 
-void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads)
-{
-    if (r->mesh.points == 0) return;
-    levels_prolong_points(&r->levels);
-    mesh_points_move(&r->mesh, p);
-    mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
-    loads_mirror(loads, p);
-}
-
 void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
     levels_prolong_points(&r->levels);
     mesh_points_move(&r->mesh, p);
     loads_mirror(loads, p);
+}
+
+void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads)
+{
+    if (r->mesh.points == 0) return;
+    frame_sync_motion(r, p, loads);
+    mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
 }
 
 void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,

@@ -65,10 +65,7 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) {
-        mesh_exposed_move(&e->frame->mesh, &e->part);
-        mesh_ends_update(&e->frame->mesh, &e->part, !e->scene->small_strain);
-    }
+    if (has_mesh) frame_exposed_follow(e->frame, &e->part);
     loads_mirror(&e->loads, &e->part);
     loads_clear(&e->loads, &e->part);
     plastic_state_restore(e); /* that of the last equilibrium, whatever positions have been evaluated since */

@@ -125,8 +125,7 @@ static void path_of_table(const char *key, char *path, size_t room)
     text_harmless(path);
 }
 
-/* Returns true if k is the key `path` or below it; every key is below "". */
-static bool is_below(const struct key *k, const char *path)
+bool key_is_below(const struct key *k, const char *path)
 {
     size_t length = strlen(path);
     if (strncmp(k->path, path, length) != 0) return false;
@@ -156,7 +155,7 @@ bool scene_has_key(const char *key)
     char path[128];
     path_of_table(key, path, sizeof path);
     bool has = path_now(path) || foreign_paths(path);
-    for (int k = 0; k < keys_count && !has; k++) has = is_below(&keys[k], path) || has_leaf(&keys[k], path);
+    for (int k = 0; k < keys_count && !has; k++) has = key_is_below(&keys[k], path) || has_leaf(&keys[k], path);
     return has;
 }
 
@@ -178,7 +177,7 @@ static void help_foreign(FILE *out, const char *word)
         int found = 0;
         fputc('\n', out);
         for (int k = 0; k < keys_count; k++)
-            if (is_below(&keys[k], path)) print_key(out, &keys[k]), found++;
+            if (key_is_below(&keys[k], path)) print_key(out, &keys[k]), found++;
         INVARIANT(found > 0);
         c += length;
     }
@@ -191,7 +190,7 @@ status scene_help(FILE *out, const char *key)
     if (key) path_of_table(key, path, sizeof path);
     const char *now = path_now(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
-    for (int k = 0; k < keys_count; k++) found += is_below(&keys[k], path);
+    for (int k = 0; k < keys_count; k++) found += key_is_below(&keys[k], path);
     if (found == 0 && foreign_paths(path)) return help_foreign(out, path), OK;
     for (int k = 0; k < keys_count && found == 0; k++)
         if (has_leaf(&keys[k], path)) print_key(out, &keys[k]), leaves++;
@@ -201,7 +200,7 @@ status scene_help(FILE *out, const char *key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
                      "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");
     for (int k = 0; k < keys_count; k++) {
-        if (!is_below(&keys[k], path)) continue;
+        if (!key_is_below(&keys[k], path)) continue;
         bool top = !strchr(keys[k].path, '.'), has_keys = keys[k].type >= KEY_MAP;
         if (top && has_keys && !key) fputc('\n', out);
         print_key(out, &keys[k]);

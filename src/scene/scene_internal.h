@@ -252,6 +252,9 @@ const char *key_leaf(const struct key *k);
 /* Writes the meaning, type, range and default of a key to text[room] (scene_help.c). */
 void key_description(const struct key *k, char *text, size_t room);
 
+/* Returns true if k is the key `path` or below it; every key is below "". */
+bool key_is_below(const struct key *k, const char *path);
+
 /* Writes type, SI unit, range or words, and default of k to text[room], in one line. */
 void key_facts(const struct key *k, char *text, size_t room);
 

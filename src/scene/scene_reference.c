@@ -29,8 +29,7 @@ static void row(FILE *out, const struct key *k)
 /* Returns true if k is at the top of a scene. *has_keys: true if other keys are below k; they follow k in the table. */
 static bool is_top(const struct key *k, bool *has_keys)
 {
-    const size_t length = strlen(k->path);
-    *has_keys = k + 1 < keys + keys_count && !strncmp(k[1].path, k->path, length) && k[1].path[length] == '.';
+    *has_keys = k + 1 < keys + keys_count && key_is_below(&k[1], k->path);
     return !strchr(k->path, '.');
 }
 

@@ -198,7 +198,7 @@ status time_step_make(struct run *e)
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e->frame, s, e->coupling_kind)) *
-        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->loads, &e->part);
+        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const int levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;

@@ -7,7 +7,7 @@
 #include "base/team.h"
 #include "coupling/coupling_part.h"
 #include "mesh/mesh_part.h"
-#include "probes/diagnostics.h"
+#include "run/energies.h"
 #include "run/part.h"
 
 /* Allocates the arrays on the first call. Returns false if no material is viscous. n, nodes: particles; nodes of the
@@ -305,8 +305,7 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     const struct boundary *b = l->boundary;
     const real size = sqrt(dot(b->value, b->value, p->dim));
     if (b->kind == BOUNDARY_VELOCITY) {
-        const real speed =
-            b->displaces ? load_displacing_speed(l, p, duration) : real_max(size, load_velocity_jump(l, p, duration));
+        const real speed = real_max(load_driven_speed(l, p, duration), b->displaces ? 0 : size);
         return isfinite(speed) ? speed : 0;
     }
     real most = b->time.n > 0 ? 0 : 1;
@@ -314,24 +313,15 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
 }
 
-/* Returns the largest initial or prescribed speed [m/s]. */
-static real speed_expected(const struct scene *s, const struct loads *loads, const struct particles *part)
+real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     real impedance = INFINITY;
-    real most = real_max(diagnostics_fastest(part, part->list[KIND_PD], part->n_of[KIND_PD]),
-                         diagnostics_fastest(part, part->list[KIND_MPM], part->n_of[KIND_MPM]));
     for (int m = 0; m < s->materials; m++)
         impedance = real_min(impedance, s->material[m].density * s->material[m].wave_speed);
-    for (int b = 0; b < loads->n; b++)
-        most = real_max(most, speed_of_load(&loads->load[b], part, s->duration, impedance));
+    for (int b = 0; b < l->n && scene_viscous(s); b++)
+        speed = real_max(speed, speed_of_load(&l->load[b], p, s->duration, impedance));
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
-        most = real_max(most, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
-    return most;
-}
-
-real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p)
-{
-    const real speed = scene_viscous(s) ? speed_expected(s, l, p) : 0;
+        speed = real_max(speed, sqrt(dot(s->body[b].velocity, s->body[b].velocity, s->dim)));
     real q = 0;
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];

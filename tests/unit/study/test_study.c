@@ -259,8 +259,7 @@ static void many_names_are_found_in_time(void **state)
     assert_true((double)(clock() - begin) / CLOCKS_PER_SEC < 5);
 }
 
-/* ---- tables ---------------------------------------------------------------------------------------------------------
- */
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
 
 /* A stopped run has a summary of its part: these are not figures of the scene. */
 static void stopped_runs_have_no_figures(void **state)
