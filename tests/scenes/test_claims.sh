@@ -11,6 +11,7 @@ inputs/elasticity.md=What_moves_it inputs/elasticity.md=First_frequencies"
 said=$(compare bench/results 0 "$tables") || fail "$said"
 holds "claims.csv is compared" [ "$(echo "$said" | sed -n 's/ comparisons$//p')" -gt 1000 ]
 
+is "rows of claims.csv that say the same" "$(sed 's/^[^,]*,//' bench/claims.csv | sort | uniq -d)" ""
 holds "bench/README.md has at most 3000 words" [ "$(wc -w <bench/README.md)" -le 3000 ]
 
 # Negative control: another number in a document, in a kept result or in the table itself is seen.
