@@ -93,7 +93,9 @@ typedef void bench_field(const void *context, const real *X, real *v);
 /* Sets the velocities of all particles, and of the nodes of the reference frame, to field(context, X). */
 void bench_engine_start(struct run *e, bench_field *field, const void *context);
 
-/* Runs to the end of step `until`; the last step is a sample. spent: the times of the sections of a step are added. */
+/* Runs to the end of step `until`, or of the next step at which all levels of coarse cells have the same time; between
+ * such steps the energy is not balanced, and a sample would disturb the run. The last step is a sample. spent: the
+ * times of the sections of a step are added; may be NULL. */
 status bench_engine_run(struct run *e, int64_t until, struct timers *spent);
 
 /* Overrides whose texts are composed one by one; the pointers in `at` are set by bench_overrides_ready. */

@@ -18,6 +18,7 @@
 #include "output/output_files.h"
 #include "output/summary_read.h"
 #include "step/report.h"
+#include "mesh/levels.h"
 #include "mesh/mesh_part.h"
 #include "probes/probes.h"
 #include "probes/probes_part.h"
@@ -64,7 +65,8 @@ void bench_engine_free(struct run *e, struct scene *s)
 
 status bench_engine_run(struct run *e, int64_t until, struct timers *spent)
 {
-    const int64_t steps = e->clock.steps;
+    const int64_t steps = e->clock.steps, stride = levels_stride(&e->frame->levels);
+    until = (until + stride - 1) / stride * stride;
     memory_free(e->report->record); /* each call of engine_run allocates its own */
     e->report->record = NULL;
     e->clock.steps = until < steps ? until : steps;

@@ -71,7 +71,8 @@ struct crack_ends {
 /* Stores the crack tips of a run. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e);
 
-/* Returns the tip of another run that started nearest to the start of `tip`; NULL if there is none. */
+/* Returns the crack tip of another run that ended nearest to the end of `tip`; NULL if no crack grew there. (The
+ * nearest start may belong to a crack of one spacing that arrested beside the one that ran.) */
 const struct tip *crack_partner(const struct crack_ends *other, const struct tip *tip);
 
 /* Returns the distance of two positions [m]. */

@@ -126,7 +126,7 @@ const struct tip *crack_partner(const struct crack_ends *other, const struct tip
     const struct tip *best = NULL;
     for (int k = 0; k < other->tips; k++)
         if (other->tip[k].growth > 0 &&
-            (!best || place_distance(other->tip[k].origin, tip->origin) < place_distance(best->origin, tip->origin)))
+            (!best || place_distance(other->tip[k].place, tip->place) < place_distance(best->place, tip->place)))
             best = &other->tip[k];
     return best;
 }
