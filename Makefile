@@ -125,7 +125,7 @@ $(PROGRAMS): %: %.o $(ENGINE)
 # Calls that a test lets fail, or in which it stops a run (tests/robustness/faults.c): its linker must be GNU's or like it.
 LINUX    := $(findstring linux,$(shell $(CC) -dumpmachine))
 WRAPPED  := main malloc calloc realloc posix_memalign mmap open fopen read pread write pwrite fflush fsync close rename mkdir unlink \
-            output_history convert partial_stress_make largest_stretch_ratio
+            output_write_history convert_flagged_points partial_stress_make largest_stretch_ratio
 $(BUILD)/tests/robustness/test_faults: $(BUILD)/tests/robustness/faults.o $(if $(LINUX),$(BUILD)/src/app/main.o)
 $(BUILD)/tests/robustness/test_faults: LIBS += $(if $(LINUX),$(WRAPPED:%=-Wl,--wrap=%) -ldl)
 

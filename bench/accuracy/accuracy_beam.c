@@ -113,7 +113,7 @@ static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
     bench_engine_start(e, mode_at, m);
     for (int k = 1; k <= 300; k++) {
         TRY(bench_engine_run(e, e->clock.steps * k / 300, NULL));
-        run_sync(e);
+        run_update_particles(e);
         const double now = part_in_mode(m, e), t = run_observed(e).t_velocity;
         zeros += k > 1 && now * before < 0;
         if (zeros == 2) {

@@ -204,7 +204,7 @@ static status print_reference(const struct accuracy_point *p)
 
 status accuracy_reference(bool quick)
 {
-    team_make(0);
+    team_set_threads(0);
     for (int resolution = 100; resolution <= (quick ? 200 : 800); resolution *= 2)
         for (int at = 0; at < accuracy_cases(&accuracy_fracture); at++)
             TRY(print_reference(&(struct accuracy_point){&accuracy_fracture, &accuracy_method[0], at, resolution,

@@ -61,7 +61,7 @@ static status accuracy_manufactured_measure(const struct accuracy_point *q, stru
     const struct observed seen = run_observed(e);
     real stiffness[SYM_MAX * SYM_MAX];
     double off[2] = {0}, all[2] = {0};
-    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     material_stiffness(seen.material, p->dim, stiffness);
     for (int64_t i = 0; i < p->n; i++) {
         real X[DIM_MAX];

@@ -101,7 +101,7 @@ status accuracy_page(const struct accuracy_plan *plan)
     FILE *to = memory_stream_open(&text, &length);
     if (!to) return status_set(FAILED, "bench accuracy: out of memory");
     put_page(to, plan);
-    status s = fclose(to) == 0 ? file_put(BENCH_FOLDER "/accuracy.md", text, length)
+    status s = fclose(to) == 0 ? file_write_whole(BENCH_FOLDER "/accuracy.md", text, length)
                                : status_set(FAILED, "bench accuracy: out of memory");
     free(text);
     puts("\n  the cheapest way to an error: method and resolution, loop time on one thread, error reached\n");

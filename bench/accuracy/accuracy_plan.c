@@ -116,7 +116,7 @@ static bool is_here(const struct accuracy_problem *q)
 /* Lists the points from coarse to fine, so that an interrupted table has every case and method. */
 status accuracy_plan_make(struct accuracy_plan *plan)
 {
-    *plan = (struct accuracy_plan){.machine = team_machine()};
+    *plan = (struct accuracy_plan){.machine = machine_properties()};
     for (int k = 0; k < accuracy_problems; k++) {
         const struct accuracy_problem *q = accuracy_problem[k];
         if (!is_here(q)) continue;

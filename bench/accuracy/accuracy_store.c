@@ -136,7 +136,7 @@ status accuracy_store_read(struct accuracy_plan *plan)
     char *text, key[256];
     size_t length;
     if (!path_is_file(STORE)) return OK;
-    TRY(file_get(STORE, &text, &length));
+    TRY(file_read_whole(STORE, &text, &length));
     for (int k = 0; k < plan->n; k++) {
         put_key(&plan->entry[k].point, key, sizeof key);
         const size_t wanted = strlen(key);

@@ -58,7 +58,7 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
         TRY(bench_engine_run(e, until, NULL));
         /* Forces are those at the beginning of the last step. */
         factor[k] = accuracy_figure(e, "sif", "K_I") / slower /
-                    crack_suddenly_loaded(&m, stress, e->clock.t - e->clock.dt - path_length / m.longitudinal);
+                    crack_sif_after_wave(&m, stress, e->clock.t - e->clock.dt - path_length / m.longitudinal);
     }
     return OK;
 }

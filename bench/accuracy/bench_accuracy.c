@@ -41,7 +41,7 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     const struct accuracy_point *p = &entry->point;
     struct accuracy_result *r = &entry->result;
     accuracy_scene_make(p, &from);
-    team_make(team + 1);
+    team_set_threads(team + 1);
     TRY(bench_engine_make(&e, &s, from.path[0] ? from.path : p->problem->name, from.path[0] ? NULL : from.text,
                           bench_overrides_ready(&from.set), from.set.n));
     const double before = processor_seconds();
@@ -142,9 +142,9 @@ static status accuracy_run_all(struct accuracy_plan *plan, const char *only, boo
     for (int k = 0; k < plan->n; k++) {
         if (!is_asked(&plan->entry[k], only, quick)) continue;
         const int problem = accuracy_number_of(plan->entry[k].point.problem);
-        const double before = team_clock();
+        const double before = wall_clock();
         TRY(run_point(&plan->entry[k]));
-        g.spent[problem] += team_clock() - before, g.done[problem] += work_of(&plan->entry[k].point);
+        g.spent[problem] += wall_clock() - before, g.done[problem] += work_of(&plan->entry[k].point);
         print_point(&plan->entry[k], &g, quick);
     }
     return OK;
@@ -163,7 +163,7 @@ static status accuracy_measure_all(struct accuracy_plan *plan, const char *only,
     TRY(accuracy_plan_make(plan));
     TRY(accuracy_store_read(plan));
     TRY(accuracy_run_all(plan, only, quick));
-    team_make(0);
+    team_set_threads(0);
     TRY(accuracy_store_write(plan));
     TRY(accuracy_table_write(plan));
     TRY(accuracy_page(plan));
@@ -184,7 +184,7 @@ status bench_accuracy_of(const char *only, bool quick)
     if (only && strcmp(only, "reference") == 0) return accuracy_reference(quick);
     if (only && !chart && !is_problem(only)) return status_set(REFUSED, "bench accuracy: there is no problem %s", only);
     printf("accuracy\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     const status s = chart ? write_known(&plan) : accuracy_measure_all(&plan, only, quick);
     accuracy_plan_free(&plan);
     return s;

@@ -24,7 +24,7 @@ static status job_end(struct bench_job *job, struct bench_child *child)
 
 status bench_jobs_run(struct bench_job *job, int n, int at_once)
 {
-    const int threads = at_once > 1 ? 1 : team_make(0);
+    const int threads = at_once > 1 ? 1 : team_set_threads(0);
     struct bench_child *child = NEW("bench.children", n, struct bench_child);
     status s = OK;
     int started = 0;

@@ -94,7 +94,7 @@ static void put_rows(FILE *to, const struct bench_table *t)
 
 static void put_json(FILE *to, const char *name, const struct bench_table *table, int tables)
 {
-    struct machine m = team_machine();
+    struct machine m = machine_properties();
     fprintf(to, "{\n  \"name\": \"%s\",\n  \"version\": \"%s\",\n  \"machine\": \"%s\",\n  \"cores\": %d", name,
             CLEAVE_VERSION, m.model, m.cores);
     for (int k = 0; k < tables; k++) {
@@ -140,12 +140,12 @@ status bench_guard(const char *name)
     bool ours = true;
     if (path_exists(path)) {
         json_begin(begin, sizeof begin, name);
-        ours = file_get(path, &text, &length) == OK;
+        ours = file_read_whole(path, &text, &length) == OK;
         if (ours) ours = strncmp(text, begin, strlen(begin)) == 0, memory_free(text);
     } else
         for (size_t k = 0; k < COUNT_OF(ending) && ours; k++) {
             snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, ending[k]);
-            ours = !path_exists(path) || picture_is_ours(path);
+            ours = !path_exists(path) || picture_has_mark(path);
         }
     return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave bench; move it away", path);
 }
@@ -162,7 +162,8 @@ static status write_file(const char *path, const char *json, const struct bench_
     else
         put_csv(to, table);
     bool whole = fclose(to) == 0;
-    status s = whole ? file_put(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
+    status s =
+        whole ? file_write_whole(path, text, length) : status_set(FAILED, "cannot write %s: out of memory", path);
     if (s == OK && !json) s = bench_results_table(strrchr(path, '/') + 1, text);
     free(text);
     return s;
@@ -215,8 +216,8 @@ status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to
 
 void bench_print_machine(int threads)
 {
-    struct machine m = team_machine();
+    struct machine m = machine_properties();
     printf("  %s, %d cores, %lld kB L2, %lld MB L3; cleave %s, kernels %s, %d thread%s unless said otherwise\n",
            m.model, m.cores, (long long)(m.cache[2] / 1024), (long long)(m.cache[3] / 1048576), CLEAVE_VERSION,
-           simd_in_use()->name, threads, threads > 1 ? "s" : "");
+           simd_current_kernels()->name, threads, threads > 1 ? "s" : "");
 }

@@ -32,7 +32,7 @@ static void commit_name(char *name, size_t size)
 /* Composes the lines that precede results: command, date, commit, processor, compiler, kernels. */
 static void results_head(char *head, size_t size, const char *name, bool quick)
 {
-    const struct machine m = team_machine();
+    const struct machine m = machine_properties();
     const time_t now = time(NULL);
     char date[16], commit[64];
     int model = (int)strlen(m.model);
@@ -43,7 +43,7 @@ static void results_head(char *head, size_t size, const char *name, bool quick)
              "# command: cleave bench %s%s\n# date: %s\n# commit: %s\n# processor: %.*s, %d cores\n"
              "# compiler: %s; kernels %s\n",
              name, quick ? " --quick" : "", date, commit, model, m.model, m.cores, compiler_name(),
-             simd_in_use()->name);
+             simd_current_kernels()->name);
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
@@ -70,8 +70,8 @@ static status results_put(const char *file, const char *head, const char *text)
     FILE *to = memory_stream_open(&whole, &length);
     if (!to) return status_set(FAILED, "cannot write %s: out of memory", path);
     fprintf(to, "%s%s", head, text);
-    const status s =
-        fclose(to) == 0 ? file_put(path, whole, length) : status_set(FAILED, "cannot write %s: out of memory", path);
+    const status s = fclose(to) == 0 ? file_write_whole(path, whole, length)
+                                     : status_set(FAILED, "cannot write %s: out of memory", path);
     free(whole);
     return s;
 }

@@ -127,7 +127,7 @@ static void take_figure(void *context, const char *probe, const char *quantity, 
 void bench_figures_take(const struct run *e, struct bench_figure *figure, int n)
 {
     const struct observed seen = run_observed(e);
-    probes_figures(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
+    probes_visit_results(&e->probing->probes, &seen, take_figure, &(struct wanted_figures){figure, n});
 }
 
 status bench_figures(const char *path, const char *text, struct bench_overrides *o, struct bench_figure *figure, int n)
@@ -137,7 +137,7 @@ status bench_figures(const char *path, const char *text, struct bench_overrides 
     for (int k = 0; k < n; k++) figure[k].value = NAN;
     TRY(bench_engine_make(&e, &s, path, text, bench_overrides_ready(o), o->n));
     status ran = engine_run(&e);
-    if (ran == OK) ran = engine_baseline(&e);
+    if (ran == OK) ran = engine_run_baseline(&e);
     if (ran == OK) bench_figures_take(&e, figure, n);
     bench_engine_free(&e, &s);
     return ran;

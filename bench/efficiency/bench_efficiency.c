@@ -409,7 +409,7 @@ status bench_efficiency(bool quick)
 {
     struct efficiency all = {.result = NEW("bench.efficiency", CASES, struct result)};
     printf("efficiency\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     status s = efficiency_measure_all(&all, quick);
     memory_free(all.result);
     return s;

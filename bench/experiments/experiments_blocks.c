@@ -109,8 +109,8 @@ static double disc_stress(const char *folder, double spacing)
     int n = 0;
     (void)spacing;
     if (summary_number(folder, "crack.start_time", &start) != OK || history_read(&h, folder) != OK) return NAN;
-    const int time = history_column(&h, "time"), stress = history_column(&h, "centre.stress_xx");
-    const int force = history_column(&h, "upper_force_y");
+    const int time = history_find_column(&h, "time"), stress = history_find_column(&h, "centre.stress_xx");
+    const int force = history_find_column(&h, "upper_force_y");
     for (int64_t k = 0; k < h.rows; k++) {
         const double t = history_at(&h, k, time), P = fabs(history_at(&h, k, force));
         if (t < 0.7 * start || t > start) continue;
@@ -126,7 +126,7 @@ static double disc_strength(const char *folder, double spacing)
     struct history h;
     double most = 0;
     if (history_read(&h, folder) != OK) return NAN;
-    const int force = history_column(&h, "upper_force_y");
+    const int force = history_find_column(&h, "upper_force_y");
     for (int64_t k = 0; k < h.rows; k++) most = fmax(most, fabs(history_at(&h, k, force)));
     history_free(&h);
     const double strength = DISC_YOUNG * sqrt(4 * M_PI * DISC_TOUGHNESS / (9 * DISC_YOUNG * 3.015 * spacing));

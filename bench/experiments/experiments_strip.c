@@ -39,7 +39,7 @@ enum { STRIP_LOADS = COUNT_OF(strip_loads) };
 static struct crack_medium strip_medium(void)
 {
     struct material m = {.young = STRIP_YOUNG, .poisson = STRIP_POISSON, .density = STRIP_DENSITY};
-    material_derive(&m, SPACE_PLANE_STRESS);
+    material_compute_constants(&m, SPACE_PLANE_STRESS);
     return crack_medium_of(&m, SPACE_PLANE_STRESS);
 }
 
@@ -58,7 +58,7 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
     if (history_read(&w->h, folder) != OK) return false;
     const double straight = isnan(branches) ? INFINITY : branches - STRIP_NOTCH - 4 * spacing;
     const double last = fmin(STRIP_LAST, straight), from = fmin(STRIP_GROWN, 0.3 * last);
-    const int length = history_column(&w->h, "crack_length");
+    const int length = history_find_column(&w->h, "crack_length");
     while (w->first < w->h.rows && history_at(&w->h, w->first, length) < from) w->first++;
     w->end = w->first;
     while (w->end < w->h.rows && history_at(&w->h, w->end, length) <= last) w->end++;
@@ -70,7 +70,7 @@ static bool strip_window_open(struct strip_window *w, const char *folder, double
 /* Returns the slope of column y_name over column x_name in the window, by least squares. */
 static double strip_slope(const struct strip_window *w, const char *x_name, const char *y_name)
 {
-    const int cx = history_column(&w->h, x_name), cy = history_column(&w->h, y_name);
+    const int cx = history_find_column(&w->h, x_name), cy = history_find_column(&w->h, y_name);
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
     for (int64_t k = w->first; k < w->end; k++) {
         const double a = history_at(&w->h, k, cx) - history_at(&w->h, w->first, cx), b = history_at(&w->h, k, cy);
@@ -105,7 +105,7 @@ static double strip_factor(const char *folder, double spacing)
     struct strip_window w;
     double sum = 0;
     if (!strip_window_open(&w, folder, spacing)) return NAN;
-    const int K = history_column(&w.h, "sif.K_I");
+    const int K = history_find_column(&w.h, "sif.K_I");
     for (int64_t k = w.first; k < w.end; k++) sum += history_at(&w.h, k, K);
     const double mean = sum / (double)(w.end - w.first);
     history_free(&w.h);
@@ -117,7 +117,7 @@ static double strip_flux(const char *folder, double spacing)
 {
     const struct crack_medium m = strip_medium();
     const double v = strip_speed(folder, spacing) * m.rayleigh;
-    return crack_universal(&m, MODE_I, v) * square(strip_factor(folder, spacing));
+    return crack_universal_function(&m, MODE_I, v) * square(strip_factor(folder, spacing));
 }
 
 /* ---- all loads --------------------------------------------------------------------------------------------------- */

@@ -25,7 +25,7 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
     for (int k = sum = 0; k < n; k++)
         if (isfinite(value[k])) sum += (value[k] - *mean) * (value[k] - *mean);
     *deviation = sqrt(sum / (held - 1));
-    *interval = student_95(held - 1) * *deviation / sqrt(held);
+    *interval = student_quantile(held - 1) * *deviation / sqrt(held);
     return held;
 }
 
@@ -135,7 +135,7 @@ status experiment_study(struct experiments *x, const struct experiment_case *c)
     if (x->quick && !c->quick) return OK;
     if (c->path && !bench_scene_exists(c->path)) return OK;
     if (!c->path) remove(text.text); /* written for the previous case, and no longer needed */
-    if (!c->path) TRY(file_put(text.text, c->text, strlen(c->text)));
+    if (!c->path) TRY(file_write_whole(text.text, c->text, strlen(c->text)));
     TRY(convergence_study_run(&s, &wish));
     for (int f = 0; f < EXPERIMENT_FIGURES_MOST && c->figure[f].name; f++) figure_take(x, c, &s, &c->figure[f]);
     if (c->drawn) paths_take(x, c, &s);

@@ -145,7 +145,7 @@ status surf_run(double spacing, double share, double speed, double safety, struc
     s.medium = crack_medium_of(&scene.material[0], scene.space);
     *rayleigh = s.medium.rayleigh;
     s.speed = speed * *rayleigh;
-    s.factor = sqrt(share * SURF_TOUGHNESS * s.medium.modulus / crack_universal(&s.medium, MODE_I, s.speed));
+    s.factor = sqrt(share * SURF_TOUGHNESS * s.medium.modulus / crack_universal_function(&s.medium, MODE_I, s.speed));
     surf_start(&s, &e);
     const status ran = surf_go(&s, &e, spacing, found);
     memory_free(s.particle);

@@ -56,7 +56,7 @@ static double vortex_error(struct run *e, const struct vortex *v)
 {
     const struct particles *p = &e->part;
     double wrong = 0, size = 0;
-    run_sync(e);
+    run_update_particles(e);
     for (int64_t i = 0; i < p->n; i++) {
         const double X[2] = {p->X[0][i], p->X[1][i]};
         double x[2];

@@ -51,7 +51,7 @@ static double memory_from_here(void)
 static bool machine_holds(const struct bench_block *block, double particles)
 {
     const double each = block->dim == 2 ? 350 : 1000;
-    return each * particles < 0.7 * (double)team_memory();
+    return each * particles < 0.7 * (double)machine_memory_size();
 }
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
@@ -92,9 +92,9 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     struct scene s;
     struct run e;
     const int64_t steps = 2 + (int64_t)(visits / particles);
-    const double before = memory_from_here(), start = team_clock();
+    const double before = memory_from_here(), start = wall_clock();
     TRY(bench_block_make(&e, &s, block, particles, STEPS_WARM + PIECES * steps, 0, NULL));
-    *r = (struct size_result){.known = true, .setup = team_clock() - start, .step = INFINITY};
+    *r = (struct size_result){.known = true, .setup = wall_clock() - start, .step = INFINITY};
     r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
@@ -223,7 +223,7 @@ static status measure_block(struct scale_bench *b, int which, int sizes, bool qu
         if (block->dim == 3 && k > (quick ? 0 : 2)) continue;
         if (!machine_holds(block, particles)) {
             printf("  %-20s %dD %9.3g  more than this machine's %.0f GB should be asked to hold: left out\n",
-                   block->name, block->dim, particles, 1e-9 * (double)team_memory());
+                   block->name, block->dim, particles, 1e-9 * (double)machine_memory_size());
             continue;
         }
         struct size_result *r = &b->at[which][k];
@@ -248,7 +248,7 @@ status bench_scale(bool quick)
 {
     struct scale_bench *b = NEW("bench.scale", 1, struct scale_bench);
     printf("scale\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     status s = scale_measure(b, quick);
     memory_free(b);
     return s;

@@ -99,7 +99,7 @@ static status field_read(struct field_row *r, const char *folder, double later, 
     }
     r->seconds *= fmin(1, processor / wall);
     TRY(history_read(&h, folder));
-    const int time = history_column(&h, "time"), K = history_column(&h, "sif.K_I");
+    const int time = history_find_column(&h, "time"), K = history_find_column(&h, "sif.K_I");
     for (int64_t k = 0; k < h.rows && r->n < FIELD_SAMPLES + 2; k++, r->n++) {
         r->t[r->n] = history_at(&h, k, time) + later, r->K[r->n] = history_at(&h, k, K);
         if (isnan(r->K[r->n])) r->K[r->n] = 0; /* before anything has moved */

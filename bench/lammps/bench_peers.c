@@ -138,10 +138,10 @@ static int64_t cut_pairs(const struct run *e, int *type, int *types, FILE *exclu
     for (int64_t i = 0; i < p->n && e->source.cracks > 0; i++) {
         real X[DIM_MAX];
         particle_place(p, i, X);
-        const int n = cells_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
+        const int n = cells_find_near(&e->cells, p, X, e->source.family.cutoff, (int32_t)i, found, COUNT_OF(found));
         for (int k = 0; k < n; k++) {
             const int32_t j = found[k];
-            if (j < i || !cracks_part(e->source.crack, e->source.cracks, p, i, j)) continue;
+            if (j < i || !cracks_separate_particles(e->source.crack, e->source.cracks, p, i, j)) continue;
             if (!type[i]) type[i] = ++*types;
             if (!type[j]) type[j] = ++*types;
             fprintf(exclude, "neigh_modify exclude type %d %d\n", type[i], type[j]);
@@ -432,9 +432,9 @@ status bench_peers(bool quick)
         return OK;
     }
     struct peer_result *result = NEW("bench.peers", CASES, struct peer_result);
-    bench_print_machine(team_make(1));
+    bench_print_machine(team_set_threads(1));
     status s = peers_measure(result, quick);
-    team_make(0);
+    team_set_threads(0);
     memory_free(result);
     return s;
 }

@@ -11,7 +11,7 @@ status bench_sif(bool quick)
     struct bench_goals asked = {0};
     TRY(bench_scenes_needed("sif", needed, COUNT_OF(needed)));
     printf("stress-intensity factors\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     TRY(edge_bench(&asked, quick));
     TRY(inclined_bench(&asked, quick));
     TRY(moving_bench(&asked, quick));

@@ -44,7 +44,7 @@ static status take_reaction(void *row, const char *folder)
     double sum = 0;
     int n = 0;
     TRY(history_read(&h, folder));
-    const int time = history_column(&h, "time"), force = history_column(&h, "reaction.force_y");
+    const int time = history_find_column(&h, "time"), force = history_find_column(&h, "reaction.force_y");
     r->n = (int)h.rows;
     r->t = NEW("bench.reaction", r->n, double), r->force = NEW("bench.reaction", r->n, double);
     for (int k = 0; k < r->n; k++) r->t[k] = history_at(&h, k, time), r->force[k] = history_at(&h, k, force);
@@ -110,7 +110,7 @@ static status sif_fading_reactions(struct bench_goals *asked)
         job[k] = (struct bench_job){.path = "inputs/load_displacement.yaml", .row = &t.row[k], .take = take_reaction};
         bench_override(&job[k].overrides, "growth[0].damping", "%s", t.row[k].damping);
     }
-    status s = bench_jobs_run(job, RELEASES, team_make(0));
+    status s = bench_jobs_run(job, RELEASES, team_set_threads(0));
     if (s == OK) bench_ask(asked, "%", t.row[0].rough / t.row[1].rough, 1.0 / 3, "reaction, fading over sudden");
     if (s == OK) s = write_reactions(&t);
     for (int k = 0; k < RELEASES; k++) memory_free(t.row[k].t), memory_free(t.row[k].force);
@@ -136,8 +136,8 @@ static const struct path_row path_row[PATHS] = {
 
 static double modes_ratio(const struct history *h)
 {
-    const int length = history_column(h, "growth.length"), speed = history_column(h, "growth.speed");
-    const int K_I = history_column(h, "sif.K_I"), K_II = history_column(h, "sif.K_II");
+    const int length = history_find_column(h, "growth.length"), speed = history_find_column(h, "growth.speed");
+    const int K_I = history_find_column(h, "sif.K_I"), K_II = history_find_column(h, "sif.K_II");
     double sum = 0;
     int n = 0;
     for (int64_t k = 0; k < h->rows; k++) {
@@ -179,7 +179,7 @@ static status paths(void)
         bench_override(&job[k].overrides, "output.frames", "0");
         if (row[k].key) bench_override(&job[k].overrides, row[k].key, "%s", row[k].value);
     }
-    TRY(bench_jobs_run(job, PATHS, team_make(0)));
+    TRY(bench_jobs_run(job, PATHS, team_set_threads(0)));
     bench_table_make(&rows, "", "name,angle_deg,length,start_time,K_II_over_K_I,seconds");
     for (int k = 0; k < PATHS; k++) {
         bench_text(&rows, row[k].name);

@@ -105,7 +105,7 @@ static status closed_form(struct moving_table *t)
 
 static double sif_moving_at_rest(const struct moving_table *t, double time)
 {
-    return crack_suddenly_loaded(&t->medium, stress, time - path_length / t->medium.longitudinal);
+    return crack_sif_after_wave(&t->medium, stress, time - path_length / t->medium.longitudinal);
 }
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
@@ -137,7 +137,8 @@ static status read_curves(struct moving_row *r, const char *folder)
 {
     struct history h = {0};
     TRY(history_read(&h, folder));
-    const int time = history_column(&h, "time"), K[2] = {history_column(&h, "sif.K_I"), history_column(&h, "disc.K_I")};
+    const int time = history_find_column(&h, "time"),
+              K[2] = {history_find_column(&h, "sif.K_I"), history_find_column(&h, "disc.K_I")};
     for (int64_t k = 0; k < h.rows && r->n < SAMPLES + 2; k++, r->n++) {
         r->t[r->n] = history_at(&h, k, time);
         for (int p = 0; p < 2; p++) r->K[p][r->n] = history_at(&h, k, K[p]);
@@ -193,7 +194,7 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
     t->n = quick ? QUICK : CASES;
     for (int k = 0; k < t->n; k++) job[k] = job_of(&t->row[k], &moving_case[k]);
     table = t;
-    return bench_jobs_run(job, t->n, team_make(0));
+    return bench_jobs_run(job, t->n, team_set_threads(0));
 }
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */

@@ -11,7 +11,7 @@ status bench_slow(bool quick)
     struct bench_goals asked = {0};
     TRY(bench_scenes_needed("slow", needed, COUNT_OF(needed)));
     printf("load steps\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     TRY(slow_specimens(&asked, quick));
     TRY(slow_paths(&asked, quick));
     TRY(slow_speed(&asked, quick));

@@ -22,7 +22,7 @@ struct path_row {
  * false if there is none. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
 {
-    const int x = history_column(h, "path_x"), y = history_column(h, "path_y");
+    const int x = history_find_column(h, "path_x"), y = history_find_column(h, "path_y");
     const double was[2] = {place[0], place[1]};
     for (; *from < h->rows; ++*from) {
         place[0] = history_at(h, *from, x), place[1] = history_at(h, *from, y);
@@ -36,8 +36,8 @@ static bool path_next(const struct history *h, int64_t *from, double place[2])
 /* Returns the initial position of the tip [m]. */
 static void path_start(const struct history *h, double place[2])
 {
-    place[0] = history_at(h, 1, history_column(h, "path_x"));
-    place[1] = history_at(h, 1, history_column(h, "path_y"));
+    place[0] = history_at(h, 1, history_find_column(h, "path_x"));
+    place[1] = history_at(h, 1, history_find_column(h, "path_y"));
 }
 
 /* Evaluates a kink. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long,
@@ -54,7 +54,7 @@ static status kink_take(void *row, const char *folder)
     const double side = place[0] * start[0] + place[1] * start[1] > 0 ? 1 : -1;
     start[0] *= side, start[1] *= side;
     place[0] = start[0], place[1] = start[1];
-    r->expected = crack_direction(K) / degree, r->found = NAN;
+    r->expected = crack_kink_angle(K) / degree, r->found = NAN;
     if (path_next(&h, &line, place))
         r->found =
             remainder(atan2(side * (place[1] - start[1]), side * (place[0] - start[0])) / degree - r->angle, 360);

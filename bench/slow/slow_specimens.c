@@ -106,9 +106,9 @@ static double load_offset(const struct slow_row *r)
 static void slow_row_read(struct slow_row *r, const struct history *h)
 {
     const struct specimen *s = &r->of->specimen;
-    const int force = history_column(h, "reaction.force_y"),
-              displacement = history_column(h, "reaction.displacement_y");
-    const int area = history_column(h, "crack_area"), lost = history_column(h, "released");
+    const int force = history_find_column(h, "reaction.force_y"),
+              displacement = history_find_column(h, "reaction.displacement_y");
+    const int area = history_find_column(h, "crack_area"), lost = history_find_column(h, "released");
     const double crack = s->crack - load_offset(r);
     double sum = 0, largest = 0;
     int later = 0;

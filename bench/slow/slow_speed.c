@@ -37,7 +37,8 @@ static status hundred_steps(struct bench_table *t, struct bench_goals *asked, bo
     bench_override(&job.overrides, "output.frames", "0");
     TRY(bench_jobs_run(&job, 1, 1));
     speed_put(t, "load steps, the crack grows", &r);
-    if (!quick) bench_ask(asked, "s", r.seconds, 300, "100 load steps of 100,000 particles, %d threads", team_make(0));
+    if (!quick)
+        bench_ask(asked, "s", r.seconds, 300, "100 load steps of 100,000 particles, %d threads", team_set_threads(0));
     return OK;
 }
 

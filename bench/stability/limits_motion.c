@@ -29,11 +29,11 @@ static struct turning turning_of(const struct particles *p)
 static status limits_motion_turn(struct run *e, double *to)
 {
     const struct particles *p = &e->part;
-    if (e->frame->mesh.points > 0) frame_sync(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) frame_update_points(e->frame, &e->part, &e->loads);
     const struct turning start = turning_of(p);
     TRY(engine_run(e));
     const struct turning end = turning_of(p);
-    if (p->n_of[KIND_MPM] == 0) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    if (p->n_of[KIND_MPM] == 0) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     to[0] = 0, to[1] = fabs(end.momentum / start.momentum - 1), to[2] = fabs(end.kinetic / start.kinetic - 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM || p->n_of[KIND_MPM] == 0) to[0] = fmax(to[0], fabs(p->stress[2][i]) * 1e-6);
@@ -132,7 +132,7 @@ static void lame(const void *context, const real *X, real *v)
 static double projection(struct run *e)
 {
     double sum = 0;
-    if (e->frame->mesh.points > 0) frame_sync(e->frame, &e->part, &e->loads);
+    if (e->frame->mesh.points > 0) frame_update_points(e->frame, &e->part, &e->loads);
     for (int64_t i = 0; i < e->part.n; i++) {
         const real X[2] = {e->part.X[0][i], e->part.X[1][i]};
         real v[2];
@@ -227,9 +227,10 @@ const struct limits_scene limits_shear = {
 
 static double energy_of(struct run *e)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) + e->kernels.bond_energy(&e->bonds, &e->part) +
+    return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) +
+           e->kernels.bond_energy(&e->bonds, &e->part) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
+           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
 }
 
 /* Measures the relative change of the energy of a free vibrating plate over a million steps: mean of the last fiftieth
@@ -292,7 +293,7 @@ static status vibration(const struct limits_row *r, double *to)
     const int64_t period = e.clock.steps / 10;
     while (ran == OK && e.clock.step < e.clock.steps - 1) {
         ran = engine_step(&e);
-        const double kinetic = diagnostics_kinetic(&e.part) + mesh_kinetic(&e.frame->mesh);
+        const double kinetic = particles_kinetic_energy(&e.part) + mesh_kinetic(&e.frame->mesh);
         if (e.clock.step < period) first = fmax(first, kinetic);
         if (e.clock.step >= e.clock.steps - period) last = fmax(last, kinetic);
     }

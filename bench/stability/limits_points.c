@@ -36,7 +36,7 @@ static status crossing(const struct limits_row *r, double *to)
         real from[DIM_MAX] = {-0.1}, until[DIM_MAX] = {0.1 + 0.6 * lambda};
         bool changed;
         stretch(&e.part, lambda, (place + 0.37) / 64 * e.grid->field[0].grid.h);
-        done = grid_cover(&e.grid->field[0].grid, from, until, 100000, &changed);
+        done = grid_extend_box(&e.grid->field[0].grid, from, until, 100000, &changed);
         if (done != OK) break;
         transfer_order_sort(&e.grid->field[0].order, &e.part, e.part.list_free, e.part.n_free, &e.grid->field[0].grid);
         grid_clear(&e.grid->field[0].grid);
@@ -100,7 +100,7 @@ static status homologous(const struct limits_row *r, double *to)
     *to = 0;
     const bool meshed = e.frame->mesh.points > 0;
     const double stress = 1e4 * (meshed ? r->given : log(1 + r->given));
-    if (meshed) frame_sync(e.frame, &e.part, &e.loads);
+    if (meshed) frame_update_points(e.frame, &e.part, &e.loads);
     for (int64_t i = 0; i < e.part.n; i++)
         if (fabs(e.part.X[0][i]) < 1) *to = fmax(*to, fabs(e.part.stress[0][i] / stress - 1));
     bench_engine_free(&e, &s);
@@ -134,9 +134,9 @@ static status null_mode(const struct limits_row *r, double *to)
     struct scene s;
     TRY(limits_make(&e, &s, r, BAR "duration: 1\nmethod: mpm\nbody: {box: {from: [0], to: [0.8]}}\n"));
     for (int64_t i = 0; i < e.part.n; i++) e.part.v[0][i] = i % 2 ? 1e-3 : -1e-3;
-    const double first = diagnostics_kinetic(&e.part);
+    const double first = particles_kinetic_energy(&e.part);
     const status ran = bench_engine_run(&e, (int64_t)r->given, NULL);
-    *to = diagnostics_kinetic(&e.part) / first;
+    *to = particles_kinetic_energy(&e.part) / first;
     bench_engine_free(&e, &s);
     return ran;
 }

@@ -41,7 +41,8 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
 /* Returns the kinetic energy relative to the translation [J]. */
 static double motion(const struct run *e, double drift)
 {
-    return diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh) - 0.5 * e->mass * e->part.dim * drift * drift;
+    return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
+           0.5 * e->mass * e->part.dim * drift * drift;
 }
 
 /* Creates the run of a case, so long that its only sample is at the first step. */
@@ -122,7 +123,7 @@ static status predict(const struct stability_case *c, struct stability_limits *t
     to->unit = (c->group == GROUP_POINTS ? e.grid->field[0].grid.h : s.spacing) / e.tables.wave_speed;
     to->gershgorin = to->silling = NAN;
     if (s.method == METHOD_PD && s.model == MODEL_BOND)
-        to->gershgorin = bonds_critical_step_made(&e.bonds, &e.part), to->silling = silling_step(&e);
+        to->gershgorin = bonds_critical_step_of_existing(&e.bonds, &e.part), to->silling = silling_step(&e);
     bench_engine_free(&e, &s);
     return OK;
 }

@@ -30,7 +30,7 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
                  k->figure, within, BUDGET, k->text);
     INVARIANT(length < TEXT_ROOM);
     remove(path); /* written for the previous study, and no longer needed */
-    return file_put(path, text, (size_t)length);
+    return file_write_whole(path, text, (size_t)length);
 }
 
 /* Makes the chosen run as a study with one case, and reads the figure. */
@@ -60,13 +60,13 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
     struct pilot p = {0};
     double value = NAN;
-    const double begun = team_clock();
+    const double begun = wall_clock();
     status done = pilot_scene_write(scene.text, k, within);
     struct scene s;
     if (done == OK)
         done = pilot_scene_read(&s, &p, scene.text, NULL, 0, into.text, (struct study_options){.quiet = true});
     if (done == OK) scene_free(&s);
-    const double pilots = team_clock() - begun;
+    const double pilots = wall_clock() - begun;
     if (done == OK) done = chosen_run(&p, scene.text, into.text, &value, k->figure);
     const double error = fabs(value / k->exact - 1), spacing = atof(chosen_value(&p, "particles.spacing"));
     t->asked++;
@@ -76,11 +76,11 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
         t->kept += kept;
         printf("  %-22s %-26s %5.2g %% %8.3f %%  %-8s %-5s %8.4g mm %7.1f s %7.1f s%s\n", k->name, k->figure,
                100 * within, 100 * error, chosen_value(&p, "method"), chosen_value(&p, "model"), 1e3 * spacing, pilots,
-               team_clock() - begun - pilots, kept ? "" : "  missed");
+               wall_clock() - begun - pilots, kept ? "" : "  missed");
     } else
         printf("  %-22s %-26s %5.2g %% refused: %s\n", k->name, k->figure, 100 * within, status_message());
     fflush(stdout);
-    const double number[] = {within, k->exact, value, error, spacing, pilots, team_clock() - begun - pilots};
+    const double number[] = {within, k->exact, value, error, spacing, pilots, wall_clock() - begun - pilots};
     bench_text(t->table, k->name), bench_text(t->table, k->figure), bench_text(t->table, chosen_value(&p, "method"));
     for (size_t c = 0; c < COUNT_OF(number); c++) bench_number(t->table, number[c]);
     pilot_free(&p);
@@ -98,7 +98,7 @@ status bench_pilot(bool quick)
     char folder[] = BENCH_FOLDER "/pilot-XXXXXX";
     TRY(bench_folder_make());
     printf("pilot\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     if (!mkdtemp(folder)) return file_fault(folder, errno);
     printf("  %-22s %-26s %7s %10s  %-14s %11s %9s %9s\n", "scene", "figure", "asked", "error", "chosen", "spacing",
            "pilots", "run");

@@ -45,7 +45,7 @@ static status scene_text_write(const char *path, const struct known_scene *k, co
                  lines, variant, spacing, at ? ", horizon: " : "", at ? at + 1 : "");
     INVARIANT(length < TEXT_ROOM);
     remove(path); /* written for the previous study, and no longer needed */
-    return file_put(path, text, (size_t)length);
+    return file_write_whole(path, text, (size_t)length);
 }
 
 static status study_of(struct known_rows *rows, const struct known_scene *k, const char *const *variant,
@@ -188,7 +188,7 @@ status bench_uncertainty(bool quick)
     char folder[] = BENCH_FOLDER "/study-XXXXXX";
     status s = bench_folder_make();
     printf("uncertainty\n");
-    bench_print_machine(team_make(0));
+    bench_print_machine(team_set_threads(0));
     if (s == OK && !mkdtemp(folder)) s = file_fault(folder, errno);
     printf("  %-18s %-20s %-8s %-28s %9s %9s %6s  %s\n", "scene", "method", "spacing", "figure", "error", "+-",
            "+-/err", "verdict");

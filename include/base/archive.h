@@ -35,7 +35,7 @@ struct archive {
 /* Saves or restores an array of n elements of `size` bytes, one per particle (and image). If archive->now is set,
  * elements are restored to the new indices of their particles; elements of particles that were absent keep their
  * value. */
-status archive_by_particle(struct archive *a, const char *name, void *array, int64_t n, size_t size);
+status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
 /* Replaces n restored indices of particles by their new ones. Does nothing while saving, or if archive->now is NULL. */
 void archive_renumber(const struct archive *a, int32_t *index, int64_t n);

@@ -58,7 +58,7 @@ const char *status_message(void);
 enum { PLACE_LENGTH = 512 };
 
 /* Prepends `place` to the message of a refusal that has no position yet. Returns `s`. */
-status status_at(const char *place, status s);
+status status_prepend_location(const char *place, status s);
 
 /* Ends the program by invariant_broken if `condition` is false. For conditions that hold in every run of a correct
  * program; unlike assert of C it is part of every build. What a scene, a file or the system can cause is a status
@@ -66,30 +66,30 @@ status status_at(const char *place, status s);
 #define INVARIANT(condition) ((condition) ? (void)0 : invariant_broken(#condition, __FILE__, __LINE__, __func__))
 
 /* Ends the program: prints one line on standard error with the version, the source location and the text of the
- * condition, and what to report; calls the function set by invariant_clean_up; exit status 1. Any thread may call it;
- * of several threads the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers
+ * condition, and what to report; calls the function set by invariant_set_cleanup; exit status 1. Any thread may call
+ * it; of several threads the first one reports. Builds with sanitizers abort instead of exiting, so that fuzzers
  * distinguish such an end from a refusal. */
 _Noreturn void invariant_broken(const char *condition, const char *file, int line, const char *function);
 
 /* Sets the function that invariant_broken calls before the program ends, in the thread that has found the fault; it
  * removes half-written files. NULL: none. */
-void invariant_clean_up(void (*remove)(void));
+void invariant_set_cleanup(void (*remove)(void));
 
 /* Replaces every control character of a text from outside (names of files, columns, scenes) by `?`, so that a terminal
  * does not act on it. */
-void text_harmless(char *text);
+void text_replace_controls(char *text);
 
-/* Replaces control characters as text_harmless in `length` bytes, which may include zeros. */
-void bytes_harmless(char *text, size_t length);
+/* Replaces control characters as text_replace_controls in `length` bytes, which may include zeros. */
+void bytes_replace_controls(char *text, size_t length);
 
-/* A name for printing, without control characters, cut if it is very long: `shown_name(folder).text`, valid until the
- * end of the statement. */
-struct shown_name {
+/* A name for printing, without control characters, cut if it is very long: `printable_name(folder).text`, valid until
+ * the end of the statement. */
+struct printable_name {
     char text[512];
 };
 
 /* Returns a name for printing. */
-struct shown_name shown_name(const char *name);
+struct printable_name printable_name(const char *name);
 
 /* Sorts n > 0 numbers in place and returns the median; for even n the upper of the two middle ones. */
 double median_of(double *value, int64_t n);

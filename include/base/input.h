@@ -14,7 +14,7 @@
 status input_open(FILE **file, const char *path, const char *expected);
 
 /* Registers the file at `path`, which a library opens, as an input of this command. A missing file is ignored. */
-void input_remember(const char *path);
+void input_register(const char *path);
 
 /* Returns true if `path` is a file that this command has read as an input, also through a link or a second name. */
 bool input_was_read(const char *path);

@@ -11,15 +11,15 @@ void *memory_new(const char *label, int64_t count, size_t size);
 
 /* Returns an array without zeroing, to be written at once and completely by the threads that will use it. Otherwise as
  * memory_new. */
-void *memory_bare(const char *label, int64_t count, size_t size);
+void *memory_new_uninitialised(const char *label, int64_t count, size_t size);
 
 /* Returns an array without zeroing of which most is never written: small pages, and only written ones take memory.
  * Otherwise as memory_new. */
-void *memory_sparse(const char *label, int64_t count, size_t size);
+void *memory_new_sparse(const char *label, int64_t count, size_t size);
 
 /* Returns a zeroed array of which most is never written: pages take memory when first written. Otherwise as
  * memory_new. */
-void *memory_blank(const char *label, int64_t count, size_t size);
+void *memory_new_lazy_zero(const char *label, int64_t count, size_t size);
 
 /* Grows or shrinks an array of memory_new and returns it; the first min(old, new) elements are kept, new ones are zero.
  * `pointer` may be NULL and is invalid afterwards. */
@@ -28,18 +28,18 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
 /* Returns an array of at least `count` elements: `pointer` if it has so many, else a copy at least twice as long, whose
  * new elements are zero; `pointer` is released. The number of allocated elements is stored with the array. pointer: an
  * array of memory_new, or NULL, which stays NULL for count 0. */
-void *memory_grow(const char *label, void *pointer, int64_t count, size_t size);
+void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size);
 
-/* Grows an array of memory_sparse or memory_bare and returns it; new elements are not written. `pointer` is invalid
- * afterwards. */
-void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
+/* Grows an array of memory_new_sparse or memory_new_uninitialised and returns it; new elements are not written.
+ * `pointer` is invalid afterwards. */
+void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Releases an array; NULL is allowed. */
 void memory_free(void *pointer);
 
 /* Keeps released arrays for new ones of similar size, if `reuse`; else releases them. For runs, which rebuild equal
  * arrays whenever particles convert; set-up needs the memory that this takes. */
-void memory_reuse(bool reuse);
+void memory_set_reuse(bool reuse);
 
 /* Returns the largest resident size of the process so far, from the operating system [byte]. */
 int64_t memory_peak(void);
@@ -55,9 +55,9 @@ struct memory_limit {
 struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))
-#define BLANK(label, count, type) ((type *)memory_blank(label, count, sizeof(type)))
-#define BARE(label, count, type) ((type *)memory_bare(label, count, sizeof(type)))
-/* Makes array[count - 1] writable, by memory_grow. */
-#define GROW(label, array, count) ((array) = memory_grow(label, array, count, sizeof *(array)))
+#define BLANK(label, count, type) ((type *)memory_new_lazy_zero(label, count, sizeof(type)))
+#define BARE(label, count, type) ((type *)memory_new_uninitialised(label, count, sizeof(type)))
+/* Makes array[count - 1] writable, by memory_ensure_capacity. */
+#define GROW(label, array, count) ((array) = memory_ensure_capacity(label, array, count, sizeof *(array)))
 
 #endif

@@ -6,7 +6,7 @@
 
 /* The function x H x/2 - goal x with H symmetric and positive definite, for low <= x <= high. */
 struct quadratic {
-    operator_fn *product; /* computes y = H x */
+    matrix_product_fn *product; /* computes y = H x */
     void *context;
     int64_t n;
     const real *goal, *diagonal; /* [n] right side; diagonal of H, all > 0, whose roots scale the unknowns */
@@ -16,6 +16,6 @@ struct quadratic {
 /* Minimises from x, in place, until the projected gradient is `close` times its initial size, with at most `products`
  * products (MPRGP, Dostal & Schoeberl 2005). Equal bits on any number of threads if the product has them. Returns the
  * number of products used. */
-int quadratic_descend(const struct quadratic *q, real *x, real close, int products);
+int quadratic_minimise(const struct quadratic *q, real *x, real close, int products);
 
 #endif

@@ -26,14 +26,14 @@ struct rise {
 };
 
 /* Growth rates: tenfold within RISE_STEPS, slower, or undecided. */
-enum rise_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
+enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
 /* Records a value, unless the last record is less than RISE_CLOSEST steps old. */
-void rise_note(struct rise *r, int64_t step, real value);
+void growth_rate_add_sample(struct rise *r, int64_t step, real value);
 
 /* Returns the rate of the last tenfold increase, to `value` > 0 at `step`; *steps: its approximate duration [steps],
  * INFINITY if it is longer than the record. FAST: within RISE_STEPS, assuming exponential growth between two records.
  * SLOW: a value above a tenth of `value` is older than RISE_STEPS, or one near a tenth is older by more than that. */
-enum rise_rate rise_rate(const struct rise *r, int64_t step, real value, real *steps);
+enum growth_rate growth_rate(const struct rise *r, int64_t step, real value, real *steps);
 
 #endif

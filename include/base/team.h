@@ -15,19 +15,19 @@ struct machine {
 /* Sets the number of threads: `threads` if > 0, else OMP_NUM_THREADS, else the physical cores in the mask. Binds helper
  * thread k >= 1 to the k-th core of the mask, if there are enough, unless the user set OMP_PROC_BIND or OMP_PLACES; the
  * calling thread moves to the first core and keeps the mask. Returns the number of threads. */
-int team_make(int threads);
+int team_set_threads(int threads);
 
 /* Returns the properties of the machine. */
-struct machine team_machine(void);
+struct machine machine_properties(void);
 
-/* Returns the memory of the machine, or what limits leave of it [byte]; read by team_make. */
-int64_t team_memory(void);
+/* Returns the memory of the machine, or what limits leave of it [byte]; read by team_set_threads. */
+int64_t machine_memory_size(void);
 
-/* Returns the name of the limit that team_memory reports: "memory of the machine", "ulimit -v", ... */
-const char *team_memory_limit(void);
+/* Returns the name of the limit that machine_memory_size reports: "memory of the machine", "ulimit -v", ... */
+const char *machine_memory_limit_name(void);
 
 /* Returns the number of physical cores that the process may use. */
-int team_cores(void);
+int machine_cores(void);
 
 /* Divides the cores into equal shares, for processes that run side by side. Returns NULL if there are too few. Release
  * with core_shares_free. */
@@ -35,28 +35,28 @@ struct core_shares *core_shares_make(int shares);
 
 /* Binds the calling thread, and processes that it starts, to a share; share -1 restores its previous binding. s NULL:
  * does nothing. */
-void core_share_take(const struct core_shares *s, int share);
+void core_share_bind(const struct core_shares *s, int share);
 
 /* Releases the shares. */
 void core_shares_free(struct core_shares *s);
 
 /* Returns the wall clock [s]. */
-double team_clock(void);
+double wall_clock(void);
 
 /* Returns the processor time of the calling thread [s]; time taken by other programs does not count. */
-double team_thread_clock(void);
+double thread_cpu_clock(void);
 
 /* Terms per block of a sum, and largest number of sums in one pass. */
 enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
 
 /* Returns the sum of n terms, added in fixed blocks of SUM_BLOCK, and the blocks in order: equal bits on any number of
  * threads. term(context, i) must not write. */
-real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
+real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Computes several sums in one pass, as team_sum: `block` adds the terms first .. end-1 to the `terms` <= TERMS_MAX
- * sums that it is given. */
-void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
-               const void *context, real *sum);
+/* Computes several sums in one pass, as reproducible_sum: `block` adds the terms first .. end-1 to the `terms` <=
+ * TERMS_MAX sums that it is given. */
+void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+                       const void *context, real *sum);
 
 /* Timed sections of a step. */
 enum timer { TIMER_BONDS, TIMER_SCATTER, TIMER_GRID, TIMER_GATHER, TIMER_CONVERT, TIMER_SAMPLE, TIMER_OUTPUT, TIMERS };
@@ -71,6 +71,6 @@ struct timers {
 void timers_start(struct timers *l);
 
 /* Books the time since the last call (or start) on section `which`. */
-void timer_book(struct timers *l, enum timer which);
+void timer_add_elapsed(struct timers *l, enum timer which);
 
 #endif

@@ -18,13 +18,13 @@ struct warnings {
 bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Adds the warnings of another list from number `first` on. */
-void warnings_join(struct warnings *w, const struct warnings *from, int first);
+void warnings_append_from(struct warnings *w, const struct warnings *from, int first);
 
 /* Prints the warnings from number `first` on, one line each: `warning: text`. */
 void warnings_print(const struct warnings *w, int first, FILE *out);
 
 /* Adds a warning of a running run and, if it is new and the list is not silent, prints it on standard error. */
-void warnings_say(struct warnings *w, const char *text);
+void warnings_add_and_print(struct warnings *w, const char *text);
 
 /* Prints the warnings from number `first` on, on standard error, unless the list is silent. */
 void warnings_print_new(const struct warnings *w, int first);

@@ -16,8 +16,8 @@
  *     implicit    UNIT      as WHOLE, with weight 1                                                        x
  *
  * In row blocks that store columns, `nbr`, `inverse_length` and `w` are complete, and `common` is derived from them by
- * bonds_share. All kinds give equal bits. Where the rows of a row block have neighbours at equal index distances (a
- * lattice), a column has one distance, and its eight neighbours are consecutive.
+ * bonds_update_column_common. All kinds give equal bits. Where the rows of a row block have neighbours at equal index
+ * distances (a lattice), a column has one distance, and its eight neighbours are consecutive.
  *
  * Most row blocks of a lattice have equal bonds at equal index distances. They follow one stencil, read from the
  * nearest cache, and store nothing of their own (they are implicit) until one of their bonds is written. Address space
@@ -26,7 +26,7 @@
  * When rows are rebuilt, unchanged row blocks keep their columns; others are placed in the holes of removed row blocks,
  * or behind all stored columns.
  *
- * Invariants (bonds_fault, called by builds with -DCLEAVE_ASSERT whenever rows are made):
+ * Invariants (bonds_find_violation, called by builds with -DCLEAVE_ASSERT whenever rows are made):
  *     rows ascend by particle, and row_of is the inverse of `particle`;
  *     an implicit row block follows a stencil, has as many columns as its stencil, and no broken bond;
  *     a bond with w != 0 has inverse_length > 0, and its neighbour, if it has a row, is within `reach` row blocks;
@@ -100,8 +100,8 @@ struct bond_length {
     real inverse, length, square; /* 1/r [1/m], r [m], r^2 [m^2] */
 };
 
-/* Common properties of the eight bonds of a column, derived from first, w and inverse_length by bonds_share: on a
- * lattice the hot loops read only these, four bytes per bond. */
+/* Common properties of the eight bonds of a column, derived from first, w and inverse_length by
+ * bonds_update_column_common: on a lattice the hot loops read only these, four bytes per bond. */
 struct bond_column {
     int16_t excess[LANES]; /* |inverse_length| less that of the shell, in units of the last place: positions are
                               rounded; the sum is exact */
@@ -127,7 +127,7 @@ struct stencil_column {
 
 /* Bonds that row blocks of eight consecutive particles share: equal neighbours at equal distances with equal weights,
  * no bond broken. Most row blocks of a lattice follow one of few stencils, whose columns stay in the nearest cache.
- * Columns of such row blocks are written only when a bond is accessed by index (row_block_expand). */
+ * Columns of such row blocks are written only when a bond is accessed by index (row_block_write_columns). */
 struct stencil {
     int columns;
     bool whole;                    /* all lanes have all bonds, with one weight */
@@ -204,25 +204,25 @@ static inline bool row_block_whole(const struct bonds *b, int64_t row_block)
 
 /* Recomputes the common properties b->common[column] of one column (eight bonds, one of each particle of a row block)
  * from the stored weights and lengths of its bonds. Required after a change of w or of the sign of inverse_length;
- * usually called through bonds_changed. */
-void bonds_share(const struct bonds *b, int64_t column);
+ * usually called through bonds_update_common_of_bond. */
+void bonds_update_column_common(const struct bonds *b, int64_t column);
 
 /* Recomputes the common properties of the column that contains bond q after its weight or the sign of its inverse
  * length has changed. row: the row (all bonds of one particle) of bond q, whose row block no longer follows a
  * stencil. */
-void bonds_changed(struct bonds *b, int64_t row, int64_t q);
+void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t q);
 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be
  * called by several threads at once. */
-void row_block_expand(struct bonds *b, int64_t row_block);
+void row_block_write_columns(struct bonds *b, int64_t row_block);
 
 /* Returns the index, in the bond arrays (nbr, inverse_length, w ..), of bond k of the particle in lane `lane` (0 to 7)
  * of a row block, so that the caller may write to it. Expands the row block first if its columns are not written. After
- * a change of w or of the sign of inverse_length the caller calls bonds_changed. */
+ * a change of w or of the sign of inverse_length the caller calls bonds_update_common_of_bond. */
 static inline int64_t bond_to_write(struct bonds *b, int64_t row_block, int64_t k, int lane)
 {
-    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_expand(b, row_block);
+    if (__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row_block);
     return (b->column[row_block] + k) * LANES + lane;
 }
 

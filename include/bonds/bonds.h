@@ -38,11 +38,11 @@ static inline real spring_bound_of(const struct spring_bound *s, int dim)
 
 /* Returns true if one of the `cracks` pre-cracks in the array `crack` cuts the segment between the reference positions
  * of particles i and j of p. */
-bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
+bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
 /* Returns an upper bound of the number of neighbours of any particle, from counts of particles in search cells
- * (cells_most). Computed once at set-up, because reference positions do not change. */
-int bonds_room(const struct bond_source *s);
+ * (cells_most_neighbours). Computed once at set-up, because reference positions do not change. */
+int bonds_most_neighbours(const struct bond_source *s);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
  * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; s: inputs of the
@@ -57,15 +57,15 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. s:
  * inputs, of which the list of images is used. */
-void bonds_images_follow(struct particles *p, const struct bond_source *s);
+void bonds_update_image_kinds(struct particles *p, const struct bond_source *s);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
  * peridynamic). s: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
-void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source *s);
+void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *s);
 
 /* Returns an upper bound (spring_bound_of) of the largest eigenvalue of the stiffness matrix of the bonds of one row,
  * i.e. of one particle [N/m]. */
-real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row);
+real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row);
 
 /* Releases all arrays of b. */
 void bonds_free(struct bonds *b);
@@ -77,13 +77,13 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 
 /* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
  * peridynamic and no bond is broken. */
-real bonds_critical_step_made(const struct bonds *b, const struct particles *p);
+real bonds_critical_step_of_existing(const struct bonds *b, const struct particles *p);
 
 /* Copies broken bonds, counts of broken bonds and damage from the bonds `old` of an earlier particle set `was` to the
  * bonds b of the particles p. now: index in p of each particle of `was`, images included; -1: the particle is not in p.
  * In both sets peridynamic particles must have all their neighbours. */
-void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
-                const int32_t *now);
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
+                           const int32_t *now);
 
 /* Saves (a->saving) or restores which bonds are broken and their plastic state; neighbours and weights are not stored,
  * since bonds_make rebuilds them. A trial archive (a->scope) contains only the plastic state, without the work of
@@ -92,15 +92,15 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 
 /* Returns the weighted volume Q = sum w r^2 of the intact bonds of a row, i.e. of one particle [m^2], summed anew,
  * because subtracting broken bonds from a stored sum would leave round-off when few bonds remain. */
-real state_weight_left(const struct bonds *b, int64_t row);
+real state_intact_weighted_volume(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
  * state-based models. s: inputs as in bonds_make. */
-void state_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s);
+void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
 /* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
  * violated one, or NULL if all hold. */
-const char *bonds_fault(const struct bonds *b);
+const char *bonds_find_violation(const struct bonds *b);
 
 /* Returns the bond energy released by all bonds broken since the start [J]. */
 real bonds_fracture_energy(const struct bonds *b);
@@ -127,7 +127,7 @@ static inline bool bonds_has(const struct bonds *b, int64_t i)
 
 /* Clears the bits in `marks` (one bit per particle and image) of all particles and images to which the particle of
  * `row` has intact bonds. Does nothing if row is -1. */
-void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks);
+void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks);
 
 /* Returns the number of directed bonds of the eight particles of a row block, broken bonds included. */
 static inline int32_t row_block_bonds(const struct bonds *b, int64_t row_block) { return b->made[row_block]; }
@@ -152,7 +152,7 @@ struct column_copy {
 
 /* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
  * *to, from the stencil if the row block stores no columns. Does not change b. */
-void column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k);
+void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k);
 
 /* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
  * plastic_stretch, plastic_path and pair. */

@@ -89,8 +89,8 @@ struct bond_source {
     const struct voids *voids;         /* voids of bodies, which cut bonds as pre-cracks do; NULL: none */
     const struct mirror_plane *mirror; /* planes of symmetry, without clamped ones */
     int mirrors;
-    const struct image *image;    /* images made by loads */
-    int room;                     /* largest number of neighbours of a particle (bonds_room); 0: counted when needed */
+    const struct image *image; /* images made by loads */
+    int room; /* largest number of neighbours of a particle (bonds_most_neighbours); 0: counted when needed */
     const real *neighbour_volume; /* [n_all] V_i^H = sum V_j beta, for the volume method; NULL: other methods */
     const struct surface_weights *surface; /* factors of bonds near faces (bonds/surface.h); NULL: none */
 };
@@ -107,12 +107,12 @@ real family_micro_modulus(const struct family *f, const struct material *m);
 /* Computes the elastic constants c11 and c12 [Pa] that a lattice of complete families has under uniform strain, C_abcd
  * = 1/(2V) sum c V V w r e_a e_b e_c e_d, with the weights by direction and partial volumes of f. The result is cubic,
  * and its shear modulus equals c12. */
-void family_constants(const struct family *f, const struct material *m, real *c11, real *c12);
+void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
  * square of the stretch at which its bonds break [N/m] (separation.c). m: moduli of the material; local: true if sums
  * are normalised by the present family. */
-real family_separation(const struct family *f, const struct state_modulus *m, bool local);
+real family_separation_work(const struct family *f, const struct state_modulus *m, bool local);
 
 /* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
  * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */
@@ -127,6 +127,6 @@ static inline bool family_plain(const struct family *f)
 
 /* Returns the weight of a bond in the reference state, the product of volume fraction beta, influence function omega
  * and weight by direction [1]. xi: bond vector, dim components [m]; r: its length [m]. */
-real family_weight(const struct family *f, const real *xi, real r);
+real family_bond_weight(const struct family *f, const real *xi, real r);
 
 #endif

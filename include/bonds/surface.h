@@ -35,11 +35,12 @@ struct surface_weights {
 /* Computes the factors on the weights of bonds near faces for particles on a lattice, by least squares with bounds. s:
  * inputs of the bonds; rotates: true for models with particle rotations, in which differences between neighbours'
  * rotations store energy, so that the factors differ. Returns REFUSED, with a message and an example in to->apart, if
- * the particles are not on a lattice. Release with surface_free. */
-status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates);
+ * the particles are not on a lattice. Release with surface_weights_free. */
+status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s,
+                            bool rotates);
 
 /* Releases all arrays of w. */
-void surface_free(struct surface_weights *w);
+void surface_weights_free(struct surface_weights *w);
 
 /* Returns the factor on the weight of the bond of particle i < n with reference vector xi (dim components [m]) [1]; 1
  * if the particle is far from faces or xi is longer than any bond. Both particles of a bond obtain bitwise equal

@@ -168,11 +168,12 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 /* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
  * lacks a part of its family. list: indices of particles that have become peridynamic; family: horizon and lattice.
  * Does nothing if contact is not possible in this run. */
-void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n);
+void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
+                            int64_t n);
 
 /* Marks the particles on which contact forces may act as loaded in l, and their bonds as active in b. Called by
  * contact_update; to be called by the user only after a restart. */
-void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
@@ -181,11 +182,11 @@ void contact_force(struct contact *c, struct particles *p, real dt);
 
 /* Allocates c->push, in which contact_force stores the contact force on each particle while c->recorded is set. Does
  * nothing if contact is not possible in this run, or if the array exists. */
-void contact_record(struct contact *c, const struct particles *p);
+void contact_allocate_forces(struct contact *c, const struct particles *p);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if particles were in contact at the
  * last call of contact_force. */
-void contact_clock(struct contact *c, real t);
+void contact_update_times(struct contact *c, real t);
 
 /* Returns the elastic energy of all contacts at the present positions, of contacts with rigid bodies and friction
  * springs included [J]. A pair with a mirror image of a particle counts half. */
@@ -193,7 +194,7 @@ real contact_energy(const struct contact *c, const struct particles *p);
 
 /* Returns the diagonal of the bounding box of all particles in contact with rigid body number `body` [m], or 0 if
  * there is none. */
-real contact_patch(const struct contact *c, const struct particles *p, int body);
+real contact_patch_diameter(const struct contact *c, const struct particles *p, int body);
 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
@@ -209,32 +210,32 @@ int64_t contact_search(struct contact *c, const struct particles *p, struct bond
 /* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A
  * gap within round-off of 0 does not change the selection. close: gap between bodies below which a contact is selected
  * [spacings]. Returns the number of contacts whose selection changed. */
-int64_t contact_mark(struct contact *c, const struct particles *p, real close);
+int64_t contact_select(struct contact *c, const struct particles *p, real close);
 
-/* Selects which contacts act in the next forces: with `use` those selected by contact_mark, as linear springs;
+/* Selects which contacts act in the next forces: with `use` those selected by contact_select, as linear springs;
  * otherwise those that overlap. */
-void contact_marks_use(struct contact *c, bool use);
+void contact_use_selection(struct contact *c, bool use);
 
 /* Ends the selection of contacts for an equilibrium: the contacts that overlap act again, and a search for pairs is
  * requested. */
-void contact_unmark(struct contact *c);
+void contact_end_selection(struct contact *c);
 
 /* Returns true if particles or rigid bodies have moved so far since the last search that pairs missing in the list
  * could be in contact, or if no search has been done. Updates c->moved, the largest displacement since the last
  * search. */
-bool contact_has_come(struct contact *c, const struct particles *p);
+bool contact_search_needed(struct contact *c, const struct particles *p);
 
 /* Returns the largest displacement of particles since the last search for which the list of pairs is certainly
  * complete [m]. */
-real contact_sight(const struct contact *c);
+real contact_list_reach(const struct contact *c);
 
-/* Calls visit(context, term) for each contact selected by contact_mark, with the contact as a linear spring; term is
+/* Calls visit(context, term) for each contact selected by contact_select, with the contact as a linear spring; term is
  * valid during the call only. Does nothing if no contacts have been selected. */
-void contact_terms(const struct contact *c, const struct particles *p,
-                   void (*visit)(void *context, const struct contact_term *term), void *context);
+void contact_visit_springs(const struct contact *c, const struct particles *p,
+                           void (*visit)(void *context, const struct contact_term *term), void *context);
 
 /* Returns the Euclidean norm of the forces of rigid bodies on all particles [N]. */
-real contact_rigid_norm(const struct contact *c, const struct particles *p);
+real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else
  * restores them. Returns FAILED, with a message, if the archive cannot be read or written, or if a restored list has

@@ -13,6 +13,6 @@ enum { APPROACH_STEPS = 5 };
 /* Sets FLAG_NEAR of the material points within `reach` [m] of a particle of another body or of a rigid body, and resets
  * the time since which the stress of peridynamic particles there is low (reversion.h). bodies: number of bodies of the
  * particles; rigid: [rigids]. */
-void approach_mark(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
+void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
 
 #endif

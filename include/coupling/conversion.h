@@ -38,19 +38,19 @@ struct conversion_sync {
  * (`partial`, NULL: hand-shake without them) are rebuilt only if a particle is converted. Bonds beyond their limit when
  * made are cut at once and their energy is booked as fracture. sync: NULL if no particle is in a mesh; t: time [s].
  * Returns the number of particles converted. */
-int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *sync,
-                real t);
+int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
+                               struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
+                               const struct conversion_sync *sync, real t);
 
 /* Makes every particle peridynamic, before step 0, that has a bond cut by a pre-crack (Zeng et al. 2022, eq. 28), and
  * the particles in `region` (NULL: none). */
-void convert_start(struct particles *p, const struct bond_source *source, const struct region *region);
+void convert_cut_particles(struct particles *p, const struct bond_source *source, const struct region *region);
 
 /* Computes the region `to` that is peridynamic from step 0 on: the region of the scene (`given`, NULL: none), and a
  * ball of `radius` [m] round each end of a pre-crack inside the body (in 3D a cylinder round each edge). The caller
  * frees to->solid; a region without solids is empty. */
-void convert_region(struct region *to, const struct region *given, const struct particles *p,
-                    const struct bond_source *source, real radius);
+void initial_pd_region_make(struct region *to, const struct region *given, const struct particles *p,
+                            const struct bond_source *source, real radius);
 
 /* Computes for every material point whose cell is crossed by PD-MPM bonds the stiffness tensor T of fourth rank that
  * maps the strain of the point to its partial stress (partial_stress.c): T = (1/V) sum K xi^2 l e e e e over these
@@ -61,7 +61,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
 
 /* Sets p->end_strain of the material points of state-based PD-MPM bonds on the grid, from their stress. material:
  * [materials]. */
-void partial_points_update(const struct partial_stress *partial, struct particles *p, const struct material *material);
+void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                      const struct material *material);
 
 /* Releases all arrays. */
 void partial_stress_free(struct partial_stress *partial);

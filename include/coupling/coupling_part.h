@@ -40,45 +40,45 @@ void bonded_points_update(const struct partial_stress *partial, const struct ref
 
 /* Represents the pre-cracks by slits of the mesh or cut bonds, and converts the particles that are peridynamic from the
  * start. REFUSED if the scene requires slits where they are impossible. */
-status notch_convert(struct run *e);
+status precracks_apply(struct run *e);
 
 /* Writes the representation of pre-crack number `crack` in words to text [room]. */
-void notch_text(const struct notches *n, int crack, real spacing, char *text, size_t room);
+void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t room);
 
 /* Marks material points beside slits whose faces approach each other (FLAG_NEAR). Returns false if faces are not
  * evaluated in this step. */
-bool notch_approach(struct run *e);
+bool slits_flag_approaching(struct run *e);
 
 /* Makes the particles on both sides of narrow voids peridynamic where a grid would join them. v: NULL, no voids; uncut:
- * voids do not cut the mesh (mesh_uncut). */
-void voids_convert(struct particles *p, const struct voids *v, bool uncut);
+ * voids do not cut the mesh (mesh_ignores_voids). */
+void voids_convert_beside(struct particles *p, const struct voids *v, bool uncut);
 
 /* Returns true if voids do not cut the mesh with the nodes of grid g: in 1D, where a cut separates a line by itself,
  * and with mirrors between nodes, for which extra nodes of cuts are not made. */
-bool mesh_uncut(const struct grid *g, const struct scene *s);
+bool mesh_ignores_voids(const struct grid *g, const struct scene *s);
 
 /* Warns of voids that the run joins: narrow ones on the grid of the current frame, and in bodies made from lists and
  * images. */
 void voids_warn(const struct run *e, struct warnings *to);
 
 /* Warns of bodies that pass through each other or stick together, and of voids that are joined. */
-void warn_of_bodies(const struct run *e, struct warnings *to);
+void warn_of_joined_bodies(const struct run *e, struct warnings *to);
 
 /* Prepares conversion (step 8 of the algorithm): marks material points near other bodies and slits, and extends the
  * active rows. Returns true if points beside slits may have been marked. */
-bool conversion_mark(struct run *e);
+bool conversion_prepare(struct run *e);
 
 /* Converts the marked material points, with all consequences of conversion and of `broken` directed bonds. marked:
- * result of conversion_mark; fades: bonds of growing cracks fade. Returns the number of particles converted. */
-int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades);
+ * result of conversion_prepare; fades: bonds of growing cracks fade. Returns the number of particles converted. */
+int64_t conversion_apply(struct run *e, int64_t broken, bool marked, bool fades);
 
 /* Updates the mesh and the material points of PD-MPM bonds after `converted` particles have changed their kind. */
-void conversion_follow(struct run *e, int64_t converted);
+void conversion_update_mesh(struct run *e, int64_t converted);
 
 /* Returns REFUSED if a scene with reversion has settings that exclude it. */
 status reversion_check(const struct scene *s);
 
 /* Reverts the particles that are due to material points, before a step. */
-void revert(struct run *e);
+void reversion_apply_due(struct run *e);
 
 #endif

@@ -43,6 +43,6 @@ void notches_free(struct notches *n);
 /* Sets FLAG_NEAR of material points beside slits whose faces, within the time `ahead` [s], come closer than at the
  * start by more than NOTCH_GAP, or by more than the width of a notch less NOTCH_GAP. Positions of the faces must be up
  * to date. */
-void notches_approach(const struct notches *n, struct particles *p, real spacing, real ahead);
+void notches_flag_approaching(const struct notches *n, struct particles *p, real spacing, real ahead);
 
 #endif

@@ -13,13 +13,12 @@ struct reversion_rule {
     real hold_time;                /* time for which the stress must have been low [s] */
 };
 
-/* Selects the peridynamic particles that may become material points, by their present stress (call run_stress before).
- * Sets *list to their indices in ascending order, which the caller frees, and returns their number. A particle may if
- *     it and all peridynamic particles of its family have had a low stress for the hold time, outside `kept`;
- *     no bond of it or of a particle within two horizons was ever cut, by load or by a pre-crack;
- *     it is inside a ball of one horizon that will contain material points only.
- * The remaining peridynamic regions thus consist of full families, as conversion makes them, and reverted regions are
- * at least as wide as a family. */
+/* Selects the peridynamic particles that may become material points, by their present stress (call compute_bond_stress
+ * before). Sets *list to their indices in ascending order, which the caller frees, and returns their number. A particle
+ * may if it and all peridynamic particles of its family have had a low stress for the hold time, outside `kept`; no
+ * bond of it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside a ball of one
+ * horizon that will contain material points only. The remaining peridynamic regions thus consist of full families, as
+ * conversion makes them, and reverted regions are at least as wide as a family. */
 int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                          int32_t **list);
 

@@ -30,7 +30,7 @@ void active_set_make(struct active_set *r, int64_t blocks);
 void active_set_free(struct active_set *r);
 
 /* Rebuilds the list of active blocks from the levels. */
-void active_set_list(struct active_set *r);
+void active_set_rebuild_list(struct active_set *r);
 
 /* Saves or restores the levels under `name`. After restoring all blocks are visited in the next step, because the
  * forces of inactive blocks are not in the checkpoint. */

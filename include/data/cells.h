@@ -24,12 +24,12 @@ void cells_free(struct cells *c);
 /* Lists the particles and mirror images of p within `radius` [m] (at most c->edge) of the point X (dim components [m])
  * in `found`, ascending, except particle `skip` (-1: no exception). Writes at most `room` indices. Returns the number
  * of particles found, which may exceed `room`. */
-int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-               int32_t *found, int room);
+int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+                    int32_t *found, int room);
 
-/* Returns an upper bound of the number of particles that cells_near finds around any particle, including itself: the
- * largest count in the bounding square. Cheap: it counts cells. */
-int cells_most(const struct cells *c, real radius);
+/* Returns an upper bound of the number of particles that cells_find_near finds around any particle, including itself:
+ * the largest count in the bounding square. Cheap: it counts cells. */
+int cells_most_neighbours(const struct cells *c, real radius);
 
 /* List of near particles that grows as needed; start with {0}, release `at` with memory_free. */
 struct near {
@@ -38,11 +38,11 @@ struct near {
 };
 
 /* Lists the particles within `radius` [m] of particle i, ascending; itself: includes i. */
-void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-               bool itself);
+void particles_find_near(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+                         bool itself);
 
 /* Lists the particles within `radius` [m] of particle i in the order of cells: slightly faster with images. */
-void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-                   bool itself);
+void particles_find_near_unordered(struct near *near, const struct cells *c, const struct particles *p, int64_t i,
+                                   real radius, bool itself);
 
 #endif

@@ -24,10 +24,10 @@ const struct derived_field *derived_field_find(const char *name);
 /* Computes the eigenvalues of a symmetric tensor, descending, and unit vectors along its axes in this order, row by
  * row; the largest component of the first two is positive, the third completes a right-handed system. direction NULL:
  * only the values. */
-void tensor_principal(const real tensor[6], real value[3], real direction[9]);
+void tensor_principal_values(const real tensor[6], real value[3], real direction[9]);
 
 /* Returns the equivalent stress of von Mises, sqrt(3/2 s : s) with the deviator s. */
-real tensor_mises(const real tensor[6]);
+real tensor_mises_stress(const real tensor[6]);
 
 /* Returns the determinant of a symmetric tensor. */
 real tensor_determinant(const real tensor[6]);

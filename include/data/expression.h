@@ -62,17 +62,17 @@ struct expression {
 void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text);
 
 /* Creates an expression that is a number, with its text. Release with expression_free. */
-void expression_constant(struct expression *e, real value, const char *text);
+void expression_make_constant(struct expression *e, real value, const char *text);
 
 /* Releases steps and text. */
 void expression_free(struct expression *e);
 
 /* Returns the value [SI] at X [dim] [m] and t [s]. X may be NULL if the expression is not in space. May be infinite or
  * NaN where the formula is. */
-real expression_at(const struct expression *e, const real *X, int dim, real t);
+real expression_evaluate(const struct expression *e, const real *X, int dim, real t);
 
 /* Returns the result of an operation on operand a, or on a and b [SI]. Not for operations that push a value. */
-real expression_operate(enum expression_op op, real a, real b);
+real expression_apply_operation(enum expression_op op, real a, real b);
 
 /* Returns true if the operation pushes a value. */
 static inline bool expression_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }

@@ -73,7 +73,7 @@ struct wall {
 /* Extends the box to cover positions from .. to [m] with a margin of three cells, rounded outwards to whole steps; it
  * never shrinks. *changed: the box changed, all nodal values are then zero. Fails if it would need more than `most`
  * nodes. */
-status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
+status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 
 /* Releases all arrays. */
 void grid_free(struct grid *g);
@@ -88,7 +88,7 @@ void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
 /* Removes all constraints of the step, for a step without points on the grid. */
-void grid_idle(struct grid *g);
+void grid_clear_constraints(struct grid *g);
 
 /* Nodes lighter than this share of a full node are left at rest. 1e-9 is usual; but such a node may have a force, whose
  * impulse would be lost: momentum is exact to 1e-12 only if just empty nodes are left out, and with the re-map light
@@ -144,6 +144,6 @@ static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const s
 
 /* Computes the box of cells around from .. to [m], plus one node, for dim, h and anchor as set; no nodal arrays.
  * Returns false if it has more than `most` nodes. */
-bool grid_box(struct grid *g, const real *from, const real *to, int64_t most);
+bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t most);
 
 #endif

@@ -54,26 +54,26 @@ void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM
 void hull_free(struct hull *s);
 
 /* Returns the winding number of the surface around X [1]. */
-real hull_winding(const struct hull *s, const real *X);
+real hull_winding_number(const struct hull *s, const real *X);
 
 /* Returns the signed distance of X, negative inside [m]. normal: NULL, or the unit vector away from the surface,
  * outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
 
 /* Returns hull_distance(s, X, NULL) <= most, without searching faces farther away than that. */
-bool hull_within(const struct hull *s, const real *X, real most);
+bool hull_is_within(const struct hull *s, const real *X, real most);
 
 /* Returns the maximum of the scalar product X . along over the corners X of the hull [m] (support function). along:
  * unit vector. */
 real hull_support(const struct hull *s, const real *along);
 
 /* Returns the share of about 4000 sample points of its box at which the winding number is ambiguous [1]. */
-real hull_doubt(const struct hull *s);
+real hull_ambiguous_share(const struct hull *s);
 
 /* Builds the tree and sorts the faces; part of hull_make (hull_tree.c). */
-void hull_tree_make(struct hull *s);
+void hull_build_face_tree(struct hull *s);
 
 /* Computes the area vector of face k [m^2]; of a segment its length times its normal [m]. */
-void hull_area(const struct hull *s, int64_t k, real area[DIM_MAX]);
+void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX]);
 
 #endif

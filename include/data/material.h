@@ -26,7 +26,7 @@ struct material {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */
     struct strength_scatter scatter; /* random field of its critical stretch */
-    /* values derived by material_derive */
+    /* values derived by material_compute_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
     real wave_speed;                  /* longitudinal, of the space: sqrt(c11/rho) [m/s] */
@@ -60,7 +60,7 @@ real material_micro_modulus_continuum(const struct material *m, enum space space
 
 /* Returns the critical stretch from G_c, the energy of all bonds that cross a unit plane [1]. horizon [m]. model:
  * bond-based with the continuum micro-modulus (Silling & Askari 2005), or ordinary state-based (Madenci & Oterkus
- * 2014). The model with rotations has no continuum limit: family_separation. */
+ * 2014). The model with rotations has no continuum limit: family_separation_work. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
@@ -68,7 +68,7 @@ real material_critical_stretch(const struct material *m, enum space space, real 
 real material_stress_at(const struct material *m, real strain);
 
 /* Computes the derived constants. */
-void material_derive(struct material *m, enum space space);
+void material_compute_constants(struct material *m, enum space space);
 
 /* Computes the elastic stiffness as a matrix over symmetric components, symmetric_count(dim) squared, row major [Pa]
  * (tensor shear strain: shear rows contain 2G). */

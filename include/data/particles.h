@@ -41,7 +41,7 @@ struct particles {
     const struct material *plane_strain; /* [materials] of a body in plane strain, borrowed; NULL in other spaces */
     int64_t n_of[KINDS];                 /* number of particles of each kind */
     int64_t n_grid_coupled;              /* peridynamic particles moved by the grid */
-    int32_t *list[KINDS];                /* [n_of] indices of each kind, ascending; rebuilt by particles_list */
+    int32_t *list[KINDS];                /* [n_of] indices of each kind, ascending; rebuilt by particles_update_lists */
     int64_t n_free;                      /* material points on the grid, not of the mesh */
     int32_t *list_free;                  /* [n_free] indices of these points, ascending */
     /* every array below has n_all (+ LANES) entries */
@@ -51,9 +51,9 @@ struct particles {
     real *f[DIM_MAX];       /* bond and applied force [N] */
     real *mass;             /* [kg] */
     real *volume0, *volume; /* reference and current volume [m^3] */
-    /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by frame_sync,
-     * peridynamic particles: by run_stress, for frames (run_sync) and for samples and reversion that read it; out of
-     * date in between. */
+    /* Cauchy stress [Pa]. Points on the grid: updated by g2p in every step. Points of a mesh: updated by
+     * frame_update_points, peridynamic particles: by compute_bond_stress, for frames (run_update_particles) and for
+     * samples and reversion that read it; out of date in between. */
     real *stress[SYM_MAX];
     real *gradient[DIM_MAX *
                    DIM_MAX]; /* velocity gradient dv_a/dx_b at [a dim + b], only APIC (Jiang et al. 2015) [1/s] */
@@ -159,7 +159,7 @@ extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;
 
 /* Returns component array k of a field. */
-void *particle_array(const struct particles *p, const struct particle_field *f, int k);
+void *particle_field_array(const struct particles *p, const struct particle_field *f, int k);
 
 /* Saves or restores the fields of all particles, images included; in a trial archive only their plastic state. */
 status particles_archive(struct particles *p, int optional, struct archive *a);
@@ -204,7 +204,7 @@ void particles_add_images(struct particles *p, int64_t images, int optional);
 void particles_free(struct particles *p);
 
 /* Copies all fields of the particles of `old` to p. now: [old->n] index in p, -1: none. */
-void particles_take(struct particles *p, const struct particles *old, const int32_t *now, int optional);
+void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *now, int optional);
 
 /* Sorts the body row by row: by z, then y, then x, in rows of thickness `spacing` [m]; ties by id. Called at set-up. */
 void particles_sort(struct particles *p, real spacing, int optional);
@@ -217,7 +217,7 @@ void particles_extent(const struct particles *p, int64_t n, int d, real *low, re
 int64_t particles_nearest(const struct particles *p, const real *X);
 
 /* Returns the longest edge of the bounding box of the body's particles [m]. */
-real particles_longest(const struct particles *p);
+real particles_longest_edge(const struct particles *p);
 
 /* Returns the volume of a lattice particle [m^3]. section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One function, so
  * that a quotient of two such volumes is exactly 1. */
@@ -237,9 +237,9 @@ static inline bool lattice_site(real X, real origin, real spacing, real *site)
 }
 
 /* Rebuilds n_of and list from kind, and n_free and list_free from flag. */
-void particles_list(struct particles *p);
+void particles_update_lists(struct particles *p);
 
 /* Returns true if a criterion marked a particle for conversion in this step. */
-bool convert_due(const struct particles *p);
+bool conversion_is_due(const struct particles *p);
 
 #endif

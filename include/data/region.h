@@ -37,7 +37,7 @@ real region_volume(const struct region *r, int dim, const real *from, const real
 
 /* Builds an index of a long list, so that a point is compared with solids near it only, with bitwise equal results. The
  * list must not change afterwards. */
-void region_index(struct region *r, int dim);
+void region_build_index(struct region *r, int dim);
 
 /* Releases all solids and the index. */
 void region_free(struct region *r);
@@ -66,13 +66,13 @@ struct time_function {
 };
 
 /* Returns the factor at t [s]. */
-real time_function_at(const struct time_function *f, real t);
+real time_function_value(const struct time_function *f, real t);
 
 /* Returns the integral of the factor from 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
 /* Returns the largest slope of the factor between 0 and t, INFINITY if it jumps there [1/s]. */
-real time_function_steepest(const struct time_function *f, real t);
+real time_function_largest_slope(const struct time_function *f, real t);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
@@ -90,7 +90,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
 
 /* Returns false if the crack cuts no bond of a particle at X that is at most `reach` long [m]. Quick, for far
  * particles. */
-bool crack_near(const struct crack *c, const real *X, real reach, int dim);
+bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int dim);
 
 /* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
  * consecutive vectors from its first corner to the others (Newell). */
@@ -104,7 +104,8 @@ struct mirror_plane {
 
 /* Returns true if the crack reaches X on or beyond a plane of symmetry (within `tolerance` [m]) from inside: it
  * continues there as its image, so X is not a crack end. */
-bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance);
+bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X,
+                            real tolerance);
 
 /* Cracks; of[k]: index of the crack of which crack k is a part or an image. */
 struct crack_list {

@@ -52,7 +52,7 @@ struct placement {
 struct region {
     int n;
     struct solid *solid;
-    int runs;               /* number of runs; 0: no index (region_index) */
+    int runs;               /* number of runs; 0: no index (region_build_index) */
     struct region_run *run; /* [runs] */
 };
 
@@ -110,10 +110,10 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 real solid_level(const struct solid *s, const real *X, int dim);
 
 /* Returns solid_level(s, X, dim) <= most, at less cost. */
-bool solid_within(const struct solid *s, const real *X, int dim, real most);
+bool solid_is_within(const struct solid *s, const real *X, int dim, real most);
 
 /* Computes a box around the solid, slightly larger, for a box_tree; infinite if no box bounds its levels. */
-void solid_box(const struct solid *s, int dim, struct bounds *box);
+void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
 /* Returns the maximum of the scalar product X . along over the points X of the solid [m] (support function). along:
  * unit vector, dim components. */
@@ -125,17 +125,17 @@ real solid_radius(const struct solid *s, int dim);
 
 /* Returns the least thickness [m]: the diameter of the solids of solid_radius and of cones, or the wall of tubes, rings
  * and tori; INFINITY: unknown without a measurement. */
-real solid_width(const struct solid *s, int dim);
+real solid_least_thickness(const struct solid *s, int dim);
 
 /* Appends a motion and makes its copies. Returns false if there would be more than IMAGES_MOST. */
-bool solid_move(struct solid *s, const struct solid_motion *m, int dim);
+bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim);
 
 /* Returns the largest distance of X from the box of a solid whose level at X is at most `level`, in any direction [m]:
  * outside, levels are at least 1/sqrt(3) of the distance, as beside the corner of a box. */
 static inline real level_reach(real level) { return level > 0 ? 1.75 * level : level; }
 
 /* Returns the number of primitive solids that one query evaluates. */
-real solid_effort(const struct solid *s);
+real solid_query_cost(const struct solid *s);
 
 /* Releases all that the solid owns. */
 void solid_free(struct solid *s);

@@ -35,7 +35,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
                          const struct grid *g);
 
 /* Reserves capacity; contents are lost if it grows. Keeps the counts n, blocks and cells. */
-void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells);
+void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells);
 
 /* Releases all arrays. */
 void transfer_order_free(struct transfer_order *o);

@@ -52,10 +52,10 @@ void turning_free(struct turning_groups *t);
 
 /* Computes centres, inertias and spins of the groups before a step on the grid; stores the spin of each point's group
  * in turn. */
-void turning_begin(struct turning_groups *t, struct particles *p, real spacing);
+void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing);
 
 /* Adds the rotation that the points of each group lack (turn) to their velocities, then stores their spin in turn.
- * Positions must be those of turning_begin. */
-void turning_share(struct turning_groups *t, struct particles *p);
+ * Positions must be those of turning_compute_spins. */
+void turning_restore_spins(struct turning_groups *t, struct particles *p);
 
 #endif

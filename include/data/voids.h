@@ -39,14 +39,14 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
 
 /* Returns true if a void is between points a and b [m] of a body. Symmetric in a and b. *across (NULL: not needed): its
  * faces face each other. Gaps of up to 2e-5 spacings count as closed seams. */
-bool voids_between(const struct voids *v, int body, const real *a, const real *b, bool *across);
+bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *across);
 
 /* Returns true if a void is between particles i and j of a body. v NULL: false. Quick for particles without a void
  * nearby. */
-bool voids_part(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
+bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
 
 /* Returns a lower bound of the depth of particle i inside the shape of its body [m]. */
-real voids_depth(const struct voids *v, const struct particles *p, int64_t i);
+real voids_particle_depth(const struct voids *v, const struct particles *p, int64_t i);
 
 /* Returns true if a void hides a particle from particle i. v NULL: false. */
 static inline bool voids_near(const struct voids *v, int64_t i) { return v && v->near[i]; }

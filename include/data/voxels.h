@@ -19,7 +19,7 @@ enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };
 void voxels_free(struct voxels *v);
 
 /* Returns the grey value at X [m], -1 outside. A point between voxels belongs to the upper one, up to round-off. */
-int voxels_grey(const struct voxels *v, const real *X);
+int voxels_grey_value(const struct voxels *v, const real *X);
 
 /* Range of grey values low .. high, inclusive. */
 struct grey_range {

@@ -18,11 +18,11 @@ void engine_free(struct run *e);
 
 /* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
  * source: materials and bond families. Bonds and grids need not exist yet. */
-real run_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
+real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
-/* Estimates the peak memory of a run as run_memory does, but for the case that all particles of the bodies are
+/* Estimates the peak memory of a run as run_estimate_memory does, but for the case that all particles of the bodies are
  * peridynamic [byte]. */
-real run_memory_peridynamic(const struct scene *s, const struct particles *p, const struct bond_source *source);
+real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source);
 
 /* Runs a scene from the present step to its end, with all reports. Returns INTERRUPTED, after a checkpoint, if a
  * signal or the wall-clock limit stops the run; FAILED if the run becomes unstable, no equilibrium is found, or a file
@@ -45,11 +45,11 @@ status engine_restore(void *run, struct archive *a);
 /* Runs the scene once more with material points alone, if it has a PULSE probe, and stores the final velocities and
  * the energy change with which the probe compares the run. Call it after the run. Returns the status of the second
  * run. */
-status engine_baseline(struct run *e);
+status engine_run_baseline(struct run *e);
 
 /* Checks the scene for input that is allowed but probably unintended, and adds warnings to e->warnings. Call it once,
  * before the first step. */
-void engine_warn(struct run *e);
+void engine_warn_of_input(struct run *e);
 
 /* Writes summary.json, and fragments.csv if bodies can break into fragments, for the steps done so far. Does nothing
  * for a run without files. s: status with which the run ended; threads: number of threads; wall_seconds: duration of

@@ -16,6 +16,6 @@ struct fracture_state {
 
 /* Returns true if the run has a growing crack whose bonds lose their strength gradually over a length of crack growth,
  * instead of at once. */
-bool cracks_fade(const struct fracture_state *f);
+bool cracks_fade_bonds(const struct fracture_state *f);
 
 #endif

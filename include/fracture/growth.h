@@ -84,8 +84,8 @@ void growth_free(struct growth *g);
  * neighbour search. control: present stress-intensity factors, which turn the tip to the direction of the largest hoop
  * stress and may set its speed; NULL if they are not known. Returns the number of directed bonds (bond i-j counts
  * twice) whose weight became 0. */
-int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct control *control, real t, real dt);
+int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
+                            const struct control *control, real t, real dt);
 
 /* Returns the angle between the initial direction of a growing crack and the straight line from its start to its tip,
  * 0 to 180 [degree], or NAN if the crack has not grown. */

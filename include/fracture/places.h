@@ -18,6 +18,7 @@ struct place {
  * several groups have counting positions, the group is chosen that contains the last of them by x, then y, then z.
  * Returns the number of groups, including those without counting positions, or 0 if no position counts; *middle is
  * then not set. */
-int64_t places_middle(const struct place *place, int64_t n, int dim, real reach, const real *along, real *middle);
+int64_t positions_group_middle(const struct place *place, int64_t n, int dim, real reach, const real *along,
+                               real *middle);
 
 #endif

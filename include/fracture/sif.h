@@ -52,15 +52,15 @@ struct gradient_stencil {
  * and visibility of neighbours; c: neighbour search over the reference positions. s must be 0 or the result of an
  * earlier call, whose arrays are reused. If i has too few visible neighbours, s->order is 0 and there are no weights.
  * Release with gradient_stencil_free. */
-void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
-                         const struct cells *c, int64_t i);
+void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
+                              const struct cells *c, int64_t i);
 
 /* Frees the arrays of a stencil. */
 void gradient_stencil_free(struct gradient_stencil *s);
 
 /* Computes the gradient of a plane vector field at particle i: gradient[a][b] = d field_a/dX_b. s: stencil of particle
- * i (gradient_stencil_at); field[a]: component a for every particle, mirror images included. */
-void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
+ * i (gradient_stencil_compute); field[a]: component a for every particle, mirror images included. */
+void gradient_evaluate(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2]);
 
 /* ---- the integral (sif.c) ---------------------------------------------------------------------------------------- */
 
@@ -102,8 +102,8 @@ void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
  * frame of the crack tip, x[0] ahead of the tip [m]; c: contour with the weight q; actual, auxiliary: the two motions
  * at the point, in the same frame; inside: factor 0 to 1 on the second sum of I, which has the inertia terms [1]. */
-real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
-                 const struct crack_state *auxiliary, real inside);
+real sif_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
+                   const struct crack_state *actual, const struct crack_state *auxiliary, real inside);
 
 /* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for n contours in one pass
  * over the particles. motion: displacement, velocity, acceleration and loads of all particles; rule: how gradients are
@@ -115,6 +115,6 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
 
 /* Returns the largest relative difference between the results of n contours [1]: of K_I or K_II over |K|, or of J over
  * J, with means over the contours in the denominators; NAN if one of them is 0. found: n results of sif_integrate. */
-real sif_spread(const struct sif *found, int n);
+real sif_contour_spread(const struct sif *found, int n);
 
 #endif

@@ -37,7 +37,7 @@ struct crack_field {
 
 /* Computes the plane stress tensor from the displacement gradient by Hooke's law. gradient: du_i/dx_j [1]; stress:
  * receives sigma_ij [Pa]. */
-void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
+void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real stress[2][2]);
 
 /* Computes the field at x round the tip of a crack at rest with K = 1 Pa m^(1/2) in one mode (Williams 1957). x:
  * position in the frame of the tip, x[0] ahead of the tip [m]; on the crack faces the sign of x[1], also of a zero,
@@ -59,7 +59,7 @@ void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, con
 /* Returns the universal function A_I(v) or A_II(v) of the energy release rate G = (A_I K_I^2 + A_II K_II^2)/E* (Freund
  * 1990, chapter 5) [1]; 1 at v = 0. v: speed of the tip [m/s]. A_II contains the factor 1 - a_s^2, as A_I does; with 1
  * - a_d^2, as sometimes printed, A_II would not tend to 1 at rest. */
-real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v);
+real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real v);
 
 /* Form of k(v) = K_I/K_I at rest of a semi-infinite crack that grows at constant speed under a time-independent load:
  * exact (Freund 1990, eq. 6.4.26), the formula of Rose (1976), or the approximation (1 - v/c_R)/sqrt(1 - v/c_d). */
@@ -76,14 +76,14 @@ real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
 /* Returns K_I of a semi-infinite crack at rest in plane strain after the arrival of a plane wave [Pa m^(1/2)] (Freund
  * 1990). stress: normal stress of the wave on the plane of the crack [Pa]; age: time since its arrival [s].
  */
-real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age);
+real crack_sif_after_wave(const struct crack_medium *m, real stress, real age);
 
 /* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
  * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. K: K_I and K_II [Pa m^(1/2)]. */
-real crack_direction(const real K[MODES]);
+real crack_kink_angle(const real K[MODES]);
 
 /* Returns the equivalent mode-I stress-intensity factor K_eq in the direction of the largest circumferential stress
- * (crack_direction) [Pa m^(1/2)]. K: K_I and K_II [Pa m^(1/2)]. */
-real crack_equivalent(const real K[MODES]);
+ * (crack_kink_angle) [Pa m^(1/2)]. K: K_I and K_II [Pa m^(1/2)]. */
+real crack_equivalent_sif(const real K[MODES]);
 
 #endif

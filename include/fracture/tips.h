@@ -54,7 +54,7 @@ struct tips {
 /* Excludes particles that pre-cracks have damaged from all cracks, so that crack tips do not grow through them. For
  * pre-cracks represented as slits of the mesh. lost: for each particle, the share of its bonds that pre-cracks cut
  * once the particle has bonds [1]. */
-void tips_before(struct tips *t, const real *lost);
+void tips_exclude_precracks(struct tips *t, const real *lost);
 
 /* Initialises t and adds a tip for every end of a pre-crack inside the body. p: particles, whose damage must already
  * include the pre-cracks; c: neighbour search over the reference positions; crack: `cracks` pre-cracks; spacing: of
@@ -64,7 +64,7 @@ void tips_make(struct tips *t, const struct particles *p, const struct cells *c,
 
 /* Assigns newly damaged particles to cracks and updates position, growth and speed of all tips; new tips may be added.
  * time: present time [s]; p: particles with their present damage; c: neighbour search over the reference positions. */
-void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time);
+void tips_update(struct tips *t, const struct particles *p, const struct cells *c, real time);
 
 /* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
@@ -79,11 +79,11 @@ const struct tip *tips_longest(const struct tips *t);
 
 /* Returns the number of crack ends, over all tips, whose growth is within one spacing of the largest growth; 0 if no
  * tip has grown. */
-int64_t tips_tied(const struct tips *t);
+int64_t tips_count_tied(const struct tips *t);
 
 /* Returns true if a crack grows along a plane of symmetry, so that the modelled body has only one face of the crack.
  * mirror: `mirrors` planes of symmetry. */
-bool tip_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
+bool tip_is_on_mirror(const struct tips *t, const struct tip *tip, const struct mirror_plane *mirror, int mirrors);
 
 /* Quantities besides tips on which areas of cracks depend. */
 struct tip_surroundings {
@@ -97,7 +97,7 @@ struct tip_surroundings {
  * one spacing wide, at least one spacing in total, without branches. Any other crack: half the number of its particles
  * times the area of a particle. A crack in a plane of symmetry: half of this area, as half of its energy is in the
  * body. s: planes of symmetry and thickness. */
-real tips_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
+real tips_crack_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */
 void tips_free(struct tips *t);

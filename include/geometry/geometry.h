@@ -31,7 +31,7 @@ struct geometry {
 status geometry_read(struct geometry *g, const char *path, int dim, real scale, real fine);
 
 /* Returns the named part of g called `name`, ignoring case, or NULL if there is none. */
-const struct geometry_set *geometry_find(const struct geometry *g, const char *name);
+const struct geometry_set *geometry_find_set(const struct geometry *g, const char *name);
 
 /* Releases all arrays of g and zeroes it. */
 void geometry_free(struct geometry *g);
@@ -39,6 +39,6 @@ void geometry_free(struct geometry *g);
 /* Finds pairs of coincident faces of the closed surface h, as at slits with doubled nodes, and appends each as a
  * pre-crack to the array *crack, whose length is *n. In 3D adjacent coplanar faces become one crack if they form a
  * convex polygon. The caller releases the array and the `corner` of each crack with memory_free. */
-void geometry_slits(const struct hull *h, struct crack **crack, int *n);
+void geometry_find_slits(const struct hull *h, struct crack **crack, int *n);
 
 #endif

@@ -51,21 +51,21 @@ void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_o
 
 /* Lists the nodes that material points of two bodies reach, with the normal from one body to the other and the
  * positions of the outermost points along it. side: grid and points of each body, c->sides elements. */
-void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
+void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *side, const struct particles *p);
 
-/* Exchanges momentum between two bodies at each node of grid_contact_find where they touch and approach: normal
+/* Exchanges momentum between two bodies at each node of grid_contact_find_nodes where they touch and approach: normal
  * momentum without rebound, tangential momentum by friction. Changes the nodal velocities, and the velocity increments
  * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
-real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side);
+real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_side *side);
 
 /* Returns the additional energy that contact dissipates in this step with the FLIP transfer [J], in which points are
  * strained by velocities that are mapped from the points to the nodes again after they have moved. side: grids of the
  * bodies, c->sides elements. */
-real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side);
+real grid_contact_remap_loss(struct grid_contact *c, const struct grid_side *side);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the
  * last step. */
-void grid_contact_clock(struct grid_contact *c, real t);
+void grid_contact_update_times(struct grid_contact *c, real t);
 
 /* Saves energies and times of contact to the archive if a->saving, else restores them. Returns FAILED if the archive
  * cannot be read or written or a stored size differs. */

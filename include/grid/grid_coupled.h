@@ -23,7 +23,7 @@ struct grid_coupled {
 void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
 
 /* Clears the selection of grid_coupled_select and the flags of its particles, if no material points are left. */
-void grid_coupled_none(struct grid_coupled *c, struct particles *p);
+void grid_coupled_clear(struct grid_coupled *c, struct particles *p);
 
 /* Frees the arrays of c. */
 void grid_coupled_free(struct grid_coupled *c);

@@ -35,8 +35,9 @@ struct grid_method {
 };
 
 /* Makes the background grids of a run: one, or one for each body if material points of several bodies can be in
- * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort). A second call moves the
- * nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway between nodes. */
+ * contact. Sets cell size and position of the nodes; nodes are allocated later (grid_sort_points). A second call moves
+ * the nodes. s: scene; meshed: true if bodies are in the reference frame, whose particles must be midway between nodes.
+ */
 void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed);
 
 /* Makes groups of material points that share a rotation (data/turning.h), so that FLIP conserves angular momentum.
@@ -48,24 +49,25 @@ void grid_turning_make(struct grid_method *mpm, const struct particles *p, const
 /* Computes the position of one node of the background grid, from which all others follow, into `anchor`, dim
  * components [m]. from: lower corner of the first body [m]; site: position of one particle of its lattice [m]; meshed:
  * true to place nodes midway between particles. */
-void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
+void grid_choose_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
 
 /* Returns the number in the scene of the k-th body, k = 0, 1, ..., where bodies joined to each other count once, under
  * the first of them. Returns -1 if there are no more than k. */
-int body_apart(const struct scene *s, int k);
+int unjoined_body_index(const struct scene *s, int k);
 
 /* Returns true if a mirror plane of the scene does not pass through nodes of g. Mirror nodes beyond such a plane
  * follow the nodes that they mirror, but the doubled nodes at slits cannot. */
-bool grid_mirror_between(const struct grid *g, const struct scene *s);
+bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s);
 
 /* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the
  * peridynamic particles that a grid moves. lost: receives true if the position of a point is not finite; nothing is
  * sorted then. Returns FAILED, with a message, if the grid would have too many nodes. */
-status grid_sort(struct run *e, bool *lost);
+status grid_sort_points(struct run *e, bool *lost);
 
 /* Maps mass, momentum and forces of the material points to the nodes of the background grids. kernels: compiled loops
  * for the vector instructions of this machine; timers: receives the time spent. */
-void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers);
+void grid_map_points(struct grid_method *mpm, struct particles *p, const struct kernels *kernels,
+                     struct timers *timers);
 
 /* Advances the material points on the background grids by one time step: moves the nodes under their forces, with
  * contact and boundary conditions, then updates positions, velocities, strain and stress of the points. middle: time

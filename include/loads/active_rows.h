@@ -14,7 +14,7 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
 /* Activates the row blocks that contain any of the n particles in `list` (indices), because forces other than those of
  * bonds (loads, contact) may act on these particles from the next step on. The bond forces in these row blocks must be
  * 0 so far. p: particles; l: loads of the run. */
-void active_rows_touch(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
-                       int64_t n);
+void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
+                          int64_t n);
 
 #endif

@@ -172,16 +172,16 @@ static inline bool is_clamp(const struct boundary *b, int dim)
  * ascending, with their shares (areas, volumes or masses). Sets FLAG_DRIVEN on particles with prescribed motion.
  * spacing: lattice spacing [m]. Returns REFUSED, with a message, for a force on a region without particles or a
  * traction on particles without a free face. */
-status load_select(struct load *l, const struct boundary *b, struct particles *p, real spacing);
+status load_find_particles(struct load *l, const struct boundary *b, struct particles *p, real spacing);
 
 /* Sets selected[i] = 1 for the particles in the region and body of boundary b, 0 for all others; selected: [p->n].
  * spacing: lattice spacing, to which the tolerance of the region refers [m]. Returns false if no particle is
  * selected. */
-bool load_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
+bool load_mark_region(const struct boundary *b, const struct particles *p, real spacing, uint8_t *selected);
 
 /* Sets the particle list of load l to the particles i with taken[i] > 0, ascending, and allocates their shares if the
  * load applies forces. Sets FLAG_DRIVEN on these particles if the load prescribes motion. taken: [p->n]. */
-void load_take(struct load *l, const uint8_t *taken, struct particles *p);
+void load_set_particles(struct load *l, const uint8_t *taken, struct particles *p);
 
 /* Exposed face for a traction (loads_columns.c): areas of particles. Of each column along the normal, the first
  * particle that no other one hides gets its area; for tangential components together with the next one if `two`. */
@@ -201,53 +201,53 @@ void face_free(struct face *f);
 /* Sets taken[i] = 1 for the selected particles in the layer of depth b->depth behind the face of boundary b, and leaves
  * other entries unchanged; a gap in a column of particles normal to the face ends the layer there. selected, taken:
  * [p->n]; spacing: lattice spacing [m]. */
-void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                uint8_t *taken);
+void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                     uint8_t *taken);
 
-/* Function that face_every calls for each free end of a column of particles normal to a face. particle: index of the
- * particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
+/* Function that face_visit_columns calls for each free end of a column of particles normal to a face. particle: index
+ * of the particle at that end; area: cross-section of the column [m^2]; context: data of the caller. */
 typedef void face_found_fn(void *context, int32_t particle, real area);
 
 /* Calls found(context, particle, area) for every free end, towards the face of boundary b, of a column of selected
  * particles along its normal; walls of holes are free ends too. selected: [p->n] 1: selected; spacing: lattice spacing
  * [m]. */
-void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                face_found_fn *found, void *context);
+void face_visit_columns(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                        face_found_fn *found, void *context);
 
 /* Finds the particles with a free face on which the pressure boundary[which] acts, and stores them in l with the areas
  * of these faces. boundary: all n boundaries of the scene, because other boundaries may cover a face. spacing: lattice
  * spacing [m]. Returns REFUSED, with a message, if the region has no particles or no free face. */
-status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
-                            real spacing);
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
+                                real spacing);
 
-/* Function that pressure_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1 or 1
- * for its direction along the axis; area: of the face [m^2]; context: data of the caller. */
+/* Function that pressure_visit_faces calls for each free face of a particle. axis: axis of its outward normal, side: -1
+ * or 1 for its direction along the axis; area: of the face [m^2]; context: data of the caller. */
 typedef void pressure_face_fn(void *context, int32_t particle, int axis, int side, real area);
 
 /* Calls found(context, particle, axis, side, area) for every free face of a selected particle on which the pressure
  * all[which] acts. all: the n boundaries of the scene; spacing: lattice spacing [m]; selected: [p->n] 1: selected. */
-void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
-                    const uint8_t *selected, pressure_face_fn *found, void *context);
+void pressure_visit_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
+                          const uint8_t *selected, pressure_face_fn *found, void *context);
 
 /* Prepares the shares of load l if it has a formula or is a pressure that follows the deformation: multiplies the
  * shares by formulas that do not depend on time, and allocates arrays for the others. Returns REFUSED, with a message,
  * if a formula has no finite value at a particle. */
-status load_formula_make(struct load *l, const struct particles *p);
+status load_prepare_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if one has not. */
-status loads_finite(const struct loads *l, const struct particles *p, real t);
+status loads_check_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Updates the time-dependent shares of the loads before loads_push: to their mean over the velocity update (kick) of
- * duration dt_velocity [s] that ends at time t [s]. */
-void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity);
+/* Updates the time-dependent shares of the loads before loads_add_forces: to their mean over the velocity update (kick)
+ * of duration dt_velocity [s] that ends at time t [s]. */
+void loads_update_shares_for_kick(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Updates the time-dependent shares of the loads before loads_push_work: to the mean of the two velocity updates
+/* Updates the time-dependent shares of the loads before loads_add_work: to the mean of the two velocity updates
  * (kicks) before and after the change of positions in the step of size dt about t [s]. */
-void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt);
+void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
-/* Releases the arrays that load_formula_make has allocated for load l. */
-void load_moving_free(struct load *l);
+/* Releases the arrays that load_prepare_shares has allocated for load l. */
+void load_time_shares_free(struct load *l);
 
 /* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
  * dim components [N]. In load steps the force is that at full load. */
@@ -256,7 +256,7 @@ void load_force_at(const struct load *l, const struct particles *p, int64_t k, r
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
  * the work; it is not weighted if the forces sum to zero. */
-void load_applied_sum(struct load *l, const struct particles *p, real t);
+void load_sum_applied(struct load *l, const struct particles *p, real t);
 
 /* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its k-th particle
  * at time t [s], without areas and without the profile. value: dim components, unit as boundary.value. Not defined for
@@ -276,24 +276,24 @@ void loads_free(struct loads *l);
 /* Sets the particles on which contact forces may act: `list` has n indices in ascending order and is copied. Their
  * forces are cleared before each step, and they are moved after all forces are complete, not already while bond forces
  * are computed. */
-void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
+void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
 
 /* Combines loads that have equal lists of particles, so that each list is traversed once; last part of loads_make. dim:
  * dimension of the body. */
-void loads_join(struct loads *l, int dim);
+void loads_merge_equal_lists(struct loads *l, int dim);
 
 /* Releases the shares (areas, volumes, masses) of all loads, also those that several loads have in common. */
 void loads_applied_free(struct loads *l);
 
 /* Adds the applied forces at time t [s] to the particle forces p->f, and their impulse over dt_velocity, the duration
- * of the velocity update [s], to l->impulse. Part of loads_apply. */
-void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity);
+ * of the velocity update [s], to l->impulse. Part of loads_complete_forces. */
+void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity);
 
 /* Adds the work of the applied forces over the displacements of the step of size dt about t [s] to l->work. Part of
- * loads_hold. */
-void loads_push_work(struct loads *l, struct particles *p, real t, real dt);
+ * loads_impose_motion. */
+void loads_add_work(struct loads *l, struct particles *p, real t, real dt);
 
 /* ---- absorbing faces (loads_absorbing.c) ------------------------------------------------------------------------- */
 
@@ -310,28 +310,28 @@ void loads_absorbing_make(struct loads *l, const struct particles *p, const stru
 void loads_absorbing_free(struct loads *l);
 
 /* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
- * dt_velocity: duration of the velocity update [s]. Part of loads_apply. */
-void loads_absorb(struct loads *l, struct particles *p, real dt_velocity);
+ * dt_velocity: duration of the velocity update [s]. Part of loads_complete_forces. */
+void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
- * loads_walls. The rates of particles are distributed to the nodes by the kernel k->spread. half_width: half the
- * reference edge of a particle, l_p [m]. */
-void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
-                    real half_width);
+ * loads_set_grid_walls. The rates of particles are distributed to the nodes by the kernel k->spread. half_width: half
+ * the reference edge of a particle, l_p [m]. */
+void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                             real half_width);
 
 /* Appends the absorbing dashpots of mesh nodes to mesh->grid, distributed from the particles of absorbing faces; part
- * of loads_mesh_find. */
-void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
+ * of loads_find_mesh_nodes. */
+void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p);
 
 /* Adds the energy and impulse in `by`, the effect of the dashpots of one grid or mesh in a step, to the sums of the run
  * in l. */
-void loads_absorbed(struct loads *l, const struct absorbed *by);
+void loads_add_absorbed(struct loads *l, const struct absorbed *by);
 
 /* Displacements that a boundary of kind VELOCITY prescribes at a (pseudo-)time t >= 0, from reference positions. For
  * `displacement` its value, for a velocity its integral from 0, for a rotation the rotation by the accumulated angle;
  * static formulas are evaluated at `frozen_at`. Made once for a load and time, then evaluated at many positions. Not
- * for a velocity by a formula of t, whose integral has no closed form: load_displacement_known refuses it. */
-struct displacing {
+ * for a velocity by a formula of t, whose integral has no closed form: load_check_displacement_known refuses it. */
+struct prescribed_displacement {
     const struct boundary *boundary;
     int dim;
     real t, factor;                 /* time [s]; factor on value and formula at t: [1], for a velocity [s] */
@@ -339,12 +339,13 @@ struct displacing {
 };
 
 /* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
- * displacing_at: evaluates the function of time and the rotation once. dim: dimension of the body; b: borrowed. */
-struct displacing displacing_make(const struct boundary *b, int dim, real t);
+ * prescribed_displacement_at: evaluates the function of time and the rotation once. dim: dimension of the body; b:
+ * borrowed. */
+struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t);
 
 /* Returns component d of the prescribed displacement at the reference position X (dim components [m]) [m]. d must be
  * one of the components that the boundary prescribes. */
-real displacing_at(const struct displacing *s, const real *X, int d);
+real prescribed_displacement_at(const struct prescribed_displacement *s, const real *X, int d);
 
 /* Computes the displacement that load l prescribes for its k-th particle at time t [s]. u: dim components [m], 0 in
  * components that are not prescribed. */
@@ -352,29 +353,29 @@ void load_displacement_at(const struct load *l, const struct particles *p, int64
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
-status load_displacement_known(const struct boundary *b);
+status load_check_displacement_known(const struct boundary *b);
 
 /* Motion that a boundary prescribes in a step from t - dt/2 to t + dt/2 (loads_driving.c). */
-struct driving {
+struct prescribed_motion {
     const struct boundary *boundary;
     int dim;
-    real t, dt, factor;         /* time, step [s], value of the function of time at t */
-    struct displacing from, to; /* displaces, rotates: displacements at the ends of the step */
+    real t, dt, factor;                      /* time, step [s], value of the function of time at t */
+    struct prescribed_displacement from, to; /* displaces, rotates: displacements at the ends of the step */
 };
 
 /* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
- * evaluation at many positions by driving_at. dim: dimension of the body; b: borrowed. */
-struct driving driving_make(const struct boundary *b, int dim, real t, real dt);
+ * evaluation at many positions by prescribed_velocity_at. dim: dimension of the body; b: borrowed. */
+struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt);
 
-/* Returns the motion that boundary number `which` of l prescribes in the step of size dt about t [s], as driving_make.
- * After the last step of a run (l->ended) a prescribed displacement continues as in the previous step; otherwise half
- * of a change of motion after the end would enter the work of the run. */
-struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt);
+/* Returns the motion that boundary number `which` of l prescribes in the step of size dt about t [s], as
+ * prescribed_motion_make. After the last step of a run (l->ended) a prescribed displacement continues as in the
+ * previous step; otherwise half of a change of motion after the end would enter the work of the run. */
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int which, int dim, real t, real dt);
 
 /* Returns component d of the velocity prescribed at the reference position X (dim components [m]) [m/s]; for a
  * prescribed displacement its difference over the step divided by dt. placed: true if X is the position of the material
  * at the start of the step, false if it is its reference position. */
-real driving_at(const struct driving *s, const real *X, int d, bool placed);
+real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, int d, bool placed);
 
 /* Returns true if the motion that boundary b prescribes differs between positions: it rotates, or a formula contains x,
  * y or z. */
@@ -385,7 +386,7 @@ static inline bool drives_by_place(const struct boundary *b)
 
 /* Returns the largest speed of the displacement that load l prescribes between the times 0 and t [s] [m/s], INFINITY if
  * the displacement jumps. Formulas are sampled at MOMENTS times and at some of the load's particles. */
-real load_displacing_speed(const struct load *l, const struct particles *p, real t);
+real load_displacement_speed(const struct load *l, const struct particles *p, real t);
 
 /* Returns the largest difference between the velocity that load l prescribes between the times 0 and t [s] and the
  * velocity of its particles in p, the state at time 0 [m/s]. Sampled at MOMENTS times and some particles. For rotations
@@ -393,7 +394,7 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
 real load_velocity_jump(const struct load *l, const struct particles *p, real t);
 
 /* Returns the largest speed that load l gives to its particles in p between the times 0 and t [s] [m/s]:
- * load_displacing_speed for a prescribed displacement, else load_velocity_jump. */
+ * load_displacement_speed for a prescribed displacement, else load_velocity_jump. */
 real load_driven_speed(const struct load *l, const struct particles *p, real t);
 
 /* Returns the largest change, within any time span of length `within` [s], of the velocity that load l (velocity or
@@ -405,7 +406,7 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
 /* Returns the largest difference between the velocities that loads a and b prescribe between the times 0 and t [s],
  * each less the velocity of its particles in p, over the components that both prescribe [m/s]. 0 if no component is
  * prescribed by both; INFINITY if one load rotates or depends on position. */
-real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t);
+real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t);
 
 /* tolerance of region membership, over the spacing: points on the border belong to the region */
 #define LOADS_TOLERANCE ON_SURFACE
@@ -419,88 +420,89 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
 
 /* Sets the flag MOVES_LATER in l->loaded for particles whose bonds may cross a clamped mirror plane: the reactions of
  * such bonds are added after all bond forces, so these particles must not be moved before. */
-void loads_mirrors_mark(struct loads *l, const struct particles *p);
+void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p);
 
 /* Copies position x, velocity v, kind and FLAG_DRIVEN of the source particles to their mirror images, reflected in the
  * mirror plane. First rounds the positions of the sources normal to the mirror to multiples of l->place_step, about the
  * last bit of the farthest position. */
-void loads_mirror(const struct loads *l, struct particles *p);
+void loads_update_images(const struct loads *l, struct particles *p);
 
 /* Sets p->f = 0 on every particle of every load and support, before the bond forces are computed. */
-void loads_clear(struct loads *l, struct particles *p);
+void loads_clear_forces(struct loads *l, struct particles *p);
 
 /* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to
  * l->impulse, adds applied forces and dashpots, and replaces f of driven peridynamic particles by the force that
  * produces the prescribed velocity. t: time at which the velocity update of duration dt_velocity ends, the middle of
  * the step of size dt [s]. */
-void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
+void loads_complete_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity);
 
 /* Sets the prescribed velocities (walls) of the nodes of grid g for the step of size dt about t [s]: nodes in a driven
  * region, nodes on a mirror plane, and nodes at least half of whose mass belongs to driven points. Nodes beyond a
  * mirror plane move as mirror images if the plane is on a node or midway between two, else they are constrained like
  * nodes on the plane. held: constrained nodes of this grid, kept between calls, zeroed at first. half_width: half the
  * reference edge of a particle [m]. Call after the first particle-to-grid map. */
-void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
-                 const struct kernels *k, real half_width, real t, real dt);
+void loads_set_grid_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
+                          const struct kernels *k, real half_width, real t, real dt);
 
 /* Finds the nodes of the mesh whose motion boundaries or mirrors prescribe, and the absorbing dashpots of its nodes.
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */
-void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p);
+void loads_find_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_mesh_find, for the step of size dt about t
- * [s]. */
-void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
+/* Sets the prescribed velocities (walls) of the mesh nodes found by loads_find_mesh_nodes, for the step of size dt
+ * about t [s]. */
+void loads_set_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt);
 
 /* Finds the nodes of g, the grid of a mesh of coarse cells, whose motion is prescribed, by their positions: nodes in
  * driven regions and on mirror planes. Stores them in `held`. */
-void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p);
+void loads_find_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+                            const struct particles *p);
 
-/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_level_find, on grid g of a mesh of
- * coarse cells, for the step of size dt about t [s]. */
-void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
+/* Sets the prescribed velocities (walls) of the nodes in `held`, found by loads_find_level_nodes, on grid g of a mesh
+ * of coarse cells, for the step of size dt about t [s]. */
+void loads_set_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt);
 
 /* Sets the velocity of driven material points and the position of particles with prescribed displacement exactly, after
  * the grid-to-particle transfer of the step of size dt about t [s], and adds the work of applied forces to l->work.
  * Returns true if the position of a point on a grid was changed. */
-bool loads_hold(struct loads *l, struct particles *p, real t, real dt);
+bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt);
 
 /* Adds the reactions of the prescribed nodes, mirror nodes and dashpots of grid g (or of the grid of a mesh) to the
  * reactions of their loads. dt_velocity: duration of the velocity update [s]. */
-void loads_react(struct loads *l, const struct grid *g, real dt_velocity);
+void loads_add_reactions(struct loads *l, const struct grid *g, real dt_velocity);
 
 /* Returns true if the plane of mirror b is on a node of grid g or midway between two nodes. spacing: lattice spacing,
  * to which the tolerance refers [m]. */
-bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing);
+bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing);
 
 /* ---- static equilibrium (loads_static.c) ------------------------------------------------------------------------- */
 
 /* Converts n boundary conditions `from` to those of a static problem in pseudo-time, copied into `to`: forces have
  * their value at time `duration` [s], prescribed motion its displacement until then. Both grow linearly from 0 at
  * pseudo-time 0 to full size at `ramp` [s] and stay constant. */
-void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
+void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp);
 
 /* Computes the displacement of every driven component at full load (pseudo-time `ramp` [s]). displacement: [dim][p->n]
  * [m]; held: [p->n], bit d: component d is driven. Where loads overlap, the later load in the scene is used, as in a
  * dynamic run. */
-void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
-                         uint8_t *held);
+void loads_static_displacements(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
+                                uint8_t *held);
 
 /* Adds the inertia forces of a rigid rotation to the applied forces of a free body in 2D (inertia relief), so that
  * loads with a moment, e.g. on scattered particles of an irregular lattice, have an equilibrium. Returns that moment
  * over the largest moment that forces of this size could have [1]. */
-real loads_static_balance(struct loads *l, const struct particles *p);
+real loads_add_inertia_relief(struct loads *l, const struct particles *p);
 
-/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_static_balance, to the
+/* Adds the applied forces of a static problem at full load, and the inertia forces of loads_add_inertia_relief, to the
  * particle forces p->f [N]. */
-void loads_static_force(const struct loads *l, struct particles *p);
+void loads_add_static_forces(const struct loads *l, struct particles *p);
 
 /* Sets the reaction of each support to minus the sum of the forces p->f on its driven components, then sets these
  * forces to 0 in p. Reactions of other loads become 0. */
-void loads_static_hold(struct loads *l, struct particles *p);
+void loads_collect_static_reactions(struct loads *l, struct particles *p);
 
 /* Computes the work of loads that grow in proportion on a linear body: stores half the sum of applied forces times
  * displacements in l->work, and half the sum of reactions times prescribed displacements in l->constraint_work [J]. */
-void loads_static_work(struct loads *l, const struct particles *p);
+void loads_compute_static_work(struct loads *l, const struct particles *p);
 
 /* Saves (a->saving) or restores the impulse and work of the loads since the start, and displacement and reaction of
  * each load. Returns FAILED if an entry is missing or its size differs. */

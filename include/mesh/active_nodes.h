@@ -7,8 +7,8 @@
 #include "loads/loads.h"
 
 /* Updates the list of active blocks of nodes (those that computations include, as all others are at rest), after a
- * step: adds the neighbours of blocks whose nodes have moved. After active_nodes_all the list is found anew, from all
- * blocks that move, have moving boundary conditions `l`, or have exposed points. */
+ * step: adds the neighbours of blocks whose nodes have moved. After active_nodes_activate_all the list is found anew,
+ * from all blocks that move, have moving boundary conditions `l`, or have exposed points. */
 void active_nodes_update(struct mesh *mesh, const struct loads *l);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
@@ -17,6 +17,6 @@ void active_nodes_add_exposed(struct mesh *mesh);
 
 /* Makes all blocks of nodes active, i.e. included in computations, until the next active_nodes_update; for use after
  * boundary conditions or cells have changed. */
-void active_nodes_all(struct mesh *mesh);
+void active_nodes_activate_all(struct mesh *mesh);
 
 #endif

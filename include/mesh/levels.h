@@ -57,7 +57,7 @@ struct mesh_levels {
     bool any_wanted;
     bool returned;   /* points whose conversion was postponed are marked again in this step */
     real wave_speed; /* [m/s] */
-    /* distances of converting points from coarse cells, in cells of level 0 (levels_distances) */
+    /* distances of converting points from coarse cells, in cells of level 0 (levels_set_distances) */
     int safe_cells, roomy_cells;
     int64_t changes; /* changes of levels since the start */
     struct mesh_level at[LEVELS_MAX + 1];
@@ -72,7 +72,7 @@ enum levels_distance { DISTANCE_UNSAFE, DISTANCE_SAFE, DISTANCE_ROOMY };
 
 /* Returns the number of cells of a refinement level that compute forces. Level 0, the finest: cells that hold material
  * points and belong to no coarse cell. */
-int64_t levels_cells(const struct mesh_levels *l, int level);
+int64_t levels_count_cells(const struct mesh_levels *l, int level);
 
 /* Returns the mesh of a refinement level: level 0 the mesh with material points, higher levels coarse cells. The mesh
  * belongs to l. */
@@ -105,20 +105,20 @@ void levels_free(struct mesh_levels *l);
 /* Sets two distances between a material point that converts and a coarse cell, in cells of level 0 (the finest):
  * `safe`, below which conversion is postponed, as forces of the point would reach the coarse cell; `roomy`, below
  * which finer cells are requested, as points near breaking bonds convert next. */
-void levels_distances(struct mesh_levels *l, int safe, int roomy);
+void levels_set_distances(struct mesh_levels *l, int safe, int roomy);
 
 /* Sets the inertia of coarse cells (kernels/mesh/mesh_inertia.h) so that waves in them have the dispersion of waves in
  * the bonds of a lattice. edge: edge of a cell with lumped mass that has the dispersion of the bonds [m]; wave_speed:
  * longitudinal [m/s]; dt: time step [s]. */
-void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt);
+void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
  * material and contain no cell of level 0 (the finest) marked in `demand`; levels of adjacent cells differ by at most
  * one. demand: a byte for each cell of level 0 (fine->grid.n bytes), not 0 where level 0 is required; limit: highest
  * level of each cell, NULL for all levels; to: receives the level of the cell to which each cell of level 0 shall
  * belong. */
-void levels_map(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand, const uint8_t *limit,
-                uint8_t *to);
+void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand,
+                                const uint8_t *limit, uint8_t *to);
 
 /* Forbids coarsening where the present motion would be lost. For each cell that `level` would make coarser than at
  * present, the motion of the nodes inside is compared with the interpolation from its corners; if the energy of the
@@ -148,11 +148,12 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
  * levels to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. m:
  * array of the elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of
  * level 0 [s]. */
-void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt);
+void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
+                             real dt);
 
 /* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
  * time step does so only for the levels that it moves.) */
-void levels_sync(struct mesh_levels *l);
+void levels_copy_to_ghosts(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to all nodes of level 0 (the finest) inside them. */
 void levels_prolong(struct mesh_levels *l);
@@ -162,12 +163,13 @@ void levels_prolong(struct mesh_levels *l);
 void levels_prolong_points(struct mesh_levels *l);
 
 /* Returns the highest refinement level whose forces act in step number `step`; level L acts every 2^L steps. */
-int levels_due(const struct mesh_levels *l, int64_t step);
+int levels_highest_due(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
  * interfaces. The forces of level 0 (the finest) must be complete before. m: array of the elastic constants of all
  * materials; finite: true if strains are finite, false if small. */
-void levels_force(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, int due);
+void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
+                           int due);
 
 /* Integrates the motion of the nodes of levels 0 (the finest) to `due`, level L over 2^L steps. dt: time step of level
  * 0 [s]; dt_velocity: interval over which velocities of level 0 are advanced [s]; impulse, work: impulse [N s] and work
@@ -176,16 +178,16 @@ void levels_force(struct mesh_levels *l, const struct particles *p, const struct
 real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real impulse[DIM_MAX], real *work);
 
 /* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
-real levels_kinetic(const struct mesh_levels *l);
+real levels_kinetic_energy(const struct mesh_levels *l);
 
 /* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. m: array of the elastic
  * constants of all materials; finite: true if strains are finite, false if small. */
-real levels_strain(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
+real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
 
 /* Returns, for the nodes of all coarse levels, the mean kinetic energy before and after a leap-frog velocity update
- * minus the kinetic energy that leap-frog conserves [J], as diagnostics_kick does for particles. dt: time step of
+ * minus the kinetic energy that leap-frog conserves [J], as particles_kick_energy does for particles. dt: time step of
  * level 0 [s]. */
-real levels_kick(const struct mesh_levels *l, real dt);
+real levels_kick_energy(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps
  * for which forces of level L act [W]. */
@@ -193,15 +195,15 @@ real levels_power(const struct mesh_levels *l);
 
 /* Lists the coarse cells of a level that contain cells without particles (particles that were never made, as they are
  * not needed). cell: receives the indices of the cells, NULL to count only. Returns their number. */
-int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell);
+int64_t levels_list_hollow_cells(const struct mesh_levels *l, int level, int64_t *cell);
 
 /* Returns true if the deformation has turned a coarse cell inside out; X then receives the reference position of its
  * first quarter point, dim components [m]. */
-bool levels_inverted(const struct mesh_levels *l, real *X);
+bool levels_find_inverted_cell(const struct mesh_levels *l, real *X);
 
 /* Connects the levels to a finest mesh that has been rebuilt with other particles; coarse cells, their motion and
  * their levels are kept. source: material constants. */
-void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
+void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source);
 
 /* Saves the refinement levels, the motion of their nodes and the data for the next change of levels to the archive if
  * a->saving, else restores them. The finest mesh must be restored before. source: material constants. Returns FAILED,

@@ -41,29 +41,30 @@ void mesh_free(struct mesh *mesh);
 /* Returns the number of parts of a mesh of all particles that share no node with each other. like: grid whose anchor
  * and cell size define the nodes; hollow: cells whose particles are not made. Returns 0 if the particles are not two
  * per cell and direction, so that no mesh is possible. */
-int64_t mesh_pieces(const struct particles *p, const struct grid *like, const struct hollow *hollow);
+int64_t mesh_count_parts(const struct particles *p, const struct grid *like, const struct hollow *hollow);
 
 /* Updates the mesh after n particles `changed` (NULL: unknown ones) have become peridynamic or have changed their
  * partial stress: removes peridynamic particles from their cells and recomputes the cells. Nodal velocities are kept;
  * each particle removes its share of mass and momentum. Returns the kinetic energy of motion relative to the nodes
  * that is lost [J]. */
-real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
-                 int64_t n);
+real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
+                           const int32_t *changed, int64_t n);
 
 /* Recomputes the stiffness of cells after only the partial stresses of n points `changed` have changed; all points
  * remain in the mesh. Returns false, without any change, if one of these cells was not or would no longer be a partial
- * cell; call mesh_follow then. */
-bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                  const int32_t *changed, int64_t n);
+ * cell; call mesh_remove_converted then. */
+bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                   const int32_t *changed, int64_t n);
 
 /* Adds n listed particles, which have become material points again, to the mesh. Momentum is conserved: the velocity
  * of the nodes around them becomes (m_I v_I + sum m_p N v_p)/(m_I + sum m_p N), with shape functions N; the
- * displacement of these nodes is fitted by least squares to all points around them. Call mesh_follow with these
- * particles among the changed ones afterwards, to make their cells. Returns the kinetic energy that is lost [J]. */
-real mesh_insert(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
+ * displacement of these nodes is fitted by least squares to all points around them. Call mesh_remove_converted with
+ * these particles among the changed ones afterwards, to make their cells. Returns the kinetic energy that is lost [J].
+ */
+real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
 /* Returns true if cell I of the mesh contains a part of the body. */
-bool mesh_cell_holds(const struct mesh *mesh, int64_t I);
+bool mesh_cell_has_body(const struct mesh *mesh, int64_t I);
 
 /* Lists the exposed points of the mesh, whose positions and velocities other parts of a run need in every step:
  * material points with bonds, loads, or mirror images. l: boundary conditions. */
@@ -83,7 +84,7 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
 
 /* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
  * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */
-int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p);
+int64_t mesh_find_inverted_point(const struct mesh *mesh, const struct particles *p);
 
 /* Minimum number of cells of a level across any part of the body. */
 enum { CELLS_ACROSS = 6 };
@@ -91,11 +92,11 @@ enum { CELLS_ACROSS = 6 };
 /* Computes for each cell the highest refinement level that the thickness of the body around it allows, into
  * room[mesh->grid.n]. mirror: `mirrors` planes of symmetry, beyond which the body continues. Returns the largest of
  * these levels. */
-int mesh_room(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room);
+int mesh_level_limits(const struct mesh *mesh, const struct mirror_plane *mirror, int mirrors, uint8_t *room);
 
 /* Marks all cells of grid g within `reach` cells of a marked one, in all directions including diagonals. mark: g->n
  * bytes, not 0 if marked. */
-void cells_dilate(const struct grid *g, uint8_t *mark, int reach);
+void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach);
 
 /* Saves displacement and velocity of the nodes of a mesh to the archive if a->saving, else restores them. Returns
  * FAILED if the archive cannot be read or written or a stored size differs. */

@@ -57,7 +57,7 @@ struct reference_frame {
 status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct particles *p, const struct scene *s);
 
 /* Returns true if at least one body is in the reference frame. */
-bool frame_any(const struct reference_frame *r);
+bool frame_in_use(const struct reference_frame *r);
 
 /* Returns true if the particles can be in the reference frame: they form one connected mesh on a lattice that fits the
  * cells of the background grid. */
@@ -75,52 +75,52 @@ real frame_critical_step(const struct reference_frame *r, const struct scene *s,
 
 /* Finds again the exposed points of the mesh (points with bonds, loads or mirror images) and the nodes on which the
  * boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
-void frame_follow_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                         struct loads *loads);
+void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                               struct loads *loads);
 
 /* Updates the positions of the exposed points (mesh_find_exposed) from the nodes, and the strain at points with
  * state-based bonds to peridynamic particles. */
-void frame_exposed_follow(struct reference_frame *r, struct particles *p);
+void frame_update_exposed_points(struct reference_frame *r, struct particles *p);
 
 /* Computes the nodal forces of the reference frame in step number `step`: the forces of bonds on exposed points, which
  * p->f must contain, distributed to the nodes, plus the forces of all cells whose refinement level acts in this step.
  */
-void frame_force(struct reference_frame *r, struct particles *p, int64_t step);
+void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of frame_force, then updates the exposed points. loads:
+/* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the exposed points. loads:
  * prescribed velocities, whose work and reactions are added up there; middle: time in the middle of the step [s];
  * dt_velocity: interval over which velocities are advanced [s]. */
-void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
-                real middle, real dt_velocity);
+void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
+                      const struct run_clock *clock, real middle, real dt_velocity);
 
 /* Updates positions, velocities and stresses of all material points of the mesh from the nodes, then those of the
  * mirror images of particles, which `loads` lists. */
-void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads);
+void frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of all material points of the mesh from the nodes, then those of the mirror images
  * of particles, which `loads` lists. */
-void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
+void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads);
 
 /* Updates positions and velocities of n material points of the mesh from the nodes, except points in coarse cells,
  * then those of the mirror images of particles, which `loads` lists. list: n particle indices. */
-void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
-                       int64_t n);
+void frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
+                                const int32_t *list, int64_t n);
 
 /* Updates the mesh after `converted` particles have become peridynamic and the partial stresses of the points
  * partial->touched have changed. Adds the energy lost to *damped [J]. Returns false if only the stiffness of cells has
- * changed, true if points have left the mesh; call frame_follow_points then. */
-bool frame_follow(struct reference_frame *r, struct particles *p, int64_t converted,
-                  const struct partial_stress *partial, real *damped);
+ * changed, true if points have left the mesh; call frame_find_exposed_points then. */
+bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+                                   const struct partial_stress *partial, real *damped);
 
-/* Adds n listed particles, which have become material points again, to the mesh (mesh_insert). Adds the energy lost to
- * *damped [J]. */
-void frame_insert(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped);
+/* Adds n listed particles, which have become material points again, to the mesh (mesh_insert_points). Adds the energy
+ * lost to *damped [J]. */
+void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped);
 
 /* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
-real frame_kinetic(const struct reference_frame *reference);
+real frame_kinetic_energy(const struct reference_frame *reference);
 
 /* Returns the strain energy of all cells of the reference frame, of all refinement levels [J]. */
-real frame_strain(struct reference_frame *r, const struct particles *p);
+real frame_strain_energy(struct reference_frame *r, const struct particles *p);
 
 /* Kind of the load that requires the smallest cells. */
 enum rise_kind { RISE_NONE, RISE_BOUNDARY, RISE_INITIAL, RISE_BODY };
@@ -158,7 +158,7 @@ struct levels_choice {
 /* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
  * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
  * made. */
-void frame_levels_room(struct reference_frame *r, const struct scene *s, int64_t particles);
+void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles);
 
 /* Returns the number of coarse refinement levels for scene s, given by the scene or chosen from loads and thickness of
  * the body, with the reason. dt_critical: critical time step [s]. */
@@ -167,12 +167,12 @@ struct levels_choice frame_levels_choice(const struct reference_frame *r, const 
 
 /* Writes the number of refinement levels and its reason in words to `text` (capacity `room` bytes). c: result of
  * frame_levels_choice. */
-void frame_levels_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room);
+void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t room);
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
  * the reason to `text` (capacity `room` bytes). c: result of frame_levels_choice. */
-bool frame_levels_coarse(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                         char *text, size_t room);
+bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
+                               char *text, size_t room);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */
@@ -180,56 +180,57 @@ status frame_levels_make(struct run *e, bool restored);
 
 /* Returns true if refinement levels may change before step number `step`: from the second step on, when all levels
  * have reached the same time. */
-bool frame_levels_due(const struct mesh_levels *l, int64_t step);
+bool frame_levels_may_change(const struct mesh_levels *l, int64_t step);
 
 /* Computes the refinement levels for the next steps from stress, cracks and present motion. loads: boundary
  * conditions; step: number of the next step; mass: of the body [kg]. Returns an array that the caller frees, with the
  * level of the cell to which each cell of level 0 (the finest) shall belong, or NULL if no level changes. */
-uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                           int64_t step, real mass);
+uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                                  int64_t step, real mass);
 
-/* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_plan. Cells that become level
- * 0 (the finest) must have particles (frame_hollow_lacks). The change of energy is added to e->damped. */
+/* Changes the refinement levels of run e to level[mesh.grid.n], a result of frame_levels_choose_next. Cells that become
+ * level 0 (the finest) must have particles (frame_hollow_lacks_particles). The change of energy is added to e->damped.
+ */
 void frame_levels_apply(struct run *e, const uint8_t *level);
 
 /* Postpones the conversion of material points that are too close to coarse cells, by clearing their flags, and
  * requests finer cells there. To be called before conversion. */
-void frame_levels_guard(struct mesh_levels *l, struct particles *p);
+void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
 
 /* Finds again the nodes of coarse cells on which boundary conditions act, the exposed points and the loaded nodes,
  * after refinement levels have changed. */
-void frame_levels_found(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                        struct loads *loads);
+void frame_levels_find_nodes(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                             struct loads *loads);
 
 /* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
  * be left out. */
-const char *frame_hollow_obstacle(const struct scene *s);
+const char *frame_hollow_why_not(const struct scene *s);
 
 /* Decides which cells need no particles because they will be inside coarse cells, before particles are made: away from
  * pre-cracks, loads and probes. h: receives these cells; no change if all particles must be made or too few can be
  * left out. source: horizon of the bonds. Returns REFUSED, with a message, if the body has too many cells. */
-status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source);
+status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const struct bond_source *source);
 
 /* Checks that all cells of level 0 (the finest) have particles under the initial refinement levels. level: level of
  * each cell, NULL if there are no coarse cells. Returns true if so. Returns false if particles are missing or levels
  * follow from a checkpoint; r->hollow is then corrected and the run must be set up again. */
-bool frame_hollow_start(struct reference_frame *r, const uint8_t *level);
+bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level);
 
 /* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
  * set up again with more particles. */
-bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level);
+bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level);
 
 /* Chooses the cells without particles for the refinement levels level[mesh.grid.n] and stores them in r->hollow.
  * Particles change when the run is set up again. */
-void frame_hollow_change(struct reference_frame *r, const uint8_t *level);
+void frame_hollow_update_cells(struct reference_frame *r, const uint8_t *level);
 
 /* Makes the material points of coarse cells without particles for output in a frame, into r->shown, with values
  * interpolated from the nodes. body: particles of the run; m: array of the materials; gradients: true to compute
  * displacement gradients, too. Returns false if there are no such cells. */
-bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
-                         bool gradients);
+bool frame_hollow_make_points(struct reference_frame *r, const struct particles *body, const struct material *m,
+                              bool gradients);
 
-/* Frees the points that frame_hollow_points has made. */
+/* Frees the points that frame_hollow_make_points has made. */
 void frame_hollow_points_free(struct hollow_points *h);
 
 #endif

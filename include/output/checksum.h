@@ -11,18 +11,18 @@ enum { FOOTER_BYTES = 24 };
 
 /* Appends the footer (magic number, number of preceding bytes, hash) to the temporary file PATH.cleave.tmp and syncs
  * the file to disk. Returns FAILED if the file cannot be written; PATH.cleave.tmp is removed then. */
-status file_seal_whole(const char *path);
+status file_append_footer(const char *path);
 
 /* Checks the footer of the file `path`. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in
  * a message, for example "is cut short" (a static text). A file that cannot be read counts as faulty. */
-const char *whole_fault(const char *path);
+const char *file_damage(const char *path);
 
-/* Checks the footer of the file `path` as whole_fault does, but returns NULL also if the file cannot be read, so that
+/* Checks the footer of the file `path` as file_damage does, but returns NULL also if the file cannot be read, so that
  * only damage that is certain is reported. */
-const char *whole_fault_certain(const char *path);
+const char *file_certain_damage(const char *path);
 
 /* Computes a hash of the contents of the regular file `path` and stores it in *hash. Returns REFUSED if the file
  * cannot be read. */
-status file_contents(const char *path, uint64_t *hash);
+status file_contents_hash(const char *path, uint64_t *hash);
 
 #endif

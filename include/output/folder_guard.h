@@ -8,7 +8,7 @@
 struct folder_kind {
     const char *what; /* noun for messages: "run", "study", "export" */
     const char *sign; /* name of the file by which a folder of this kind is recognised */
-    /* Returns true if Cleave wrote the file `sign` at `path`. text: argument of folder_guard. */
+    /* Returns true if Cleave wrote the file `sign` at `path`. text: argument of folder_check_writable. */
     bool (*is_sign)(const char *path, const char *text);
     /* Returns true if a folder of this kind may hold the entry `name` before `sign` is written. NULL: no such
      * entries. */
@@ -17,12 +17,12 @@ struct folder_kind {
 };
 
 /* Returns true if `name` is that of a hidden or temporary file, which any output folder may hold. */
-bool entry_is_ignored(const char *name);
+bool file_name_is_ignored(const char *name);
 
 /* Checks that a command may write its files into `folder`: the folder does not exist, holds nothing but hidden and
  * temporary files, or is of the given kind. text: text of the scene, passed to kind->is_sign; may be NULL. Sets *there
  * to true if the folder exists and is of this kind, else to false. Returns REFUSED, with the name of the entry in the
  * message, if the folder holds a file that Cleave did not write, or if a subfolder listed in kind->inner is a link. */
-status folder_guard(const struct folder_kind *kind, const char *folder, const char *text, bool *there);
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *there);
 
 #endif

@@ -25,7 +25,7 @@ status history_read_file(struct history *h, const char *path);
 void history_free(struct history *h);
 
 /* Returns the index of the column called `name` (without unit), or -1 if there is none. */
-int history_column(const struct history *h, const char *name);
+int history_find_column(const struct history *h, const char *name);
 
 /* Returns the value in the given row and column of the table, in SI units; NAN if `column` is -1. */
 static inline double history_at(const struct history *h, int64_t row, int column)

@@ -74,7 +74,7 @@ void output_close(struct output *o);
 /* Checks that the subfolder frames_NAME of the folder of a run can hold frames of a region. name: name of the region.
  * Returns REFUSED if a link or a file has that name. Call it before output_open, which removes the files of an older
  * run. */
-status output_series_guard(const char *folder, const char *name);
+status output_check_series_folder(const char *folder, const char *name);
 
 /* Adds a series of frames of one region of the body to the output: the subfolder frames_NAME and its index files
  * NAME.hdf.series and so on, with NAME = name. region: kept by reference until output_close. Call it after
@@ -90,11 +90,11 @@ bool scene_text_same(const char *a, const char *b);
 bool scene_file_same(const char *path, const char *scene_text);
 
 /* Returns true if `text` begins as every scene.yaml that Cleave writes does: with the quoted name of the scene. */
-bool scene_text_is_written(const char *text);
+bool scene_text_is_echo(const char *text);
 
 /* Writes `length` bytes of `text` to the file `name` in the folder of the run, first under a temporary name, which is
  * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
-status output_text(const struct output *o, const char *name, const char *text, size_t length);
+status output_write_text(const struct output *o, const char *name, const char *text, size_t length);
 
 /* Removes frames that are missing or incomplete from the index files of all series. Call it after a restart. lost:
  * receives the number of these frames. text: receives a message about the first of them and holds `room` bytes.
@@ -136,7 +136,7 @@ struct frame_extra {
  * index files frames.hdf.series and frames.xdmf. Particles are sorted by id; all fields but the reference positions
  * have single precision. scene_text: text of the scene, stored in the frame. Returns when the files are complete,
  * FAILED if one cannot be written. */
-status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
+status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
 /* Starts to write the next frame of series k (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
  * time steps, in a separate thread. Fields that change during the run, and those in *extra (NULL: none), are copied
@@ -149,10 +149,10 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
 /* Writes all frames of each series as one temporal file for ParaView, frames.vtkhdf (output_temporal.c), at the end of
  * a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more
  * frames than such a file can serve efficiently. Returns FAILED if a file cannot be written. */
-status output_temporal(struct output *o, const char *scene_text);
+status output_write_temporal(struct output *o, const char *scene_text);
 
-/* Removes the temporal files that output_temporal of an earlier process wrote to the folder of the run, since they
- * lack the frames of a run that continues. */
+/* Removes the temporal files that output_write_temporal of an earlier process wrote to the folder of the run, since
+ * they lack the frames of a run that continues. */
 void output_temporal_remove(const struct output *o);
 
 /* Discards the stored order in which particles are written. Call this function when the number of particles or their
@@ -170,7 +170,7 @@ status output_history_open(struct output *o, const struct column *column, int co
 
 /* Appends one line with value[columns] in SI units to history.csv, with 9 significant digits each, and flushes it.
  * Returns FAILED if the line cannot be written. */
-status output_history(struct output *o, const real *value);
+status output_write_history(struct output *o, const real *value);
 
 /* Fields read from a frame, in the order of ascending id. Every array has n entries and belongs to the frame. */
 struct frame {

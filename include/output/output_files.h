@@ -24,14 +24,14 @@ status folder_make(const char *path);
  * have it. */
 #define ASIDE_ENDING ".cleave.tmp"
 /* Returns PATH.cleave.tmp, the temporary name under which a file is written before it is renamed to `path`. */
-struct path path_aside(const char *path);
+struct path path_temporary(const char *path);
 
 /* Returns the temporary name PATH.cleave.tmp and adds `path` to the list of unfinished files. file_publish or
  * file_discard with the same path removes it from the list. */
-struct path file_begin(const char *path);
+struct path file_begin_temporary(const char *path);
 
-/* Removes the temporary files of all unfinished files (file_begin). Call it before the program ends because of an
- * internal fault. */
+/* Removes the temporary files of all unfinished files (file_begin_temporary). Call it before the program ends because
+ * of an internal fault. */
 void files_unfinished_remove(void);
 
 /* Returns true if a file, folder, link or other entry called `path` exists; a link counts even if its target is
@@ -53,44 +53,45 @@ status file_fault(const char *path, int cause);
 
 /* Checks that the file `path` may be replaced or removed. Returns REFUSED if it is an input of this command, or a
  * pipe, socket or device; OK otherwise, also if there is no such file. */
-status file_guard(const char *path);
+status file_check_replaceable(const char *path);
 
 /* Checks that the file `path` begins as a file of Cleave does, so that it may be replaced. begin[n]: the possible
  * beginnings; a file shorter than a beginning must agree with it to the end of the file. Returns OK also if there is
  * no such file; REFUSED if no beginning agrees. */
-status file_begin_guard(const char *path, const char *const *begin, size_t n);
+status file_check_beginning(const char *path, const char *const *begin, size_t n);
 
 /* Type of a function that acts on the file `path`. */
-typedef status each_file(const char *path);
+typedef status file_visit_fn(const char *path);
 
 /* Calls each(path) for every file in `folder` for whose name chosen(name, end) returns true. Links are skipped. Stops
  * at the first call that does not return OK, and returns its status. */
-status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
-                  each_file *each);
+status files_visit(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
+                   file_visit_fn *each);
 
 /* Returns true if the file `path` has exactly the given contents, `length` bytes from `bytes` on; false also if it
  * cannot be read. */
-bool file_holds(const char *path, const void *bytes, size_t length);
+bool file_has_contents(const char *path, const void *bytes, size_t length);
 
 /* Writes `length` bytes from `bytes` on as the complete file `path`: under a temporary name, which is synced and
  * renamed; then syncs the folder. A file that is an input of this command is never replaced: returns OK if it already
  * has these contents, else REFUSED. Returns FAILED if the file cannot be written. */
-status file_put(const char *path, const void *bytes, size_t length);
+status file_write_whole(const char *path, const void *bytes, size_t length);
 
-/* Writes `length` bytes from `bytes` on as the complete file `path` as file_put does, with the same return values, but
- * does not sync the folder. After writing many files to one folder, call file_settle once for one of them. */
-status file_put_unsettled(const char *path, const void *bytes, size_t length);
+/* Writes `length` bytes from `bytes` on as the complete file `path` as file_write_whole does, with the same return
+ * values, but does not sync the folder. After writing many files to one folder, call file_sync_folder once for one of
+ * them. */
+status file_write_whole_unsynced(const char *path, const void *bytes, size_t length);
 
 /* Syncs the folder that holds the file `path`, so that a new name survives a crash of the machine. A folder that may
  * not be read is skipped. Returns FAILED if the sync fails. */
-status file_settle(const char *path);
+status file_sync_folder(const char *path);
 
 /* Appends `length` bytes (may be 0) from `tail` on to the temporary file PATH.cleave.tmp and syncs it. Returns FAILED
  * if that is not possible; PATH.cleave.tmp is removed then. */
-status file_seal(const char *path, const void *tail, size_t length);
+status file_append_and_sync(const char *path, const void *tail, size_t length);
 
 /* Renames the synced temporary file PATH.cleave.tmp to `path` and syncs the folder. Returns REFUSED if the file `path`
- * must not be replaced (file_guard), FAILED if the renaming or the sync fails. If the file is not renamed,
+ * must not be replaced (file_check_replaceable), FAILED if the renaming or the sync fails. If the file is not renamed,
  * PATH.cleave.tmp is removed. */
 status file_publish(const char *path);
 
@@ -100,6 +101,6 @@ void file_discard(const char *path);
 /* Reads the complete regular file `path`. Stores an allocated text in *text, which the caller releases with
  * memory_free, and its length [byte] in *length; a 0 byte follows the last byte. Returns FAILED, with no memory to
  * release, if the file cannot be read. */
-status file_get(const char *path, char **text, size_t *length);
+status file_read_whole(const char *path, char **text, size_t *length);
 
 #endif

@@ -12,18 +12,18 @@
 enum hdf_type { HDF_F32, HDF_F64, HDF_U8, HDF_I32, HDF_I64 };
 
 /* Returns the size of one number of the given type [byte]. */
-size_t hdf_size(enum hdf_type type);
+size_t hdf_type_size(enum hdf_type type);
 
 /* An open HDF5 file and its first fault. */
 struct hdf {
     hid_t file;
-    bool compress; /* gzip datasets of hdf_rows */
+    bool compress; /* gzip datasets of hdf_write_rows */
     bool failed;   /* a call failed: make no further one */
     int cause;     /* errno of the failed call, 0 if unknown */
 };
 
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the
- * datasets that hdf_rows writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
+ * datasets that hdf_write_rows writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
  * failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
@@ -34,11 +34,11 @@ void hdf_open(struct hdf *f, const char *path);
 void hdf_close(struct hdf *f);
 
 /* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
-void hdf_group(struct hdf *f, const char *name);
+void hdf_create_group(struct hdf *f, const char *name);
 
 /* Writes the dataset `name` of rows x columns numbers of the given type from data[rows][columns]; the dataset has one
  * dimension if `columns` is 1. A failure is stored in f->failed. */
-void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
+void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
  * virtual file. */
@@ -51,31 +51,33 @@ struct hdf_source {
  * dataset of the same name in the files source[sources], one after another. type, columns: type of the numbers and
  * numbers per row, equal in all files. Each file contributes its number of rows, source[k].rows, plus `more` rows. A
  * failure is stored in f->failed. */
-void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
-                 int sources, int more);
+void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
+                       const struct hdf_source *source, int sources, int more);
 
 /* Writes the string `text` as the dataset `name`, with fixed length. A failure is stored in f->failed. */
-void hdf_text(struct hdf *f, const char *name, const char *text);
+void hdf_write_text(struct hdf *f, const char *name, const char *text);
 
 /* Writes the string `text` as the dataset `name`, a list of one string of variable length, which VTK shows as field
  * data. Bytes that are not ASCII become question marks. A failure is stored in f->failed. */
-void hdf_text_list(struct hdf *f, const char *name, const char *text);
+void hdf_write_text_list(struct hdf *f, const char *name, const char *text);
 
 /* Writes values[count] as the attribute `name` of a group or dataset; the attribute is a list even for one number.
  * group: path of the group or dataset. A failure is stored in f->failed. */
-void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values);
+void hdf_write_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count,
+                         const void *values);
 
 /* Writes the number *value as the attribute `name` of a group or dataset; the attribute is a scalar. group: path of
  * the group or dataset. A failure is stored in f->failed. */
-void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value);
+void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type,
+                                const void *value);
 
 /* Writes the ASCII string `text` as the attribute `name` of a group or dataset, with fixed length. group: path of the
  * group or dataset. A failure is stored in f->failed. */
-void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text);
+void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name, const char *text);
 
 /* Returns the number of numbers in the dataset `name`, or -1 if the file has no such dataset, which is not a failure.
  */
-int64_t hdf_count(struct hdf *f, const char *name);
+int64_t hdf_dataset_size(struct hdf *f, const char *name);
 
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
  * data[count]. Another size or a failed read is stored in f->failed. */
@@ -83,6 +85,6 @@ void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t 
 
 /* Reads the attribute `name` of a group or dataset, which must be one number, and converts it to the given type in
  * *value. group: path of the group or dataset. Another size or a failed read is stored in f->failed. */
-void hdf_read_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value);
+void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value);
 
 #endif

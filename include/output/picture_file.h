@@ -13,10 +13,10 @@ enum picture_format { PICTURE_PNG, PICTURE_SVG, PICTURE_PDF, PICTURE_MP4, PICTUR
 status picture_publish(const char *path, enum picture_format format);
 
 /* Returns true if the file `path` has the mark that picture_publish writes into pictures. */
-bool picture_is_ours(const char *path);
+bool picture_has_mark(const char *path);
 
 /* Checks that a picture may be written to the file `path`. Returns REFUSED if there is such a file and it lacks the
  * mark of Cleave; OK if there is no such file. */
-status picture_guard(const char *path);
+status picture_check_replaceable(const char *path);
 
 #endif

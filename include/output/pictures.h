@@ -40,6 +40,6 @@ struct path picture_path_of_field(const char *dir, const char *field, const char
 
 /* Returns true if `name` is the name of a picture or film that Cleave draws, NAME.png or NAME_000012.png, followed by
  * the text `end`. */
-bool is_picture(const char *name, const char *end);
+bool is_picture_name(const char *name, const char *end);
 
 #endif

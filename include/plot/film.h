@@ -6,11 +6,11 @@
 
 /* Checks that the program ffmpeg, which encodes films, can be started. Returns REFUSED if not; the message names the
  * package to install. */
-status film_possible(void);
+status film_check_encoder(void);
 
 /* Draws one picture for each of the frames cloud[clouds] and encodes the pictures as a film, the file sheet.path.
  * title, map, view: as for maps_draw. The pictures are drawn in a temporary folder beside the film, which is removed.
- * Returns FAILED if gnuplot or ffmpeg fails, REFUSED if sheet.path must not be replaced (file_guard). */
+ * Returns FAILED if gnuplot or ffmpeg fails, REFUSED if sheet.path must not be replaced (file_check_replaceable). */
 status film_draw(struct sheet sheet, const char *title, enum map map, const struct view *view,
                  const struct cloud *cloud, int clouds);
 

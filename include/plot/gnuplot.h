@@ -28,8 +28,8 @@ extern const char *const curve_colour[CURVE_COLOURS];
 
 /* Starts gnuplot to draw the picture `path` of width x height pixels and sends the style common to all pictures: thin
  * grey axes at the bottom and left, sans-serif font, key outside on the right. Stores the process in *g. Returns
- * REFUSED if the path has control characters or the file must not be replaced (file_guard), FAILED if gnuplot cannot
- * be started. Close with gnuplot_close. */
+ * REFUSED if the path has control characters or the file must not be replaced (file_check_replaceable), FAILED if
+ * gnuplot cannot be started. Close with gnuplot_close. */
 status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format format, int width, int height);
 
 /* Ends the input of gnuplot, waits until the picture is complete, and renames it to its final path. Returns FAILED if
@@ -39,7 +39,7 @@ status gnuplot_close(struct gnuplot *g);
 
 /* Copies the last line that is not blank of the error messages of a program to text[size]; writes `it gave no reason`
  * if there is none. from: file with the messages, read from its beginning. */
-void complaint_read(FILE *from, char *text, size_t size);
+void error_message_read(FILE *from, char *text, size_t size);
 
 /* Writes `text` to the file `to` as a quoted gnuplot string in which no character has a special meaning. */
 void gnuplot_quote(FILE *to, const char *text);

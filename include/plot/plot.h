@@ -60,17 +60,17 @@ struct plot_request {
 
 /* Draws all standard pictures of the run in r->folder and prints their names. Returns FAILED if a picture cannot be
  * drawn; REFUSED if one would replace a file that Cleave did not draw, or if no frame is near a requested time. */
-status run_pictures(const struct plot_request *r);
+status run_draw_pictures(const struct plot_request *r);
 
 /* Draws a picture or film of the field r->field of a run, and prints its file name and the range of the colours.
  * Returns REFUSED if the run has no such field or frames, or if a file that Cleave did not draw would be replaced;
  * FAILED if drawing fails. */
-status field_picture(const struct plot_request *r);
+status field_draw_picture(const struct plot_request *r);
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
 /* Returns true if the folder of a run holds a file called `name`. */
-bool run_holds(const char *folder, const char *name);
+bool run_has_file(const char *folder, const char *name);
 
 /* Returns the path of frame `number` in the folder of a run, frames/NNNNNN.hdf; an empty path if it would be too long.
  */
@@ -78,7 +78,7 @@ struct path run_frame_path(const char *folder, int number);
 
 /* Reads frame `number` in the folder of a run into *f. Returns FAILED, with no memory to release, if the file cannot
  * be read or is damaged. Release with frame_free. */
-status run_frame(struct frame *f, const char *folder, int number);
+status run_read_frame(struct frame *f, const char *folder, int number);
 
 /* The frames of a run and the selected ones. */
 struct run_frames {
@@ -249,7 +249,7 @@ struct view {
 
 /* Returns the rectangle in which all particle sets cloud[clouds] are shown: the bounding box of the body with a
  * margin. A few particles that are far from all others may lie outside. */
-struct view view_of(const struct cloud *cloud, int clouds);
+struct view view_around(const struct cloud *cloud, int clouds);
 
 /* Sets the field that the view v shows and the values at the ends of its colour scale, by field->scale and the values
  * in cloud[clouds]. Extreme values of a few particles are ignored. */
@@ -300,23 +300,23 @@ struct series {
 
 /* Returns the largest absolute value in the column with index `column` of the history h; 0 if the column has no
  * values. */
-double curves_largest(const struct history *h, int column);
+double curves_largest_value(const struct history *h, int column);
 
 /* Writes the time and the columns column[columns] of the history of s, each divided by its factor[columns], to gnuplot
  * as the data block $data. Long histories are reduced to a few thousand rows, the last one included. */
-void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
+void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns);
 
 /* Writes the gnuplot commands for a heading above the picture, composed of `title` and `what`. */
-void curves_title(FILE *to, const char *title, const char *what);
+void curves_write_title(FILE *to, const char *title, const char *what);
 
 /* Writes the gnuplot commands for the horizontal axis of a picture over time or load steps, with its range and label.
  */
-void curves_time_axis(FILE *to, const struct series *s);
+void curves_write_time_axis(FILE *to, const struct series *s);
 
 /* Draws the stress-intensity factors of all SIF probes over time, and below the spread between their contours, as the
  * picture `sif` of the run in `folder`. title: heading of the picture; s: history of the run. Returns OK without a
  * picture if the run has no SIF probe, FAILED if gnuplot fails. */
-status sif_bench_draw(const char *folder, const char *title, const struct series *s);
+status sif_curves_draw(const char *folder, const char *title, const struct series *s);
 
 /* Draws the paths of crack tips from growth probes as the picture `path` of the run in `folder`, with the angle
  * measured in an experiment if the scene states one. title: heading of the picture; s: history of the run. Returns OK
@@ -324,7 +324,7 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
 status paths_draw(const char *folder, const char *title, const struct series *s);
 
 /* Returns true if the run in `folder` consists of load steps. */
-bool run_in_steps(const char *folder);
+bool run_has_load_steps(const char *folder);
 
 /* Draws, for a run with load steps, the force over the displacement of each reaction probe, with its peak marked, to
  * the file `sheet`. title: heading of the picture; h: history of the run. If there is no such probe or nothing moves,
@@ -353,7 +353,7 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
 
 /* Finds an EXACT probe, which compares a bar with a closed-form solution, by the profiles in the folder of a run and
  * stores its name in `name`. Returns false if there is none. */
-bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH]);
+bool bar_find_probe(const char *folder, char name[NAME_MAX_LENGTH]);
 
 /* Draws stress, strain, velocity and, if there is any, damage along the bar of the EXACT probe called `probe`, with
  * the closed-form solution, to the file `sheet`. title: heading of the picture; show[frames]: frames of the run in

@@ -10,7 +10,7 @@
  * what was drawn. Creates the bodies as a run does before its first step. r->out: output file or folder, NULL for
  * results/NAME_scene.png; r->projection: direction of view of a body in three dimensions. Returns REFUSED if the scene
  * is invalid or r does not suit it, FAILED if gnuplot fails. */
-status scene_picture(const char *path, const struct scene_override *override, int overrides,
-                     const struct plot_request *r);
+status scene_draw_picture(const char *path, const struct scene_override *override, int overrides,
+                          const struct plot_request *r);
 
 #endif

@@ -50,12 +50,13 @@ void diagnostics_momentum(struct diagnostics *w, const struct particles *p, cons
  * updates w->now.spin_error, the largest error so far. mesh: mesh of the reference frame, NULL if none of its nodes
  * carries mass. bodies: number of bodies of the scene. Call this function only if no load, support or mirror acts on
  * the bodies, since angular momentum is conserved only then. */
-void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies);
+void diagnostics_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh,
+                                  int bodies);
 
 /* Stores the energies *energy of the run at time t [s] and the work of loads and supports since the start, `work` [J],
  * in w->now, and computes the error of the energy balance, w->now.balance_error. Call this function after
  * diagnostics_momentum; its first call defines the energy and momentum at the start. */
-void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
+void diagnostics_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work);
 
 /* Returns the relative energy change (E - E_0 - work)/E_0 at the last sample [1]. E is the sum of all energies except
  * the energy taken by damping, E_0 that sum at the start, and `work` the work of loads and supports. Returns NAN if
@@ -72,10 +73,10 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
  * the first break of the run. broken: number of directed bonds that broke in the step. horizon: length of the longest
  * bond [m]. Returns true if driven particles (particles with prescribed motion) lost bonds in this step for the first
  * time in the run. */
-bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t);
+bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t);
 
 /* Returns the largest speed of the particles list[n] [m/s], 0 for an empty list. */
-real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n);
+real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n);
 
 /* Searches for particles whose position or velocity is not finite or whose speed exceeds `limit`, the fastest wave
  * speed of the scene [m/s]. peridynamic: search the peridynamic particles too; meshed: search the material points of a

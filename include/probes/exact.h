@@ -39,7 +39,7 @@ struct exact_values {
 /* Returns displacement, velocity, stress and strain of the closed-form solution at reference position X [m] and time t
  * >= 0 [s]. At a front, the values behind the front are returned. All values are NAN if the closed form does not apply
  * at X and t. */
-struct exact_values exact_at(const struct exact *e, real X, real t);
+struct exact_values exact_solution_at(const struct exact *e, real X, real t);
 
 /* A stress jump that moves along the bar. */
 struct exact_front {
@@ -53,7 +53,7 @@ enum { EXACT_FRONTS = 2 };
  * front, the one that was reflected last; PLASTIC BAR has the elastic precursor and, if the load exceeds the yield
  * stress, the plastic front. Returns the number of fronts; 0 for solutions without jumps and for times at which the
  * closed form does not apply. */
-int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
+int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS]);
 
 /* Regions in which the exact stress is constant, at a distance from fronts and ends. PLATEAU: behind the last front,
  * at least 0.1 bar lengths from it (0.08 from a plastic front) and from the ends. PRECURSOR: from 0.07 bar lengths
@@ -62,6 +62,6 @@ enum exact_window { EXACT_PLATEAU, EXACT_PRECURSOR };
 
 /* Computes the range from *from to *to [m] of the window `which` at time t [s], a part of the bar in which the stress
  * of the closed-form solution is constant. Returns false if there is no such part at time t. */
-bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to);
+bool exact_constant_window(const struct exact *e, real t, enum exact_window which, real *from, real *to);
 
 #endif

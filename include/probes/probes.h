@@ -21,12 +21,12 @@
  * `_strain` compare E x strain with E x exact strain, with strain by central differences over neighbours in the bar:
  *   L1, L2                  mean |error| and root mean square of the error over the particles [Pa]
  *   front, front_plastic    where the stress passes the middle of the jump of the closed form's (plastic) front [m]
- *   plateau                 mean stress behind the last front, away from fronts and ends (exact_plateau) [Pa]
+ *   plateau                 mean stress behind the last front, away from fronts and ends (exact_constant_window) [Pa]
  *   strain_elastic, strain_plastic     mean strain ahead of and behind the plastic front [1]
  *   end_displacement        of the outermost particle at the loaded end, half a spacing from the end [m]
  *   L1_velocity, L2_velocity, L2_displacement     as L1 and L2, at the time of the velocities */
 
-/* Final state of the run on material points alone with which PULSE probes are compared (engine_baseline). */
+/* Final state of the run on material points alone with which PULSE probes are compared (engine_run_baseline). */
 struct baseline {
     real *v[DIM_MAX];   /* [n] velocities [m/s] */
     real energy_change; /* relative energy change since the start [1] */
@@ -95,39 +95,41 @@ void probes_sample(struct probes *s, const struct observed *o);
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the observed particles into the probes
  * *s, before the time step. probes_sample_end interpolates between them and the velocities after the step. */
-void probes_keep(struct probes *s, const struct observed *o);
+void probes_store_motion(struct probes *s, const struct observed *o);
 
 /* Computes the values of a sample that depend on velocities or on the forces of the time step, after that step, and
- * stores them in s->value. The values are those at the time of the preceding call of probes_keep: velocities are
- * interpolated to that time, and reactions are those of the forces in the step. now: time of the present velocities.
- * If probes_keep was not called before, the body is assumed to be in equilibrium. */
+ * stores them in s->value. The values are those at the time of the preceding call of probes_store_motion: velocities
+ * are interpolated to that time, and reactions are those of the forces in the step. now: time of the present
+ * velocities. If probes_store_motion was not called before, the body is assumed to be in equilibrium. */
 void probes_sample_end(struct probes *s, const struct observed *o, const struct velocity_time *now);
 
 /* Updates the probes that observe every time step: BREAK and SPALL probes search for bonds that broke in the step
  * (particles whose flag FLAG_LOST_BOND is set); REACTION probes update the largest force and the sum of squared
  * forces. Call this function before the flags of the step are cleared. */
-void probes_step(struct probes *s, const struct observed *o);
+void probes_update_step(struct probes *s, const struct observed *o);
 
 /* Updates the BREAK and SPALL probes, which search for bonds that just broke, and no other probes. Load steps call
  * this function each time bonds have broken. */
-void probes_breaks(struct probes *s, const struct observed *o);
+void probes_update_breaks(struct probes *s, const struct observed *o);
 
 /* Calls emit(context, probe name, quantity name, value) for every result of every probe that summary.json reports, in
  * SI units. Values that are NAN are skipped. */
-void probes_figures(const struct probes *s, const struct observed *o,
-                    void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context);
+void probes_visit_results(const struct probes *s, const struct observed *o,
+                          void (*emit)(void *context, const char *probe, const char *quantity, real value),
+                          void *context);
 
 /* Type of a function that writes the `length` bytes of `text` to a file called `name`. context: argument of the same
- * name of probes_profiles. Returns the status of the write. */
+ * name of probes_write_profiles. Returns the status of the write. */
 typedef status probe_file_fn(void *context, const char *name, const char *text, size_t length);
 
 /* Prints the profile of each LINE and EXACT probe as CSV text, and calls put(context, `<probe>_<frame>.csv`, text,
  * length) for each. frame: number of the frame in these names. Returns FAILED if memory is exhausted, or the status of
  * `put` if it is not OK. */
-status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame);
+status probes_write_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context,
+                             int frame);
 
 /* Returns the number of profiles (of LINE and EXACT probes) that are written with each frame. */
-int64_t probes_profiled(const struct probes *s);
+int64_t probes_count_profiles(const struct probes *s);
 
 /* Longest name of a profile, with its terminator. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
@@ -138,11 +140,11 @@ bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
 
 /* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
  * crack tip, to *found. Returns false if the probe has no values yet. */
-bool probes_sif_control(const struct probes *s, const char *name, struct control *found);
+bool probes_sif_values(const struct probes *s, const char *name, struct control *found);
 
 /* Computes the present position of the crack tip of probe k, two components [m], and the outer radius of its contours,
  * *radius [m]. Returns false if probe k is not a SIF probe. */
-bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real position[2], real *radius);
+bool probes_sif_contour(const struct probes *s, int k, const struct observed *o, real position[2], real *radius);
 
 /* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
  * if an entry is missing or its size does not fit the probes. */

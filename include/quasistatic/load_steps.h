@@ -10,13 +10,14 @@ struct statics;
 /* Finds the static equilibrium of a scene without load steps, of bonds by conjugate gradients (`solver: cg`) or of a
  * grid by damped time steps (`solver: relaxation`), and completes the run. Returns FAILED if no equilibrium is found
  * or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
-status engine_solve(struct run *e);
+status engine_solve_static(struct run *e);
 
 /* Makes the load steps of a scene (`solver: static` with `steps`), from the present one to the last. Returns FAILED if
  * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
-status engine_steps(struct run *e);
+status engine_run_load_steps(struct run *e);
 
-/* Initialises the solver that engine_solve uses. Returns REFUSED if the loads of the scene admit no equilibrium. */
+/* Initialises the solver that engine_solve_static uses. Returns REFUSED if the loads of the scene admit no equilibrium.
+ */
 status engine_solver_make(struct run *e);
 
 /* Checks that load steps support the bodies, loads and supports of a scene. Returns REFUSED, with the reason, if they
@@ -41,10 +42,10 @@ real statics_load_size(const struct run *e, real t);
 /* Returns the reason why the growth direction of cracks cannot be determined from their stress-intensity factors (key
  * `steps.path` of the scene), a static text, or NULL if it can. If it can and `plane` is not NULL, stores the plane in
  * which the crack tips move in *plane. */
-const char *sif_fault(const struct run *e, struct sif_plane *plane);
+const char *sif_why_not(const struct run *e, struct sif_plane *plane);
 
 /* Checks a three-dimensional scene with SIF-driven cracks (`steps.path: hoop`). Returns REFUSED, with the reason, if
- * their growth direction cannot be determined (sif_fault). */
+ * their growth direction cannot be determined (sif_why_not). */
 status sif_check(const struct run *e);
 
 /* Saves the state between two load steps to the archive if a->saving is set, else restores it from the archive. If

@@ -64,7 +64,7 @@ struct sif_crack_tip {
 };
 
 /* The plane in which the tips move: the plane of a plane body, or in space the plane across the fronts, which must be
- * straight and parallel and run through the whole body (led_plane.c). */
+ * straight and parallel and run through the whole body (sif_plane.c). */
 struct sif_plane {
     bool made;
     int dim;               /* of the body */

@@ -36,8 +36,8 @@ struct rigid_body {
     real moment[DIM_MAX];         /* and its moment about the centre [N m] */
     real force_most;              /* largest |force| so far [N] */
     real increment[DIM_MAX];      /* displacement in the last step [m] */
-    real force_previous[DIM_MAX]; /* force at the last call of rigid_book [N] */
-    real work;                    /* work of the drive up to the last call of rigid_book [J] */
+    real force_previous[DIM_MAX]; /* force at the last call of rigid_add_work [N] */
+    real work;                    /* work of the drive up to the last call of rigid_add_work [J] */
     /* kinetic energy of the last step as leap-frog conserves it, 1/2 m v_old . v_new with the rotation likewise [J] */
     real kinetic;
 };
@@ -73,24 +73,24 @@ void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
 real rigid_displacement(const struct rigid_body *r, real t, real *u);
 
 /* Moves a driven body to its position at time t [s]; the displacement counts for the work of the drive. */
-void rigid_put(struct rigid_body *r, real t);
+void rigid_set_position(struct rigid_body *r, real t);
 
 /* Advances the body by one step of length dt under `force` and `moment` (leap-frog). middle: time in the middle of the
  * step [s]; dt_velocity: time by which velocities advance [s]. */
 void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
 
 /* Adds the work of the drive since the last call to r->work, with the mean of the old and the present force. */
-void rigid_book(struct rigid_body *r);
+void rigid_add_work(struct rigid_body *r);
 void rigid_note(struct rigid_body *r); /* includes the present force in force_most */
 
 /* Returns the work of the drive, and of the weight, up to the present force [J]. */
 real rigid_work(const struct rigid_body *r);
 
 /* Returns the kinetic energy of the present velocities [J]. */
-real rigid_kinetic(const struct rigid_body *r);
+real rigid_kinetic_energy(const struct rigid_body *r);
 
 /* Returns the kinetic energy that half a step under the present force and moment adds to first order [J]. */
-real rigid_kick(const struct rigid_body *r, real dt);
+real rigid_kick_energy(const struct rigid_body *r, real dt);
 
 /* Saves or restores the motion of rigid body number `number`. */
 status rigid_archive(struct rigid_body *r, int number, struct archive *a);

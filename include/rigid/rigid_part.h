@@ -25,7 +25,7 @@ status rigids_check(const struct rigid_set *rigid, const struct scene *s, const 
 
 /* Books the contact forces of the last step, of length dt_velocity [s]: the work of drives, the largest forces, and the
  * impulse on the rigid bodies, which is subtracted from the impulse on the particles [dim, N s]. */
-void rigids_book(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
+void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
 
 /* Advances all bodies by a step of length dt. middle: time in the middle of the step; dt_velocity: time by which
  * velocities advance [s]. */
@@ -36,7 +36,7 @@ void rigids_move(struct rigid_set *rigid, real middle, real dt, real dt_velocity
 status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
 
 /* Warns, once in a run, if a free body overlaps another rigid body at time t [s]. spacing: of particles [m]. */
-void rigids_meet(struct rigid_set *rigid, real spacing, real t, struct warnings *to);
+void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *to);
 
 /* Energies of all rigid bodies [J]: kinetic energy before a step (`before`), of the last step as leap-frog conserves it
  * (`step`) and after the last step of a run (`last`); work of drives and weights (`work`). */
@@ -55,13 +55,13 @@ int rigids_columns(const struct run *e, struct column *column);
 void rigids_record(struct run *e, real *record);
 
 /* Stores the positions and velocities at time t [s], before a step, in rigid->motion for the present sample. */
-void rigids_keep(struct rigid_set *rigid, real t);
+void rigids_store_motion(struct rigid_set *rigid, real t);
 
 /* Replaces the stored velocities of free bodies by the mean of the velocities before and after the step. */
-void rigids_mean(struct rigid_set *rigid);
+void rigids_average_velocities(struct rigid_set *rigid);
 
 /* Replaces the stored velocities by those at time t after the last step (rigids_velocity). */
-void rigids_kick(struct rigid_set *rigid, real t, real dt);
+void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body k at time t [m/s], from the velocity half a step dt [s] behind t and the
  * present forces; of a driven body, the prescribed velocity. */

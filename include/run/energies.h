@@ -7,40 +7,40 @@
 /* Returns the share of its strain energy density that material point i keeps while bonds across its cell carry the
  * rest [1]: 1 - tr M/n, with M the matrix of its partial stress and n the number of components of a symmetric tensor;
  * exact if M is a multiple of the identity, as in 1D. partial: partial stresses of all points; NULL returns 1. */
-real point_own_share(const struct partial_stress *partial, int dim, int64_t i);
+real point_mpm_share(const struct partial_stress *partial, int dim, int64_t i);
 
 /* Returns the kinetic energy 1/2 sum m v^2 of all particles [J], except material points of a mesh in the reference
- * frame, whose kinetic energy is that of the mesh nodes (frame_kinetic). */
-real diagnostics_kinetic(const struct particles *p);
+ * frame, whose kinetic energy is that of the mesh nodes (frame_kinetic_energy). */
+real particles_kinetic_energy(const struct particles *p);
 
 /* Returns the elastic strain energy of the material points on the background grid [J]: 1/2 sum sigma : C^-1 : sigma V,
  * without the part of the stress that bonds carry. In plane strain the energy of the change of sigma_zz by plastic
  * flow is included. m: array of the materials; partial: partial stresses of the points, NULL for none. */
-real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial);
+real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
-/* Returns the elastic strain energy [J], as diagnostics_strain does, of those material points that are among n listed
+/* Returns the elastic strain energy [J], as points_strain_energy does, of those material points that are among n listed
  * particles. m: array of the materials; partial: partial stresses of the points, NULL for none; list: n particle
  * indices.
  */
-real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
-                           const int32_t *list, int64_t n);
+real points_strain_energy_of_list(const struct particles *p, const struct material *m,
+                                  const struct partial_stress *partial, const int32_t *list, int64_t n);
 
 /* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
  * hardening modulus H and the accumulated plastic strain a. m: array of the materials; partial: partial stresses of the
  * points, NULL for none. */
-real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial);
+real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the
  * old and the new velocity, minus 1/2 m v_old . v_new, which leap-frog conserves. It equals 1/4 sum m (v - v_old)^2;
  * driven particles and material points of a mesh in the reference frame are excluded. before: velocities v_old before
  * the update [m/s], dim arrays of n; NULL, allowed if no particles are on the background grid, takes v - v_old = dt f/m
  * from the forces p->f. dt: time step [s]. */
-real diagnostics_kick(const struct particles *p, real *const *before, real dt);
+real particles_kick_energy(const struct particles *p, real *const *before, real dt);
 
 /* Computes the linear momentum of all particles and mesh nodes. nodes: `grids` pointers to the grids of the meshes;
  * momentum: receives dim components [kg m/s]. Returns the sum of the magnitudes |m v| of all contributions [kg m/s],
  * to which round-off errors of the momentum can be compared. */
-real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
+real particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum);
 
 /* Computes the weighted volume and the dilatation of the family of each particle of bonds b at the present positions,
  * as ordinary state-based peridynamics needs them before forces or energies. Does nothing for bond-based models
@@ -53,6 +53,7 @@ static inline void states_precompute(struct bonds *b, struct particles *p, const
 /* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress
  * arrays of p. Time steps do not use this stress; call the function before a sample, a frame or reversion. s: bond
  * law; kernels: compiled loops for the vector instructions of this machine. */
-void run_stress(struct bonds *b, struct particles *p, const struct bond_source *s, const struct kernels *kernels);
+void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
+                         const struct kernels *kernels);
 
 #endif

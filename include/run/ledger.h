@@ -57,6 +57,6 @@ extern const struct ledger_row ledger[LEDGER_ROWS];
 real energy_sum(const struct energy *u);
 
 /* Returns the sum of the magnitudes of all energies of u [J], a scale for errors of their balance. */
-real energy_size(const struct energy *u);
+real energy_magnitude(const struct energy *u);
 
 #endif

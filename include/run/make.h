@@ -7,7 +7,7 @@
 /* Lowers the conversion stress (`trigger`) of each material to the smallest one of its particles, if the strength of
  * particles is random (p->strength). Does nothing if strength is uniform. elastic: array of the constants of all
  * materials, changed in place. */
-void strength_found(struct elastic *elastic, const struct particles *p);
+void conversion_stress_lower(struct elastic *elastic, const struct particles *p);
 
 /* Returns the wave impedances that absorbing boundaries use, an array [MOVERS][materials] that the caller frees: for
  * each material and each method that moves its particles (bonds, grid or mesh). Returns NULL if the scene has no
@@ -25,7 +25,7 @@ real voids_reach(const struct scene *s, real cutoff);
 
 /* Returns true if the surface of a body and of all bodies joined to it is given by solids: none of them is made from a
  * particle list or an image. body: number of the first of the joined bodies. */
-bool surface_known(const struct scene *s, int body);
+bool surface_is_exact(const struct scene *s, int body);
 
 /* Computes correction weights of the bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
  * w; w must therefore outlive `source`. loads: boundary conditions, whose mirrors are named in messages. Returns
@@ -43,6 +43,6 @@ status joined_check(const struct scene *s, const struct particles *p, const stru
  * the explicit solver, a displacement jumps, is not 0 at t = 0, or grows faster than waves; or, with `start` (the
  * beginning of a run, not a restart), if particles with a prescribed displacement are not at their reference positions.
  */
-status driving_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start);
+status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start);
 
 #endif

@@ -17,11 +17,11 @@
 status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional);
 
 /* Writes the position of one lattice site of a body to X [dim, m]. The body must not come from a particle list. */
-status fill_place(const struct scene *s, int body, real *X);
+status fill_lattice_site(const struct scene *s, int body, real *X);
 
 /* Marks in hollow->whole [cells of hollow->box] the cells all of whose lattice sites are inside the body. The caller
  * sets hollow->box and frees hollow->whole. */
-void fill_whole(struct hollow *hollow, const struct scene *s, int body);
+void fill_mark_whole_cells(struct hollow *hollow, const struct scene *s, int body);
 
 /* Compares the distances between particles of each list with the spacing (fill_lists.c). REFUSED if they differ so much
  * that the list must be in another length unit, or if the bonds would exceed any memory. */

@@ -53,10 +53,10 @@ struct particle_list {
 status particle_list_read(struct particle_list *l, const char *path, int dim);
 
 /* Reads only the column names of a particle list, and fails as particle_list_read does. */
-status particle_list_look(struct particle_list_head *head, const char *path, int dim);
+status particle_list_read_head(struct particle_list_head *head, const char *path, int dim);
 
 /* Returns true if the file name extension is one of a particle list. */
-bool particle_list_named(const char *path);
+bool is_particle_list_name(const char *path);
 
 /* Releases the arrays of a list. */
 void particle_list_free(struct particle_list *l);

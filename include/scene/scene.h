@@ -294,7 +294,7 @@ static inline real scene_section(const struct scene *s)
 int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material);
 
 /* Returns true if particles of the body can consist of this material, an index into scene.material. */
-bool scene_body_has(const struct scene_body *b, int material);
+bool scene_body_has_material(const struct scene_body *b, int material);
 
 /* Releases the members of a scene; scene_read.h reads one. */
 void scene_free(struct scene *s);
@@ -309,28 +309,28 @@ const char *scene_frame_not_default(const struct scene *s, int body);
 
 /* Prints the table of keys: all keys (key NULL), the keys below a prefix, or one key. REFUSED for an unknown key; the
  * message names the nearest one. */
-status scene_help(FILE *out, const char *key);
+status scene_print_help(FILE *out, const char *key);
 
 /* Returns true for a key of scenes and for a prefix of several keys. */
 bool scene_has_key(const char *key);
 
 /* Prints the units of numbers. */
-void scene_help_units(FILE *out);
+void scene_print_units(FILE *out);
 
 /* Prints a JSON schema of scenes, for editors. */
-status scene_schema(FILE *out);
+status scene_print_schema(FILE *out);
 
 /* Prints the functions, operators and variables of expressions. */
-void scene_help_expressions(FILE *out);
+void scene_print_expressions(FILE *out);
 
 /* Writes the keys for the manual page (troff). */
-void scene_manual_keys(FILE *out);
+void scene_print_manual_keys(FILE *out);
 
 /* Writes the keys that `-s` can set, one per line, with 0 as the index of a list item. */
-void scene_override_keys(FILE *out);
+void scene_print_override_keys(FILE *out);
 
 /* Writes the reference of all keys as Markdown (inputs/keys.md): first a table of the keys without subkeys, then a
  * table for each key with subkeys. */
-void scene_reference(FILE *out);
+void scene_print_reference(FILE *out);
 
 #endif

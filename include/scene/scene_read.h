@@ -23,13 +23,13 @@ struct pilot_wish {
     char model[16];        /* given by the scene; "": not given */
     bool at_rest;          /* the solver is not explicit */
     bool has_accuracy;     /* the scene has the key `accuracy` */
-    /* The scene with a provisional method (adaptive or pd) and, where none is given, the spacing of spacing_coarse
-     * (1 m if there is none); release it with scene_free. */
+    /* The scene with a provisional method (adaptive or pd) and, where none is given, the spacing of
+     * spacing_that_resolves (1 m if there is none); release it with scene_free. */
     struct scene provisional;
 };
 
 /* Reads a scene as scene_read does, but accepts `method: auto`: then w->wanted is true, w is filled and s is empty. */
-status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *path,
-                          const struct scene_override *override, int overrides);
+status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
+                                const struct scene_override *override, int overrides);
 
 #endif

@@ -12,6 +12,6 @@ real spacing_fit(const struct scene *s, real h, bool even);
 
 /* Returns a spacing [m] at which each length that a solution must resolve has a few spacings, or 0 if the scene has no
  * such length: edges of bodies, radii, cracks and their ligaments, pulses and wavelengths, rings of sif probes. */
-real spacing_coarse(const struct scene *s);
+real spacing_that_resolves(const struct scene *s);
 
 #endif

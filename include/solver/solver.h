@@ -72,11 +72,11 @@ solver_step_fn relaxation_step, cg_step;
 
 /* Returns the largest magnitude of a component of the vectors v, in their unit. dim: number of components of a vector;
  * n: number of vectors. */
-real solver_largest(const struct field *v, int dim, int64_t n);
+real solver_largest_component(const struct field *v, int dim, int64_t n);
 
 /* Sets s->residual [1] and s->scale [N] from norms of forces. reaction: norm of the forces on constrained components
  * [N]; left: norm of the forces on free components, which vanish in equilibrium [N]. */
-void solver_scale(struct solver *s, real reaction, real left);
+void solver_set_residual(struct solver *s, real reaction, real left);
 
 /* Saves the state of a static iteration to the archive if a->saving, else restores it. Returns FAILED if the archive
  * cannot be read or written or a stored size differs. */

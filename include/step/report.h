@@ -58,7 +58,7 @@ struct run_report {
 
 /* Returns the number of frames of the whole body that the run writes after the frame at t = 0. clock: time step and
  * number of steps of the run. */
-int64_t report_frames(const struct scene *s, const struct run_clock *clock);
+int64_t report_count_frames(const struct scene *s, const struct run_clock *clock);
 
 /* Returns the number of the time step after which frame k of the whole body is written, k >= 0; frame 0 is written at
  * t = 0. clock: time step and number of steps of the run. */
@@ -72,7 +72,7 @@ unsigned report_frames_due(const struct output *out, const struct scene *s, cons
 
 /* Returns true if a sample (a line of history.csv) is taken in the next time step. Samples are spread evenly over the
  * run. For a scene without time steps, returns true before the first step only; its equilibria are sampled by
- * sample_rest. */
+ * sample_equilibrium. */
 bool report_sample_due(const struct scene *s, const struct run_clock *clock);
 
 /* Starts the reports of a run before the first time step of this process: opens history.csv and, unless the run is
@@ -96,20 +96,20 @@ real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const
 
 /* Warns at the end of a run if energy or angular momentum is not conserved, if interface damping took much energy, or
  * if bonds broke in a collision that is too fast for the particle spacing. */
-void say_balance(struct run *e);
+void warn_of_imbalance(struct run *e);
 
 /* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
  * warning is added to *to and printed; *r stores that it has been given, so that later calls do nothing. */
-void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
+void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);
 
 /* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores
  * pointers to them in *extra, from which the frame is written. asked: set of these fields, as bits ASK_...
- * (output/output.h). Before the call, the positions and stresses of all particles must be up to date (run_sync), and
- * extra->more, the material points of coarse cells, must be set. Call fields_free once the frame has been copied by
- * output_frame_begin. */
-void fields_make(struct run *e, unsigned asked, struct frame_extra *extra);
+ * (output/output.h). Before the call, the positions and stresses of all particles must be up to date
+ * (run_update_particles), and extra->more, the material points of coarse cells, must be set. Call frame_fields_free
+ * once the frame has been copied by output_frame_begin. */
+void frame_fields_compute(struct run *e, unsigned asked, struct frame_extra *extra);
 
-/* Frees the fields that fields_make has allocated for a frame. */
-void fields_free(struct frame_extra *extra);
+/* Frees the fields that frame_fields_compute has allocated for a frame. */
+void frame_fields_free(struct frame_extra *extra);
 
 #endif

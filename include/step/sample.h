@@ -25,21 +25,21 @@ void sample_end(struct run *e);
 
 /* Takes a complete sample of a body in equilibrium and writes its line of history.csv. Call it at the start of a
  * static run and after each load step. */
-void sample_rest(struct run *e);
+void sample_equilibrium(struct run *e);
 
 /* Takes the sample after the last time step and writes its line of history.csv. Brings positions, velocities and
- * stresses of all particles up to date, except the stress of peridynamic particles (run_stress). */
-void sample_last(struct run *e);
+ * stresses of all particles up to date, except the stress of peridynamic particles (compute_bond_stress). */
+void sample_final(struct run *e);
 
 /* Returns the elastic energy of bonds, material points and mesh cells at the present positions [J]. */
-real sample_strain(struct run *e);
+real sample_strain_energy(struct run *e);
 
-/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_step). In a static run, call it in
+/* Updates the probes that observe every step (BREAK, SPALL, REACTION; probes_update_step). In a static run, call it in
  * equilibrium states only. */
-void sample_probes(struct run *e);
+void sample_update_probes(struct run *e);
 
 /* Records the bonds that broke in this step: updates the first break of the run and the BREAK and SPALL probes, and
  * warns if driven particles lose bonds. broken: number of directed bonds that broke. */
-void sample_breaks(struct run *e, int64_t broken);
+void sample_record_breaks(struct run *e, int64_t broken);
 
 #endif

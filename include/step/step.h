@@ -18,11 +18,11 @@ bool step_convert(struct run *e, int64_t broken);
  * forces of cells and of bonds to mesh points into the nodal forces of the mesh. Material points of the mesh that have
  * bonds, and mirror images of particles, are first brought to their present positions. Bonds stretched beyond their
  * limit break. */
-void run_forces(struct run *e);
+void run_compute_forces(struct run *e);
 
 /* Brings positions, velocities and stresses of all particles up to date, as frames need them: points of a mesh from
  * its nodes, stresses of peridynamic particles from their bonds. */
-void run_sync(struct run *e);
+void run_update_particles(struct run *e);
 
 /* Computes the critical time step, and sets the time step dt and the number of steps in e->clock. Returns REFUSED if
  * time.step of the scene is too long for coarse cells, or if the run would have more than 1e12 steps. */

@@ -29,7 +29,7 @@ struct viscosity {
 /* Adds the viscous forces of bonds to the forces of particles, computes the viscous pressure q of points on the grid,
  * and adds the energy dissipated since the previous step to viscosity.taken. Call it after the bond forces and before
  * the loads. Does nothing if no material is viscous. */
-void viscosity_push(struct run *e);
+void viscosity_add_forces(struct run *e);
 
 /* Subtracts the viscous pressure q from the normal stresses of points on the grid if `on` is true, before their
  * stresses are mapped to nodes. If `on` is false, restores the stresses without q. Does nothing if no material is
@@ -38,12 +38,12 @@ void viscosity_to_stress(struct viscosity *v, const struct particles *p, bool on
 
 /* Adds the viscous forces of cells to the nodal forces of the mesh in the reference frame, and the energy that they
  * dissipated since the previous step to viscosity.taken. Does nothing if no material is viscous. */
-void viscosity_push_nodes(struct run *e);
+void viscosity_add_nodal_forces(struct run *e);
 
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 that the speeds of bodies, supports and loads lead to expect. speed: the largest of
  * particles at t = 0 [m/s]. */
-real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p, real speed);
+real viscosity_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed);
 
 /* The fastest collision of bodies that a scene expects. */
 struct shock {
@@ -53,6 +53,6 @@ struct shock {
 
 /* Returns the fastest collision between two bodies, or between a body and a rigid body, within the duration of a
  * scene, as far as their initial velocities and positions lead to expect. */
-struct shock shock_expected(const struct scene *s);
+struct shock fastest_collision_expected(const struct scene *s);
 
 #endif

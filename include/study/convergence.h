@@ -65,6 +65,6 @@ double convergence_half_width(const struct convergence *c, double about, double 
 void convergence_intervals(struct convergence *c);
 
 /* Returns the 97.5 % quantile of Student's t distribution with n >= 1 degrees of freedom. */
-double student_95(int n);
+double student_quantile(int n);
 
 #endif

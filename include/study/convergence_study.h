@@ -18,7 +18,7 @@ struct spacings {
 
 /* Chooses the particle spacings of a convergence study of the scene s and stores them in *to: `levels` levels whose
  * spacings have the ratio sqrt(2), the finest near `finest` [m], such that the lattice fits the bodies and cracks. */
-void spacings_plan(struct spacings *to, const struct scene *s, int levels, double finest);
+void spacings_choose(struct spacings *to, const struct scene *s, int levels, double finest);
 
 /* Parameters in which a run of the study differs from the scene. */
 struct study_point {
@@ -40,7 +40,7 @@ struct convergence_study {
     int runs[LEVELS_MOST];  /* number of runs of each level */
     bool fixed_horizon;     /* the horizon keeps its length [m] at all spacings, instead of its number of spacings */
     int own;                /* level with the spacing of the scene; -1: that spacing exceeds the budget */
-    double budget, begun;   /* allowed duration [s]; start time on team_clock [s] */
+    double budget, begun;   /* allowed duration [s]; start time on wall_clock [s] */
     double spent, expected; /* duration of the first run [s]; predicted duration of all, run in parallel [s] */
     struct study_table table;
 };
@@ -88,8 +88,8 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
 
 /* Checks that the table and the pictures of a convergence study may be written to `folder`. Returns REFUSED if one of
  * these files exists in the folder of a study and Cleave did not write it. Returns OK for any other folder, which
- * study_take checks. */
-status figures_guard(const char *folder);
+ * study_lock_folder checks. */
+status figures_check_replaceable(const char *folder);
 
 /* Writes the table of figure[figures] to the file converge.csv in the folder of the study, and the text of the scene
  * to the file that identifies the study. Returns FAILED if a file cannot be written. */

@@ -76,7 +76,7 @@ void study_folder_default(char *to, size_t room, const struct scene *scene, cons
 
 /* Checks that `folder` is free for a study of the scene with the given text. Returns REFUSED if the folder holds a
  * study of another scene, or files that Cleave did not write. */
-status study_folder_fits(const char *folder, const char *text);
+status study_folder_check_scene(const char *folder, const char *text);
 
 /* Marks `folder` as the folder of a study by writing the file STUDY_SCENE without a scene, unless it is one already.
  * Returns REFUSED if the folder holds files that Cleave did not write, or if its subfolder `logs` or `pictures` is a
@@ -85,14 +85,14 @@ status study_folder_claim(const char *folder);
 
 /* Checks `folder` as study_folder_claim does, but writes nothing. Returns REFUSED if the folder holds files that
  * Cleave did not write, or if its subfolder `logs` or `pictures` is a link. */
-status study_folder_guard(const char *folder);
+status study_folder_check(const char *folder);
 
 /* Returns true if `folder` holds the file STUDY_SCENE of a study of the scene with the given text. */
-bool study_scene_same(const char *folder, const char *text);
+bool study_has_scene(const char *folder, const char *text);
 
 /* Writes the file STUDY_SCENE to `folder`: a first line by which Cleave recognises the file, then the text of the
  * scene. Returns FAILED if the file cannot be written. */
-status study_scene_put(const char *folder, const char *text);
+status study_write_scene(const char *folder, const char *text);
 
 /* Frees the runs, texts and tables of the study *s and unlocks its folder. */
 void study_free(struct study *s);
@@ -105,7 +105,7 @@ struct study_case *study_add(struct study *s, const char *name, const struct sce
 
 /* Adds one run to the study for every combination of the values of the keys key[keys]; the values of the last key vary
  * fastest. Returns REFUSED if there would be more than CASES_MOST runs. */
-status study_cross(struct study *s, const struct varied_key *key, int keys);
+status study_add_combinations(struct study *s, const struct varied_key *key, int keys);
 
 /* Reads the scene of every run of the study and sets the states of the runs: CASE_SAME if another run has an equal
  * scene, CASE_DONE_BEFORE if the folder of the run holds its results and, if `collect` is true, CASE_FAILED if it
@@ -118,12 +118,12 @@ void study_print_same(const struct study *s, FILE *out);
 
 /* Returns the value of the key called `key` among the overrides of a run, "" if the run does not override that key.
  * The text belongs to the run. */
-const char *study_value(const struct study_case *c, const char *key);
+const char *study_case_value(const struct study_case *c, const char *key);
 
 /* Closes `to`, a memory stream that memory_stream_open has opened on *text and *length, and writes its *length bytes
  * as the file `name` in the folder of the study; frees *text. Returns FAILED if `to` is NULL because memory was
  * exhausted, or if the file cannot be written. */
-status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
+status study_write_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length);
 
 /* Returns the run whose results stand for those of run c: the run with an equal scene if the state of c is CASE_SAME,
  * else c. */
@@ -138,7 +138,7 @@ struct path study_folder(const struct study *s, const struct study_case *c);
 struct study_options {
     int jobs, threads;                 /* parallel runs; threads of each run; 0: determined from the number of cores */
     bool overwrite, quiet;             /* replace older runs; print nothing */
-    double until;                      /* time on team_clock at which no run is started and running ones are stopped;
+    double until;                      /* time on wall_clock at which no run is started and running ones are stopped;
                                         * 0: never [s] */
     const volatile sig_atomic_t *stop; /* set by a signal handler: running runs stop with a checkpoint and no run is
                                         * started */
@@ -147,12 +147,12 @@ struct study_options {
 /* Locks the folder of the study for this process and writes the file STUDY_SCENE. Returns REFUSED if the folder does
  * not exist, is that of a single run, holds files that Cleave did not write, is in use by another process or, unless
  * `overwrite` is true, holds a study of another scene. */
-status study_take(struct study *s, bool overwrite);
+status study_lock_folder(struct study *s, bool overwrite);
 
 /* Creates and locks the folder of the study and executes all runs whose state is CASE_WAITING, each as a separate
  * process. how: number of parallel runs and other options. If a run fails, its state becomes CASE_FAILED, a line
- * appears on standard error, and the study continues. Returns REFUSED as study_take does, FAILED if a process cannot
- * be started, INTERRUPTED if how.stop is set. */
+ * appears on standard error, and the study continues. Returns REFUSED as study_lock_folder does, FAILED if a process
+ * cannot be started, INTERRUPTED if how.stop is set. */
 status study_run(struct study *s, struct study_options how);
 
 /* Prints to `out` the shell command that executes run c alone, valid in any current folder, with quotes where the
@@ -176,7 +176,7 @@ status study_table_read(struct study_table *t, const struct study *s);
 void study_table_free(struct study_table *t);
 
 /* Returns the index in t->figure of the figure called `name`, or -1 if there is none. */
-int study_figure(const struct study_table *t, const char *name);
+int study_find_figure(const struct study_table *t, const char *name);
 
 /* Checks that runs of the scene s can have a figure (a number in summary.json) called `name` (figure_names.c). Returns
  * REFUSED if not, with the most similar name in the message. */
@@ -187,12 +187,12 @@ status figure_name_check(const struct scene *s, const char *name);
 bool study_figure_is_technical(const char *name);
 
 /* Reads the header of the history.csv of the first run that has such a file into `header`, which holds `room` bytes;
- * "" if there is none. study_unit takes units from the header. */
-void study_header_read(char *header, size_t room, const struct study *s);
+ * "" if there is none. study_figure_unit takes units from the header. */
+void study_read_history_header(char *header, size_t room, const struct study *s);
 
 /* Determines the SI unit of the figure called `figure` and writes it to `unit`, which holds `room` bytes; "" if the
- * figure has no unit or it is unknown. header: text from study_header_read. */
-void study_unit(char *unit, size_t room, const char *header, const char *figure);
+ * figure has no unit or it is unknown. header: text from study_read_history_header. */
+void study_figure_unit(char *unit, size_t room, const char *header, const char *figure);
 
 /* Prints each distinct warning of the runs of a study to `out`: the number of runs that have it, and the text of the
  * first one. */
@@ -204,8 +204,8 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* Checks that the table sweep.csv and the pictures of the study may be written, one picture for each of the keys
  * key[keys]. Returns REFUSED if one of these files exists in the folder of a study and Cleave did not write it.
- * Returns OK for any other folder, which study_take checks. */
-status study_output_guard(const struct study *s, const struct varied_key *key, int keys);
+ * Returns OK for any other folder, which study_lock_folder checks. */
+status study_check_output_files(const struct study *s, const struct varied_key *key, int keys);
 
 /* Draws the figures of a study over the values of each of its varied keys, pictures/KEY.png in the folder of the
  * study, and pictures/map.png over two keys. key[keys]: keys of the study and their values. Returns FAILED if a

@@ -12,6 +12,6 @@ struct path pilot_folder(const char *folder);
 /* Reads the half-widths of the 95 % intervals of figures from an existing convergence study of the scene s: that in
  * NAME_converge beside `folder`, the folder of the run, or else that of its pilot runs. Stores at most `most`
  * half-widths in bar[]. Returns their number; 0 if there is no study of this scene or it cannot be read. */
-int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder);
+int error_bars_read(struct error_bar *bar, int most, const struct scene *s, const char *folder);
 
 #endif

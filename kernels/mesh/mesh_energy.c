@@ -37,7 +37,7 @@ static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_
 real mesh_kinetic(const struct mesh *mesh)
 {
     real sum = 0;
-    if (mesh->points > 0) team_sums(mesh->grid.n, 1, mesh_energy_kinetic_block, mesh, &sum);
+    if (mesh->points > 0) reproducible_sums(mesh->grid.n, 1, mesh_energy_kinetic_block, mesh, &sum);
     return sum;
 }
 
@@ -61,7 +61,7 @@ real mesh_kick(const struct mesh *mesh, real dt)
 {
     real sum = 0;
     if (mesh->points == 0) return 0;
-    team_sums(mesh->grid.n, 1, mesh_energy_kick_block, mesh, &sum);
+    reproducible_sums(mesh->grid.n, 1, mesh_energy_kick_block, mesh, &sum);
     /* constrained nodes move as prescribed; their work is booked as they move */
     for (int64_t k = 0; k < mesh->grid.walls; k++) {
         const struct wall *w = &mesh->grid.wall[k];
@@ -152,5 +152,6 @@ real mesh_strain(const struct mesh *mesh, const struct particles *p, const struc
     struct strain_sum s = {mesh, p, m, finite};
     const int dim = mesh->grid.dim;
     if (mesh->points == 0) return 0;
-    return team_sum(mesh_groups(mesh), partial[dim][finite], &s) + team_sum(mesh->runs, run[dim][finite], &s);
+    return reproducible_sum(mesh_groups(mesh), partial[dim][finite], &s) +
+           reproducible_sum(mesh->runs, run[dim][finite], &s);
 }

@@ -114,9 +114,9 @@ struct microbench_lattice *microbench_lattice_make(int dim)
 
 double microbench_lattice_run(struct microbench_lattice *s)
 {
-    double start = team_clock();
+    double start = wall_clock();
     stencil_sweep[s->dim](s);
-    return (team_clock() - start) / (double)(s->n * s->neighbours);
+    return (wall_clock() - start) / (double)(s->n * s->neighbours);
 }
 
 void microbench_lattice_free(struct microbench_lattice *s)
@@ -139,7 +139,7 @@ struct microbench_triad {
 struct microbench_triad *microbench_triad_make(void)
 {
     struct microbench_triad *t = NEW("bench.triad", 1, struct microbench_triad);
-    int64_t bytes = 2 * team_machine().cache[3];
+    int64_t bytes = 2 * machine_properties().cache[3];
     t->n = (bytes > 64000000 ? bytes : 64000000) / (int64_t)sizeof(real);
     t->a = NEW("bench.triad.a", t->n, real);
     t->b = NEW("bench.triad.b", t->n, real);
@@ -152,10 +152,10 @@ double microbench_triad_run(struct microbench_triad *t)
     real *restrict a = t->a;
     const real *restrict b = t->b, *restrict c = t->c;
     const real q = 3;
-    double start = team_clock();
+    double start = wall_clock();
 #pragma omp parallel for simd schedule(static)
     for (int64_t i = 0; i < t->n; i++) a[i] = b[i] + q * c[i];
-    return 3.0 * sizeof(real) * (double)t->n / (team_clock() - start);
+    return 3.0 * sizeof(real) * (double)t->n / (wall_clock() - start);
 }
 
 void microbench_triad_free(struct microbench_triad *t)

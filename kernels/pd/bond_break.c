@@ -36,7 +36,7 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 {
     b->w[q] = 0;
     b->inverse_length[q] = -b->inverse_length[q];
-    bonds_changed(b, row, q);
+    bonds_update_common_of_bond(b, row, q);
     b->broken[row]++;
     b->broken_volume[row] += (float)p->volume0[j];
     set_flag(p, i, is_driven(p, i) || is_driven(p, j) ? FLAG_LOST_BOND : FLAG_LOST_BOND | FLAG_CRACKED);
@@ -46,7 +46,8 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
 /* Updates the weighted volume of a row after a change of its weights, where families are normalised locally. */
 static void row_changed(struct bonds *b, int64_t row)
 {
-    if (b->state.modulus && b->state.local && b->whole[row]) b->state.weighted[row] = state_weight_left(b, row);
+    if (b->state.modulus && b->state.local && b->whole[row])
+        b->state.weighted[row] = state_intact_weighted_volume(b, row);
 }
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
@@ -90,14 +91,14 @@ void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, rea
         bond_end(b, p, row, q, i, j);
     else
         b->w[q] = 0;
-    bonds_changed(b, row, q);
+    bonds_update_common_of_bond(b, row, q);
     row_changed(b, row);
     b->fracture_energy[row] += 0.5 * (before - (state ? state_row_energy(b, p, row, 0) : half_energy(b, q, stretch)));
 }
 
 void bond_break_entry(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
-    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_expand(b, row / LANES);
+    if (__atomic_load_n(&b->implicit[row / LANES], __ATOMIC_ACQUIRE)) row_block_write_columns(b, row / LANES);
     bond_break(b, p, limit, row, q);
 }
 
@@ -108,7 +109,7 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     b->inverse_length[q] = -b->inverse_length[q];
     b->broken[row]--;
     b->broken_volume[row] -= (float)p->volume0[b->nbr[q]];
-    bonds_changed(b, row, q);
+    bonds_update_common_of_bond(b, row, q);
     row_changed(b, row);
 }
 

@@ -104,7 +104,7 @@ static real bond_measure_plastic_term(const void *context, int64_t row) { return
 
 real bond_plastic_work(const struct bonds *b)
 {
-    return b->plastic_path ? team_sum(b->rows, bond_measure_plastic_term, b) : 0;
+    return b->plastic_path ? reproducible_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
 /* Row blocks are summed in blocks of fixed size, and the blocks in order: equal bits on any number of threads. */

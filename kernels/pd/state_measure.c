@@ -114,7 +114,7 @@ struct row_block_sum {
     }                                                                                                                  \
     static real state_energy_##D##d_##M(const struct bonds *b, const struct particles *p)                              \
     {                                                                                                                  \
-        return team_sum(b->row_blocks, energy_term_##D##d_##M, &(struct row_block_sum){b, p});                         \
+        return reproducible_sum(b->row_blocks, energy_term_##D##d_##M, &(struct row_block_sum){b, p});                 \
     }                                                                                                                  \
     static void state_stress_##D##d_##M(const struct bonds *b, struct particles *p)                                    \
     {                                                                                                                  \

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-status arguments_override(struct run_arguments *a, const char *text)
+status arguments_add_override(struct run_arguments *a, const char *text)
 {
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
@@ -28,7 +28,7 @@ static bool count_read(int *count, const char *text, int least, int most)
     return true;
 }
 
-status option_count(int *count, const char *option, const char *text, int least, int most)
+status option_read_count(int *count, const char *option, const char *text, int least, int most)
 {
     return count_read(count, text, least, most)
                ? OK
@@ -42,7 +42,7 @@ static status read_threads(struct run_arguments *a, const char *text)
                : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is wanted", text, THREADS_MOST);
 }
 
-bool arguments_take(int *argc, char **argv, const char *option)
+bool arguments_remove_option(int *argc, char **argv, const char *option)
 {
     int kept = 0;
     for (int k = 0; k < *argc; k++)
@@ -61,7 +61,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))
-            TRY(arguments_override(a, argv[++k]));
+            TRY(arguments_add_override(a, argv[++k]));
         else if (!strcmp(word, "-t"))
             TRY(read_threads(a, argv[++k]));
         else if (!strcmp(word, "--resume"))

@@ -15,16 +15,16 @@ struct run_arguments {
 };
 
 /* Reads the whole number that follows an option. REFUSED unless it is from least to most. */
-status option_count(int *count, const char *option, const char *text, int least, int most);
+status option_read_count(int *count, const char *option, const char *text, int least, int most);
 
 /* Removes an option without a value, specific to one command, from argv. Returns true if argv contained it. */
-bool arguments_take(int *argc, char **argv, const char *option);
+bool arguments_remove_option(int *argc, char **argv, const char *option);
 
 /* Reads the words of a command; argv[0] is its name. REFUSED with the usage line for malformed words. */
 status arguments_read(struct run_arguments *a, int argc, char **argv, const char *usage);
 
 /* Appends the text `key=value` of an option -s to a->override, which must have memory for it. */
-status arguments_override(struct run_arguments *a, const char *text);
+status arguments_add_override(struct run_arguments *a, const char *text);
 
 /* Releases the overrides. */
 void arguments_free(struct run_arguments *a);

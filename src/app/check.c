@@ -113,7 +113,7 @@ static void say_notches(const struct run *e)
     const int n = e->coupling->notches.n;
     char text[256];
     for (int k = 0; k < n && k < SAID; k++) {
-        notch_text(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
+        notch_describe(&e->coupling->notches, k, e->scene->spacing, text, sizeof text);
         printf("notch          crack %d: %s\n", k + 1, text);
     }
     if (n > SAID) printf("notch          and %d more\n", n - SAID);
@@ -122,7 +122,7 @@ static void say_notches(const struct run *e)
 static void say_time_step(const struct run *e)
 {
     if (scene_in_steps(e->scene))
-        say_load_steps(e);
+        print_load_steps(e);
     else if (scene_at_rest(e->scene))
         printf("solver         static equilibrium to a residual of %.3g of the load, in at most %lld steps\n",
                e->scene->solver_tolerance, (long long)e->clock.steps);
@@ -148,7 +148,7 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
 {
     const char *many = threads > 1 ? "s" : "";
     if (scene_in_steps(e->scene))
-        say_load_steps_cost(e, c, threads);
+        print_load_steps_cost(e, c, threads);
     else if (scene_at_rest(e->scene))
         printf("run time       about %.2g s for 1000 steps on %d thread%s", 1e3 * c->step, threads, many);
     else {
@@ -208,38 +208,38 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     TRY(result);
     say_contact_cost(e, &cost);
     say_cost(e, &cost, threads);
-    say_levels_saving(e, &cost);
+    print_levels_saving(e, &cost);
     return OK;
 }
 
 /* Sets up the scene, prints its resolved settings and its memory, and its cost unless `trial` is false. start: time
- * at which the reading of the scene began, on team_thread_clock [s]. REFUSED or FAILED if the set-up or a trial step
+ * at which the reading of the scene began, on thread_cpu_clock [s]. REFUSED or FAILED if the set-up or a trial step
  * is. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
     s->active_set = false; /* cost with the whole body active */
     status result = engine_make(&e, s, NULL);
-    const double made = team_thread_clock() - start;
+    const double made = thread_cpu_clock() - start;
     if (result == OK) {
-        printf("%s is sound\n", shown_name(a->scene).text);
+        printf("%s is sound\n", printable_name(a->scene).text);
         say_particles(&e);
-        say_filled(&e);
-        say_shapes(&e);
-        say_pieces(&e);
+        print_filled_volume(&e);
+        print_shapes(&e);
+        print_pieces(&e);
         say_materials(&e);
         say_frames(&e);
-        say_levels(&e);
+        print_levels(&e);
         say_notches(&e);
-        say_loads(&e);
+        print_loads(&e);
         say_time_step(&e);
         say_contact(&e);
-        engine_warn(&e);
+        engine_warn_of_input(&e);
         warn_of_yielding(e.scene, &e.warnings);
         warnings_print(&e.warnings, 0, stdout);
-        advise(&e, stdout);
+        print_accuracy_advice(&e, stdout);
         struct warnings hints = {0};
-        hints_find(&e, &hints);
+        hints_list(&e, &hints);
         if (trial) result = check_cost(&e, a, threads, made);
         for (int k = 0; k < hints.n; k++) printf("%-15s%s\n", k == 0 ? "hints" : "", hints.text[k]);
         warnings_free(&hints);
@@ -252,12 +252,12 @@ status command_check(int argc, char **argv)
 {
     struct run_arguments a;
     struct pilot_wish pilot;
-    const bool trial = !arguments_take(&argc, argv, "--no-trial");
+    const bool trial = !arguments_remove_option(&argc, argv, "--no-trial");
     TRY(arguments_read(&a, argc, argv, "check " CHECK_WORDS));
-    const int threads = team_make(a.threads);
-    const double start = team_thread_clock();
+    const int threads = team_set_threads(a.threads);
+    const double start = thread_cpu_clock();
     struct scene s = {0};
-    status result = scene_read_or_wish(&s, &pilot, a.scene, a.override, a.overrides);
+    status result = scene_read_or_pilot_wish(&s, &pilot, a.scene, a.override, a.overrides);
     if (result == OK && pilot.wanted) {
         result = pilot_plan_print(&pilot, a.scene, stdout);
         scene_free(&pilot.provisional);

@@ -52,12 +52,12 @@ static real mirrored_edge(const struct scene *scene, const struct bond_source *s
     return from && to ? INFINITY : (from || to ? 2 : 1) * (a->to[d] - a->from[d]);
 }
 
-real solid_size(const struct run *e, const struct solid *a)
+real solid_smallest_edge(const struct run *e, const struct solid *a)
 {
     real least = INFINITY;
     for (int d = 0; d < e->scene->dim && solid_is(a, SOLID_BOX); d++)
         least = real_min(least, mirrored_edge(e->scene, &e->source, a, d));
-    return real_min(least, solid_width(a, e->scene->dim));
+    return real_min(least, solid_least_thickness(a, e->scene->dim));
 }
 
 /* Largest relative error of the stiffness in bending, twisting and stretching of a part made of bonds or families,
@@ -72,7 +72,7 @@ static const struct {
                    {7, {2, 8}, {3, 12}, {23, 39}},
                    {10, {2, 6}, {2, 4}, {17, 31}}};
 #define USUAL_HORIZON 0.5 /* largest difference of the horizon from 3.015 for this table [spacings] */
-int stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
+int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers)
 {
     size_t row = 0;
     while (row + 1 < COUNT_OF(bending_off) && layers > bending_off[row + 1].layers - 0.5) row++;
@@ -87,11 +87,11 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
         fprintf(out, "; a single layer has no bending stiffness, and its stiffness in tension is off by up to %d %%",
-                stiffness_error(s, s->surface, layers));
+                layer_stiffness_error(s, s->surface, layers));
         return;
     }
     fprintf(out, "; as it is, its stiffness in bending, twisting and tension is off by up to about %d %%%s",
-            stiffness_error(s, s->surface, layers),
+            layer_stiffness_error(s, s->surface, layers),
             fabs(s->horizon - 3.015) <= USUAL_HORIZON ? ""
             : s->model == MODEL_MOSPD ? " at a horizon of 3.015 spacings, several times as much at others"
                                       : " at a horizon of 3.015 spacings, more at longer ones");
@@ -104,7 +104,7 @@ static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = check_layers(e, b, FEATURE * s->horizon), size = layers * s->spacing;
+        const double layers = count_thin_layers(e, b, FEATURE * s->horizon), size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(
             out,
@@ -228,7 +228,7 @@ static void advise_waves(const struct scene *s, const struct material_tables *ta
 /* Writes a line for bodies that collide so fast that oscillations behind the wave front can break or yield them. */
 static void advise_shocks(const struct scene *s, FILE *out)
 {
-    const struct shock shock = shock_expected(s);
+    const struct shock shock = fastest_collision_expected(s);
     if (shock.share > 0)
         fprintf(
             out,
@@ -243,7 +243,7 @@ static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
     char text[1024];
-    if (frame_levels_coarse(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
+    if (frame_levels_exceed_limit(&c, e->frame, e->scene, text, sizeof text)) fprintf(out, "accuracy       %s\n", text);
 }
 
 /* Returns the index of the body of a particle; joined bodies have one index. */
@@ -264,7 +264,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     for (int d = 0; d < p->dim; d++) hair[d] = 1e-7 * (c->corner[end][d] - c->corner[!end][d]);
     for (int d = 0; d < p->dim; d++) corner[0][end][d] += hair[d], corner[1][end][d] -= hair[d];
     int64_t tied = 0;
-    const int n = cells_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, room);
+    const int n = cells_find_near(&e->cells, p, c->corner[end], e->source.family.cutoff, -1, found, room);
     for (int k = 0; k < n; k++)
         for (int m = 0; m < k; m++) {
             real a[DIM_MAX], b[DIM_MAX], r2 = 0;
@@ -285,7 +285,7 @@ static void hint_ties(const struct run *e, struct warnings *to)
     int32_t found[ROOM];
     for (int k = 0; k < e->scene->cracks && e->part.dim == 2 && e->scene->method != METHOD_MPM; k++) {
         int64_t tied[2];
-        if (cells_most(&e->cells, e->source.family.cutoff) > ROOM) return;
+        if (cells_most_neighbours(&e->cells, e->source.family.cutoff) > ROOM) return;
         for (int end = 0; end < 2; end++) tied[end] = tied_bonds(e, &e->scene->crack[k], end, found, ROOM);
         const bool both = tied[0] > 0 && tied[1] > 0;
         if (tied[0] > 0 || tied[1] > 0)
@@ -301,7 +301,7 @@ static void hint_ties(const struct run *e, struct warnings *to)
 static void advise_formulas(const struct run *e, FILE *out)
 {
     for (int m = 0; m <= PULL_MOMENTS; m++) {
-        if (loads_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
+        if (loads_check_finite(&e->loads, &e->part, e->scene->duration * m / PULL_MOMENTS) == OK) continue;
         fprintf(out, "accuracy       %s: the run will stop at that time\n", status_message());
         return;
     }
@@ -312,7 +312,7 @@ static void advise_formulas(const struct run *e, FILE *out)
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
-    if (load_displacement_known(l->boundary) != OK) return;
+    if (load_check_displacement_known(l->boundary) != OK) return;
     for (int64_t k = 0; k < l->n; k += 1 + l->n / PULL_PLACES) {
         real u[DIM_MAX];
         load_displacement_at(l, p, k, t, u);
@@ -365,7 +365,7 @@ static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;
     real low[DIM_MAX] = {0}, high[DIM_MAX] = {0}, speed2 = 0, density = 0, traction = 0;
-    if (e->tables.wave_speed * s->duration > PASSAGES * particles_longest(&e->part)) return INFINITY;
+    if (e->tables.wave_speed * s->duration > PASSAGES * particles_longest_edge(&e->part)) return INFINITY;
     for (int64_t i = 0; i < e->part.n; i++)
         for (int d = 0; d < s->dim; d++)
             low[d] = real_min(low[d], e->part.v[d][i]), high[d] = real_max(high[d], e->part.v[d][i]);
@@ -375,7 +375,7 @@ static real stress_reached(const struct run *e)
         if (a->kind == BOUNDARY_BODY_FORCE || a->time.kind == TIME_TABLE || formula || a->rotates) return INFINITY;
         for (int d = 0; d < s->dim && a->kind == BOUNDARY_VELOCITY; d++)
             if (a->components & 1 << d) {
-                const real steep = a->displaces ? time_function_steepest(&a->time, s->duration) : 1;
+                const real steep = a->displaces ? time_function_largest_slope(&a->time, s->duration) : 1;
                 const real speed = a->value[d] == 0 ? 0 : steep * a->value[d];
                 low[d] = real_min(low[d], speed), high[d] = real_max(high[d], speed);
             }
@@ -395,7 +395,8 @@ static void hint_frame(const struct run *e, struct warnings *to)
         char text[80] = "";
         real strain = 0;
         for (int m = 0; m < e->scene->materials; m++)
-            if (scene_body_has(&e->scene->body[b], m)) strain = real_max(strain, reached / e->scene->material[m].young);
+            if (scene_body_has_material(&e->scene->body[b], m))
+                strain = real_max(strain, reached / e->scene->material[m].young);
         if (e->frame->choice[b].reference || scene_frame_not_default(e->scene, b)) continue;
         if (!frame_allowed(e->frame, &e->part, e->grid)) continue;
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
@@ -447,7 +448,7 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
     for (int axis = 0; axis < e->part.dim && e->part.dim > 1; axis++) {
         const size_t used = strlen(planes);
         real at;
-        if (!scene_is_mirrored(e, axis, &at)) continue;
+        if (!scene_is_symmetric(e, axis, &at)) continue;
         snprintf(planes + used, sizeof planes - used, "%s%c = %.6g m", n++ ? " and " : "", 'x' + axis, at);
     }
     if (n > 0)
@@ -457,23 +458,23 @@ static void hint_symmetry(const struct run *e, struct warnings *to)
                      planes, (long long)e->part.n, share[n], n > 1 ? "at each plane" : "there", share[n]);
 }
 
-void advise(const struct run *e, FILE *out)
+void print_accuracy_advice(const struct run *e, FILE *out)
 {
     advise_features(e, out);
-    advise_sections(e, out);
+    print_section_advice(e, out);
     advise_cracks(e->scene, e->fracture, out);
-    advise_incompressible(e, out);
+    print_incompressible_advice(e, out);
     advise_faces(e->scene, out);
-    advise_lists(e, out);
+    print_list_advice(e, out);
     advise_waves(e->scene, &e->tables, out);
     advise_shocks(e->scene, out);
-    advise_load_steps(e, out);
+    print_load_step_advice(e, out);
     advise_formulas(e, out);
     advise_levels(e, out);
     advise_separation(e, out);
 }
 
-void hints_find(const struct run *e, struct warnings *to)
+void hints_list(const struct run *e, struct warnings *to)
 {
     hint_ties(e, to);
     hint_model(e->scene, to);

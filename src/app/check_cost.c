@@ -52,18 +52,18 @@ static status time_steps(struct run *e, struct quartiles *step)
     int n = 0;
     e->report->quiet = e->warnings.silent = true;
     TRY(report_start(e));
-    const double begun = team_thread_clock();
+    const double begun = thread_cpu_clock();
     TRY(engine_step(e));
-    const double first = team_thread_clock() - begun;
+    const double first = thread_cpu_clock() - begun;
     while (n < PERIODS_MOST && all < SECONDS_MOST && (n < WINDOWS_LEAST || all < SECONDS_ENOUGH)) {
-        const double start = team_thread_clock();
+        const double start = thread_cpu_clock();
         int64_t taken = 0;
-        for (; taken < period && e->clock.step < e->clock.steps - 1 && team_thread_clock() - start < SECONDS_MOST;
+        for (; taken < period && e->clock.step < e->clock.steps - 1 && thread_cpu_clock() - start < SECONDS_MOST;
              taken++)
             TRY(engine_step(e));
         if (taken == 0) break;
-        all += team_thread_clock() - start;
-        spent[n++] = (team_thread_clock() - start) / (double)taken;
+        all += thread_cpu_clock() - start;
+        spent[n++] = (thread_cpu_clock() - start) / (double)taken;
     }
     *step = n > 0 ? quartiles_of(spent, n) : (struct quartiles){first, first, first};
     return OK;
@@ -75,9 +75,9 @@ static double time_force(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < SECONDS_ENOUGH || n < 3)) {
-        const double start = team_thread_clock();
-        run_forces(e);
-        all += spent[n++] = team_thread_clock() - start;
+        const double start = thread_cpu_clock();
+        run_compute_forces(e);
+        all += spent[n++] = thread_cpu_clock() - start;
     }
     return median_of(spent, n);
 }
@@ -88,11 +88,11 @@ static double time_contact(struct run *e)
     double spent[PERIODS_MOST], all = 0;
     int n = 0;
     while (n < PERIODS_MOST && (all < 0.1 * SECONDS_ENOUGH || n < 3)) {
-        const double start = team_thread_clock();
+        const double start = thread_cpu_clock();
         contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, e->clock.step, e->contact->broken,
                        e->contact->changed);
         contact_force(e->contact, &e->part, 0);
-        all += spent[n++] = team_thread_clock() - start;
+        all += spent[n++] = thread_cpu_clock() - start;
     }
     return median_of(spent, n);
 }
@@ -117,16 +117,16 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
 /* Returns the processor time of all steps [s]; NAN if they fail or take far longer than expected. */
 static double all_steps(struct run *e)
 {
-    const double start = team_thread_clock(), began = team_clock();
+    const double start = thread_cpu_clock(), began = wall_clock();
     e->report->quiet = e->warnings.silent = true;
-    memory_reuse(true);
+    memory_set_reuse(true);
     if (report_start(e) != OK) return NAN;
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {
         if (engine_step(e) != OK || stability_check(e) != OK || report_step(e) != OK) return NAN;
-        if (team_thread_clock() - start > PATIENCE * SECONDS_WHOLE || team_clock() - began > WALL_MOST) return NAN;
+        if (thread_cpu_clock() - start > PATIENCE * SECONDS_WHOLE || wall_clock() - began > WALL_MOST) return NAN;
     }
-    return engine_baseline(e) == OK ? team_thread_clock() - start : NAN;
+    return engine_run_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
 }
 
 /* Returns the time of all steps of another scene [s]: measured if `whole`, else extrapolated from the first steps;
@@ -144,7 +144,7 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
         else if (time_steps(&e, &step) == OK)
             seconds = step.median * (double)e.clock.steps;
     }
-    if (found) warnings_join(found, &e.warnings, 0);
+    if (found) warnings_append_from(found, &e.warnings, 0);
     engine_free(&e);
     scene_free(&s);
     return seconds;
@@ -177,7 +177,7 @@ static double output_seconds(const struct run *e)
     for (int k = 0; k < e->scene->n_series; k++) /* all particles are updated for each frame of a region */
         files += fmin(e->scene->duration / e->scene->series[k].every, (double)e->clock.steps) + 1;
     return START_SECONDS + files * (FILE_SECONDS + FILE_SECONDS_PARTICLE * (double)e->part.n +
-                                    FILE_SECONDS * (double)probes_profiled(&e->probing->probes));
+                                    FILE_SECONDS * (double)probes_count_profiles(&e->probing->probes));
 }
 
 /* Factors from the estimated time of a run to its bounds, by the basis of the estimate. The values are empirical,
@@ -198,7 +198,7 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->basis = COST_TRIED;
     if (!isnan(loop)) { /* includes the warnings of the first steps, whose time may differ in the last digits */
         warnings_free(&c->found);
-        warnings_join(&c->found, &found, 0);
+        warnings_append_from(&c->found, &found, 0);
     }
     warnings_free(&found);
     if (isnan(loop)) {
@@ -262,7 +262,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
     if (scene_in_steps(e->scene)) {
         c->output = output_seconds(e) + FILE_SECONDS * e->scene->steps.number; /* one checkpoint after each load step */
         const status result = cost_load_steps(c, e);
-        warnings_join(&c->found, &e->warnings, known);
+        warnings_append_from(&c->found, &e->warnings, known);
         TRY(result);
         c->bytes = (double)memory_peak() + output_bytes(&e->part, e->scene);
         return OK;
@@ -275,7 +275,7 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
     }
     struct quartiles step;
     const status result = time_steps(e, &step);
-    warnings_join(&c->found, &e->warnings, known);
+    warnings_append_from(&c->found, &e->warnings, known);
     TRY(result);
     c->step = step.median, c->spread = real_max(step.upper / step.median, step.median / step.lower);
     c->contact = time_contact(e) / c->step;

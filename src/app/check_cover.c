@@ -57,7 +57,7 @@ static int64_t cover_index(const struct cover *c, const int64_t *at)
     return (at[2] * c->n[1] + at[1]) * c->n[0] + at[0];
 }
 
-void cover_place(const struct cover *c, int64_t cell, int64_t *at)
+void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *at)
 {
     at[0] = cell % c->n[0], at[1] = cell / c->n[0] % c->n[1], at[2] = cell / c->n[0] / c->n[1];
 }
@@ -65,7 +65,7 @@ void cover_place(const struct cover *c, int64_t cell, int64_t *at)
 static void cell_middle(const struct cover *c, int64_t cell, real *X)
 {
     int64_t at[DIM_MAX];
-    cover_place(c, cell, at);
+    cover_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
@@ -76,7 +76,7 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     int64_t at[DIM_MAX];
     real X[DIM_MAX];
     bool beside = false;
-    cover_place(c, cell, at);
+    cover_cell_indices(c, cell, at);
     for (int k = 0; k < 27; k++) {
         const int64_t near[DIM_MAX] = {at[0] + k % 3 - 1, at[1] + k / 3 % 3 - 1, at[2] + k / 9 - 1};
         bool within = true;
@@ -97,7 +97,7 @@ static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
     bool thin = false, beside = false;
-    cover_place(c, cell, at);
+    cover_cell_indices(c, cell, at);
     for (int d = 0; d < c->dim; stride *= c->n[d], d++) {
         const bool before = at[d] > 0 && c->filled[cell - stride];
         const bool after = at[d] + 1 < c->n[d] && c->filled[cell + stride];
@@ -155,7 +155,7 @@ bool cover_make(struct cover *c, const struct piece *p)
     real from[DIM_MAX], to[DIM_MAX], all = 1;
     *c = (struct cover){.dim = s->dim, .spacing = s->spacing, .n = {1, 1, 1}};
     if (s->body[p->body].file || s->dim < 2 || !(s->spacing > 0)) return false;
-    if (!piece_bounds(p, from, to) || fill_place(s, p->body, c->first) != OK) return false;
+    if (!piece_bounds(p, from, to) || fill_lattice_site(s, p->body, c->first) != OK) return false;
     for (int d = 0; d < s->dim; d++) {
         c->first[d] += real_max(0, floor((from[d] - c->first[d]) / s->spacing) - 1) * s->spacing;
         all *= (to[d] - c->first[d]) / s->spacing + 3;

@@ -31,7 +31,7 @@ struct cover {
 bool cover_make(struct cover *c, const struct piece *p);
 
 /* Writes the indices of a cell along the axes to at[DIM_MAX]. */
-void cover_place(const struct cover *c, int64_t cell, int64_t *at);
+void cover_cell_indices(const struct cover *c, int64_t cell, int64_t *at);
 
 void cover_free(struct cover *c);
 

@@ -138,7 +138,7 @@ static bool has_normals(const struct scene *s, const struct boundary *b)
     return all;
 }
 
-void say_elsewhere(const struct run *e, const struct boundary *b)
+void print_face_off_axis(const struct run *e, const struct boundary *b)
 {
     const struct scene *s = e->scene;
     struct elsewhere w = {0};
@@ -147,7 +147,7 @@ void say_elsewhere(const struct run *e, const struct boundary *b)
     struct face f;
     if (s->dim == 1 || !(s->spacing > 0)) return;
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_region(b, &e->part, s->spacing, selected);
+    load_mark_region(b, &e->part, s->spacing, selected);
     face_make(&f, b, &e->part, selected, s->spacing, false);
     if (has_normals(s, b) || ends_make(&c, &e->part, e->scene, b, &f))
         w = elsewhere_from(&e->part, e->scene, b, &f, &c, -INFINITY), cut = elsewhere_cut(e, b, &f, &c, &w);

@@ -24,7 +24,7 @@ static int64_t particles_of(const struct scene *scene, const struct particles *p
     return n;
 }
 
-void say_filled(const struct run *e)
+void print_filled_volume(const struct run *e)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies; b++) {

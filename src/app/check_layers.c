@@ -112,14 +112,14 @@ static double body_layers(const struct run *e, int body, double most)
     return (double)thin < SHARE_LEAST * (double)all ? INFINITY : half;
 }
 
-double check_layers(const struct run *e, int body, double most)
+double count_thin_layers(const struct run *e, int body, double most)
 {
     const struct scene *s = e->scene;
     real least = INFINITY;
     bool known = s->body[body].joined == body && s->body[body].shape.n == 1 && !s->body[body].file;
     for (int b = 0; b < s->bodies; b++) known = known && (b == body || s->body[b].joined != body);
     if (s->body[body].joined != body) return INFINITY;
-    if (known) least = solid_size(e, &s->body[body].shape.solid[0]) / s->spacing;
+    if (known) least = solid_smallest_edge(e, &s->body[body].shape.solid[0]) / s->spacing;
     if (isfinite(least)) return least < most ? least : INFINITY;
     return body_layers(e, body, real_min(0.5 * most, RUNS_MOST - 1));
 }
@@ -142,7 +142,7 @@ static double soft_cells(double poisson, double layers)
 #define SOFT_CELLS 0.45
 #define SOFT_MOST 2.0 /* least error that is reported [%] */
 
-void advise_incompressible(const struct run *e, FILE *out)
+void print_incompressible_advice(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     const bool families = s->method == METHOD_PD;
@@ -150,9 +150,9 @@ void advise_incompressible(const struct run *e, FILE *out)
     for (int b = 0; b < s->bodies; b++) {
         real poisson = 0;
         for (int m = 0; m < s->materials; m++)
-            if (scene_body_has(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
+            if (scene_body_has_material(&s->body[b], m)) poisson = real_max(poisson, s->material[m].poisson);
         if (!(poisson > (families ? SOFT_FAMILIES : SOFT_CELLS)) || s->body[b].joined != b) continue;
-        const double layers = fmin(check_layers(e, b, 2 * RUNS_MOST), RUNS_MOST);
+        const double layers = fmin(count_thin_layers(e, b, 2 * RUNS_MOST), RUNS_MOST);
         const double off = families ? soft_families(poisson, layers) : soft_cells(poisson, layers);
         if (!(off >= SOFT_MOST)) continue;
         fprintf(out,

@@ -6,17 +6,17 @@
 #include "mesh/mesh_part.h"
 #include "mesh/levels.h"
 
-void say_levels(const struct run *e)
+void print_levels(const struct run *e)
 {
     const struct mesh_levels *l = &e->frame->levels;
     char text[1024];
     if (e->frame->mesh.points == 0 || scene_at_rest(e->scene)) return;
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
-    frame_levels_text(&c, e->scene, text, sizeof text);
+    frame_levels_describe(&c, e->scene, text, sizeof text);
     printf("levels         %s\n", text);
     for (int level = 0; level <= l->n && l->n > 0; level++)
         printf("%s%lld cells with edges of %d spacings%s", level == 0 ? "levels         " : ", ",
-               (long long)levels_cells(l, level), 2 << level, level == l->n ? "\n" : "");
+               (long long)levels_count_cells(l, level), 2 << level, level == l->n ? "\n" : "");
 }
 
 /* Writes a large number as text, such as 52 million, and returns it. */
@@ -53,17 +53,17 @@ static const char *much_memory(double bytes, char text[static 32])
 static double points_in_coarse_cells(const struct mesh_levels *l, int dim)
 {
     double n = 0;
-    for (int level = 1; level <= l->n; level++) n += (double)levels_cells(l, level) * pow(2 << level, dim);
+    for (int level = 1; level <= l->n; level++) n += (double)levels_count_cells(l, level) * pow(2 << level, dim);
     return n;
 }
 
-void say_levels_saving(const struct run *e, const struct cost *c)
+void print_levels_saving(const struct run *e, const struct cost *c)
 {
     const struct mesh_levels *l = &e->frame->levels;
     char all[32], made[32], few[32], memory[32], whole[32], now[32], then[32];
     const bool millions = e->part.n_body >= 1000000;
     double cells = 0;
-    for (int level = 1; level <= l->n; level++) cells += (double)levels_cells(l, level);
+    for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells(l, level);
     if (l->n == 0 || cells == 0) return;
     if (e->part.n < e->part.n_body)
         printf("levels         %s particles become %s at first", many((double)e->part.n_body, millions, all),
@@ -73,7 +73,7 @@ void say_levels_saving(const struct run *e, const struct cost *c)
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
                many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));
-    const double peridynamic = run_memory_peridynamic(e->scene, &e->part, &e->source);
+    const double peridynamic = run_estimate_memory_all_pd(e->scene, &e->part, &e->source);
     if (e->scene->method == METHOD_ADAPTIVE && peridynamic > c->bytes)
         printf(" instead of %s", much_memory(peridynamic, whole));
     printf("; %s %s", c->basis == COST_FIRST && e->scene->method == METHOD_ADAPTIVE ? "at least" : "about",

@@ -13,7 +13,7 @@ static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
     int32_t found[ROOM];
-    const int n = cells_near(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
+    const int n = cells_find_near(&e->cells, &e->part, X, PROBE * e->scene->spacing, -1, found, ROOM);
     for (int k = 0; k < n && k < ROOM; k++)
         if (found[k] < e->part.n && e->part.body[found[k]] == body) return true;
     return n > ROOM;
@@ -63,7 +63,7 @@ static int thinnest(const struct run *e, int body)
     return LAYERS_MOST;
 }
 
-void advise_lists(const struct run *e, FILE *out)
+void print_list_advice(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     if (s->method != METHOD_PD || s->dim == 1 || s->surface == SURFACE_MOMENTS || !(s->spacing > 0)) return;
@@ -76,13 +76,13 @@ void advise_lists(const struct run *e, FILE *out)
                 "bending, "
                 "twisting and tension is off by up to about %d %%; ",
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
-                stiffness_error(s, s->surface, layers));
+                layer_stiffness_error(s, s->surface, layers));
         if (s->body[b].list.lattice)
-            fprintf(out, "with pd.surface: moments by %d %%\n", stiffness_error(s, SURFACE_MOMENTS, layers));
+            fprintf(out, "with pd.surface: moments by %d %%\n", layer_stiffness_error(s, SURFACE_MOMENTS, layers));
         else
             fprintf(out,
                     "in a list that is a lattice (positions at whole spacings, volumes of the spacing) by %d %%, with "
                     "pd.surface: moments\n",
-                    stiffness_error(s, SURFACE_MOMENTS, layers));
+                    layer_stiffness_error(s, SURFACE_MOMENTS, layers));
     }
 }

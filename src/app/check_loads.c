@@ -19,8 +19,8 @@ struct instant {
 
 static void instant_try(const struct time_function *f, real t, real duration, real *best, real *most)
 {
-    if (t < 0 || t > duration || !(fabs(time_function_at(f, t)) > *most)) return;
-    *best = t, *most = fabs(time_function_at(f, t));
+    if (t < 0 || t > duration || !(fabs(time_function_value(f, t)) > *most)) return;
+    *best = t, *most = fabs(time_function_value(f, t));
 }
 
 /* Returns the time of the largest factor, the first of several. */
@@ -164,8 +164,9 @@ static void say_pressed(const struct run *e, int which)
     const real spacing = e->scene->spacing;
     struct faced f = {.e = e};
     uint8_t *selected = NEW("check.selected", e->part.n, uint8_t);
-    load_region(l->boundary, &e->part, spacing, selected);
-    pressure_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected, face_beside_shape, &f);
+    load_mark_region(l->boundary, &e->part, spacing, selected);
+    pressure_visit_faces(e->loads.load[0].boundary, e->loads.n, which, &e->part, spacing, selected, face_beside_shape,
+                         &f);
     memory_free(selected);
     if (f.unknown || !(f.along > 0)) {
         printf(", %.4g m^2 of faces of particles", f.area);
@@ -272,7 +273,7 @@ static void say_displacement(const struct scene *scene, const struct particles *
     }
     say_mean_displacement(part, l, end);
     printf(" at the end");
-    const real speed = explicit ? load_displacing_speed(l, part, scene->duration) : INFINITY;
+    const real speed = explicit ? load_displacement_speed(l, part, scene->duration) : INFINITY;
     if (isfinite(speed)) printf(", at most %.3g m/s", speed);
 }
 
@@ -296,11 +297,11 @@ static void say_load(const struct run *e, int which)
     if (b->kind == BOUNDARY_PRESSURE) say_pressed(e, which);
     if (force) say_force(&e->part, e->scene, l);
     if (b->displaces) say_displacement(e->scene, &e->part, l);
-    if (faces) say_elsewhere(e, b);
+    if (faces) print_face_off_axis(e, b);
     putchar('\n');
 }
 
-void say_loads(const struct run *e)
+void print_loads(const struct run *e)
 {
     for (int b = 0; b < e->loads.n && b < SAID; b++) say_load(e, b);
     if (e->loads.n > SAID) printf("load           and %d more loads and supports\n", e->loads.n - SAID);

@@ -47,50 +47,50 @@ status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints the solver of load steps and the rule by which cracks grow. */
-void say_load_steps(const struct run *e);
+void print_load_steps(const struct run *e);
 
 /* Writes a line for each loss of accuracy of load steps: loads, supports, lengths of cracks. */
-void advise_load_steps(const struct run *e, FILE *out);
+void print_load_step_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of load steps by the first equilibrium. Returns FAILED if none is found. */
 status cost_load_steps(struct cost *c, struct run *e);
 
 /* Prints the run time of load steps, and a line if nothing will break. */
-void say_load_steps_cost(const struct run *e, const struct cost *c, int threads);
+void print_load_steps_cost(const struct run *e, const struct cost *c, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
 /* Prints for each file of a solid whether its surface is closed, and the volume that it encloses. */
-void say_shapes(const struct run *e);
+void print_shapes(const struct run *e);
 
 /* Prints the bodies that consist of several pieces without bonds between them (check_pieces.c). */
-void say_pieces(const struct run *e);
+void print_pieces(const struct run *e);
 
 /* ---- check_layers.c ---------------------------------------------------------------------------------------------- */
 
 /* Returns the smallest edge (mirror images included), diameter or wall of a solid [m]; INFINITY if it has none
  * (check_advice.c). */
-real solid_size(const struct run *e, const struct solid *a);
+real solid_smallest_edge(const struct run *e, const struct solid *a);
 
 /* Returns the number of particle layers across the thin parts of a body and the bodies joined to it. Returns INFINITY
  * if less than half of it is thinner than `most` layers, or if the body is joined to one of a lower number. */
-double check_layers(const struct run *e, int body, double most);
+double count_thin_layers(const struct run *e, int body, double most);
 
 /* Writes a line for each nearly incompressible body whose particles or cells are too stiff. */
-void advise_incompressible(const struct run *e, FILE *out);
+void print_incompressible_advice(const struct run *e, FILE *out);
 
 /* ---- check_levels.c ---------------------------------------------------------------------------------------------- */
 
 /* Prints size and number of coarse cells, and why they are used or not. */
-void say_levels(const struct run *e);
+void print_levels(const struct run *e);
 
 /* Prints the memory and time that coarse cells save. */
-void say_levels_saving(const struct run *e, const struct cost *c);
+void print_levels_saving(const struct run *e, const struct cost *c);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each narrow part whose sections hold too many or too few particles, and spacings that divide it. */
-void advise_sections(const struct run *e, FILE *out);
+void print_section_advice(const struct run *e, FILE *out);
 
 /* Text of a length, returned by value. */
 struct length_text {
@@ -103,35 +103,35 @@ struct length_text length_in_words(real length, int digits, real spacing);
 /* ---- check_loads.c ----------------------------------------------------------------------------------------------- */
 
 /* Prints a line for each load and support: particles, area, force and moment. */
-void say_loads(const struct run *e);
+void print_loads(const struct run *e);
 
 /* Prints the share of the face of a load or support whose normals differ from its axis, the mean angle, and a region
  * without that share (check_faces.c). */
-void say_elsewhere(const struct run *e, const struct boundary *b);
+void print_face_off_axis(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
  * (check_filled.c). */
-void say_filled(const struct run *e);
+void print_filled_volume(const struct run *e);
 
 /* ---- check_advice.c ---------------------------------------------------------------------------------------------- */
 
 /* Writes a line for each part of the scene that limits its accuracy, with the size of the error and a remedy. The run
  * has taken no step. */
-void advise(const struct run *e, FILE *out);
+void print_accuracy_advice(const struct run *e, FILE *out);
 
 /* Adds a line for each setting of the scene that costs more than necessary, and for ends of cracks that are exactly on
  * bonds. The run has taken no step. */
-void hints_find(const struct run *e, struct warnings *to);
+void hints_list(const struct run *e, struct warnings *to);
 
 /* Returns the error of the stiffness of a part of some layers of particles in bending, twisting and tension [%].
  * surface: correction of bonds near faces. */
-int stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
+int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
 
 /* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */
-void advise_lists(const struct run *e, FILE *out);
+void print_list_advice(const struct run *e, FILE *out);
 
 /* Returns true if the scene equals its mirror image in the plane across `axis` through the middle of its particles, at
  * *at [m] (check_symmetry.c). */
-bool scene_is_mirrored(const struct run *e, int axis, real *at);
+bool scene_is_symmetric(const struct run *e, int axis, real *at);
 
 #endif

@@ -37,7 +37,7 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
            free_ones > 0 ? "; nothing holds some of them, so that there is no equilibrium: add supports" : "");
 }
 
-void say_pieces(const struct run *e)
+void print_pieces(const struct run *e)
 {
     struct fragments f;
     if (e->scene->method != METHOD_PD) return;

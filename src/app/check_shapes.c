@@ -6,12 +6,12 @@
 #include "geometry/geometry.h"
 #include "scene/shape_file.h"
 
-/* Returns the number of free surfaces inside a mesh, at doubled nodes, for geometry_slits. */
+/* Returns the number of free surfaces inside a mesh, at doubled nodes, for geometry_find_slits. */
 static int hull_slits(const struct hull *h)
 {
     struct crack *slit = NULL;
     int n = 0;
-    geometry_slits(h, &slit, &n);
+    geometry_find_slits(h, &slit, &n);
     for (int k = 0; k < n; k++) memory_free(slit[k].corner);
     memory_free(slit);
     return n;
@@ -20,7 +20,7 @@ static int hull_slits(const struct hull *h)
 static void say_hull(const struct shape_file *f)
 {
     const struct hull *h = &f->geometry.whole;
-    printf("shape          %s: %lld %s, %lld shell%s", shown_name(f->path[0]).text, (long long)h->faces,
+    printf("shape          %s: %lld %s, %lld shell%s", printable_name(f->path[0]).text, (long long)h->faces,
            f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
     if (h->open_edges > 0)
         printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but it is clear what is inside",
@@ -42,7 +42,7 @@ static void say_hull(const struct shape_file *f)
 static void say_image(const struct scene *scene, const struct shape_file *f)
 {
     const struct voxels *v = &f->voxels;
-    printf("shape          %s%s: %lld x %lld", shown_name(f->path[0]).text, f->files > 1 ? " .." : "",
+    printf("shape          %s%s: %lld x %lld", printable_name(f->path[0]).text, f->files > 1 ? " .." : "",
            (long long)v->n[0], (long long)v->n[1]);
     if (f->dim == 3) printf(" x %lld", (long long)v->n[2]);
     printf(" voxels of %.4g m", v->size[0]);
@@ -52,7 +52,7 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
     putchar('\n');
 }
 
-void say_shapes(const struct run *e)
+void print_shapes(const struct run *e)
 {
     for (const struct shape_file *f = e->scene->shapes; f; f = f->next) {
         if (f->kind == SHAPE_IMAGE)

@@ -29,13 +29,16 @@ static int tips_of_cracks(const struct fracture_state *fracture)
     return n;
 }
 
-static bool is_sif_driven(const struct run *e) { return tips_of_cracks(e->fracture) > 0 && sif_fault(e, NULL) == NULL; }
+static bool is_sif_driven(const struct run *e)
+{
+    return tips_of_cracks(e->fracture) > 0 && sif_why_not(e, NULL) == NULL;
+}
 
 /* Returns the distance that bodies extend from a tip, straight ahead (side 1) or back (-1) [m]; 0 for bodies from
  * lists. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
 {
-    const real most = 2 * (particles_longest(part) + s->spacing), step = 0.5 * s->spacing;
+    const real most = 2 * (particles_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
     real way = 0;
     for (bool within = true; within && way < most; way += within ? step : 0) {
         real X[DIM_MAX] = {0};
@@ -61,7 +64,7 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
     return INFINITY;
 }
 
-void say_load_steps(const struct run *e)
+void print_load_steps(const struct run *e)
 {
     static const char *const by[] = {[CONTROL_LOAD] = "by pseudo-time",
                                      [CONTROL_ENERGY] = "at most, by energy",
@@ -81,7 +84,7 @@ void say_load_steps(const struct run *e)
         printf(
             "cracks         grow by the bonds beyond their critical stretch, some 2 spacings in each increment%s%s\n",
             tips == 0 ? "; there is no pre-crack whose load is known in theory" : "; not by hoop stress: ",
-            tips == 0 ? "" : sif_fault(e, NULL));
+            tips == 0 ? "" : sif_why_not(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -163,7 +166,7 @@ static void advise_supports(const struct run *e, FILE *out)
     }
 }
 
-void advise_load_steps(const struct run *e, FILE *out)
+void print_load_step_advice(const struct run *e, FILE *out)
 {
     if (!scene_in_steps(e->scene)) return;
     advise_growth(e, out);
@@ -199,16 +202,16 @@ static double advances_of(const struct run *e)
     if (!scene_bonds_break(s)) return 0;
     if (s->steps.control == CONTROL_ENERGY) return s->steps.number;
     for (int k = 0; k < e->fracture->tips.n; k++) way += way_within(e->scene, &e->part, &e->fracture->tips.tip[k], 1);
-    if (way == 0) way = particles_longest(&e->part);
+    if (way == 0) way = particles_longest_edge(&e->part);
     return way / (SPACINGS * s->spacing);
 }
 
 status cost_load_steps(struct cost *c, struct run *e)
 {
-    const double began = team_thread_clock();
+    const double began = thread_cpu_clock();
     const real first = e->scene->duration / e->scene->steps.number;
     TRY(engine_equilibrium_try(e, first));
-    c->step = team_thread_clock() - began;
+    c->step = thread_cpu_clock() - began;
     c->equilibria = e->scene->steps.number + advances_of(e) * equilibria_of_advance(e);
     if (engine_stretch_ratio_worst(e, first, &c->overload_at, &c->overload) != OK) c->overload = 0;
     c->most = c->make + SLOWER * c->step * c->equilibria + c->output;
@@ -216,7 +219,7 @@ status cost_load_steps(struct cost *c, struct run *e)
     return OK;
 }
 
-void say_load_steps_cost(const struct run *e, const struct cost *c, int threads)
+void print_load_steps_cost(const struct run *e, const struct cost *c, int threads)
 {
     printf("run time       %.2g to %.2g s on %d idle core%s: at most some %.2g equilibria of %.2g s", c->least, c->most,
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);

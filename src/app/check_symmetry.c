@@ -17,7 +17,7 @@
 static int64_t particle_at(const struct run *e, const real *X)
 {
     int32_t found[4];
-    const int n = cells_near(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found, COUNT_OF(found));
+    const int n = cells_find_near(&e->cells, &e->part, X, NEAR_ENOUGH * e->scene->spacing, -1, found, COUNT_OF(found));
     return n == 1 && found[0] < e->part.n ? found[0] : -1;
 }
 
@@ -180,13 +180,13 @@ static bool rings_clear(const struct run *e, int axis, real at)
     const struct observed seen = run_observed(e);
     for (int k = 0; k < e->probing->probes.n; k++) {
         real place[2], radius;
-        if (!probes_sif_ring(&e->probing->probes, k, &seen, place, &radius)) continue;
+        if (!probes_sif_contour(&e->probing->probes, k, &seen, place, &radius)) continue;
         if (fabs(place[axis] - at) < radius) return false;
     }
     return true;
 }
 
-bool scene_is_mirrored(const struct run *e, int axis, real *at)
+bool scene_is_symmetric(const struct run *e, int axis, real *at)
 {
     const struct particles *p = &e->part;
     real low, high;

@@ -30,7 +30,7 @@ static bool same_place(const struct uneven *a, const struct uneven *b, const str
     return a->axis == b->axis && r2 < square(SAME_PLACE * s->spacing);
 }
 
-void uneven_keep(struct uneven_list *list, const struct uneven *u, bool known)
+void uneven_add(struct uneven_list *list, const struct uneven *u, bool known)
 {
     struct uneven *part = list->part, added = *u;
     int place = list->n;
@@ -105,7 +105,7 @@ static int64_t rows_at(const struct piece *p, int axis, real low, real high, rea
     struct scene other = *p->scene;
     real X[DIM_MAX] = {0};
     other.spacing = spacing;
-    if (fill_place(&other, p->body, X) != OK) return -1;
+    if (fill_lattice_site(&other, p->body, X) != OK) return -1;
     const real first = ceil((low - X[axis]) / spacing - ON_SURFACE);
     const real last = floor((high - X[axis]) / spacing + ON_SURFACE);
     return (int64_t)(last - first) + 1;
@@ -175,7 +175,7 @@ static void say_owner(const struct uneven *u, const struct piece *p, FILE *out)
     if (u->material != ANY_MATERIAL) fprintf(out, "material %s: ", p->scene->material[u->material].name);
 }
 
-void say_uneven(struct uneven_list *list, FILE *out)
+void print_uneven_parts(struct uneven_list *list, FILE *out)
 {
     const int dim = list->piece.scene->dim;
     int measured = 0;

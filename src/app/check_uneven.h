@@ -29,21 +29,21 @@ bool uneven_matters(const struct uneven_list *list, real off);
 
 /* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
  * its worst section is kept. */
-void uneven_keep(struct uneven_list *list, const struct uneven *u, bool known);
+void uneven_add(struct uneven_list *list, const struct uneven *u, bool known);
 
 /* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
  * by steps and bisection. Returns the distance [m], or `most` if it is larger. step: signed [m]. */
 real piece_end(const struct piece *p, const real *X, int axis, real step, real most);
 
 /* Prints a line for each part of the list whose width is known; if there is none of these, for the worst section. */
-void say_uneven(struct uneven_list *list, FILE *out);
+void print_uneven_parts(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of a piece to the list: parts that widen on both sides, such as the ligament between a hole and an
  * edge (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that has been added, with a width along
  * axis d. */
-void judge_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
+void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
 
 /* Adds the pieces of a body in 1D whose length is no multiple of the spacing (check_necks.c). */
-void judge_lengths(struct uneven_list *list);
+void uneven_add_lengths(struct uneven_list *list);
 
 #endif

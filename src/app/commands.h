@@ -48,7 +48,7 @@ status command_find(const char *name, const struct command **found);
 
 /* Installs handlers for signals that request the end of the program. Returns the flag that they set; a second interrupt
  * ends the program at once. */
-const volatile sig_atomic_t *stop_signals(void);
+const volatile sig_atomic_t *stop_signals_install(void);
 
 /* Sets the commit of the source tree that `cleave --version` and `cleave info` print; "" (the initial value): none is
  * printed. `name` is kept by reference. Only the program's main file contains the commit, so that a new commit does not

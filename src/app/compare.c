@@ -30,8 +30,8 @@ struct pair {
 /* Returns true if the folder contains at least one of the files that are compared. */
 static bool holds_run(const char *folder)
 {
-    return run_holds(folder, "summary.json") || run_holds(folder, "history.csv") ||
-           run_holds(folder, "frames.hdf.series") || lammps_run_holds(folder);
+    return run_has_file(folder, "summary.json") || run_has_file(folder, "history.csv") ||
+           run_has_file(folder, "frames.hdf.series") || lammps_run_exists(folder);
 }
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
@@ -157,7 +157,7 @@ static double frame_step_length(const struct frame *f) { return f->step > 0 ? f-
 static void print_time_apart(const struct pair *p, const struct frame *a, const struct frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
-    const bool lammps[2] = {lammps_run_holds(p->folder[0]), lammps_run_holds(p->folder[1])};
+    const bool lammps[2] = {lammps_run_exists(p->folder[0]), lammps_run_exists(p->folder[1])};
     if (apart > 0.5 * step)
         printf("the frames are %.4g s apart, %.2g steps: fields differ by what they change in that time, too\n", apart,
                apart / step);
@@ -196,18 +196,18 @@ static status compare_frames(struct pair *p)
     status s = OK;
     p->frames_differ = true;
     for (int k = 0; k < 2 && s == OK; k++)
-        if (lammps_run_holds(p->folder[k]))
+        if (lammps_run_exists(p->folder[k]))
             s = lammps_frames_list(p->folder[k], &t[k].n, &t[k].list);
-        else if (run_holds(p->folder[k], "frames.hdf.series"))
+        else if (run_has_file(p->folder[k], "frames.hdf.series"))
             s = frames_list(p->folder[k], &t[k].n, &t[k].list);
     if (s == OK && (t[0].n == 0 || t[1].n == 0)) {
-        printf("\nfields are not compared: %s has no frames\n", shown_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
+        printf("\nfields are not compared: %s has no frames\n", printable_name(p->folder[t[0].n == 0 ? 0 : 1]).text);
     } else if (s == OK && !last_common(&t[0], &t[1], &at[0], &at[1])) {
         printf("\nfields are not compared: no frames of the same time\n");
     } else if (s == OK) {
         for (int k = 0; k < 2 && s == OK; k++)
-            s = (lammps_run_holds(p->folder[k]) ? lammps_run_frame : run_frame)(&f[k], p->folder[k],
-                                                                                t[k].list[at[k]].number);
+            s = (lammps_run_exists(p->folder[k]) ? lammps_run_read_frame : run_read_frame)(&f[k], p->folder[k],
+                                                                                           t[k].list[at[k]].number);
         if (s == OK) compare_particles(p, &f[0], &f[1]);
         for (int k = 0; k < 2; k++) frame_free(&f[k]);
     }
@@ -219,7 +219,7 @@ static status compare_frames(struct pair *p)
 
 static double last_of(const struct history *h, const char *name)
 {
-    return h->rows > 0 ? history_at(h, h->rows - 1, history_column(h, name)) : NAN;
+    return h->rows > 0 ? history_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
 }
 
 /* Compares the last lines of both history.csv. */
@@ -234,8 +234,8 @@ static status compare_energies(const struct pair *p)
     };
     struct history h[2];
     for (int k = 0; k < 2; k++) {
-        if (run_holds(p->folder[k], "history.csv")) continue;
-        printf("\nenergies are not compared: %s has no history.csv\n", shown_name(p->folder[k]).text);
+        if (run_has_file(p->folder[k], "history.csv")) continue;
+        printf("\nenergies are not compared: %s has no history.csv\n", printable_name(p->folder[k]).text);
         return OK;
     }
     TRY(history_read(&h[0], p->folder[0]));
@@ -352,16 +352,16 @@ static status read_words(struct pair *p, int argc, char **argv)
 static status print_run(const char *letter, const char *folder)
 {
     char name[NAME_MAX_LENGTH], method[NAME_MAX_LENGTH], state[NAME_MAX_LENGTH];
-    if (!run_holds(folder, "summary.json")) {
-        printf("%s  %s: %s\n", letter, shown_name(folder).text,
-               lammps_run_holds(folder) ? "a run of LAMMPS" : "no summary.json yet");
+    if (!run_has_file(folder, "summary.json")) {
+        printf("%s  %s: %s\n", letter, printable_name(folder).text,
+               lammps_run_exists(folder) ? "a run of LAMMPS" : "no summary.json yet");
         return OK;
     }
     TRY(summary_string(folder, "name", name, sizeof name));
     if (summary_string(folder, "method", method, sizeof method) != OK)
         snprintf(method, sizeof method, "unknown method");
     if (summary_string(folder, "status", state, sizeof state) != OK) snprintf(state, sizeof state, "unknown state");
-    printf("%s  %s: %s, %s, %s\n", letter, shown_name(folder).text, name, method, state);
+    printf("%s  %s: %s, %s, %s\n", letter, printable_name(folder).text, name, method, state);
     return OK;
 }
 

@@ -11,7 +11,10 @@
 #include "output/output_files.h"
 #include "plot/plot.h"
 
-bool lammps_run_holds(const char *folder) { return run_holds(folder, "plate.dump") && run_holds(folder, "in.lammps"); }
+bool lammps_run_exists(const char *folder)
+{
+    return run_has_file(folder, "plate.dump") && run_has_file(folder, "in.lammps");
+}
 
 /* Reads the time step of the script [s]. */
 static status lammps_time_step(const char *folder, double *dt)
@@ -23,7 +26,7 @@ static status lammps_time_step(const char *folder, double *dt)
     while (from && *dt == 0 && fgets(line, sizeof line, from))
         if (sscanf(line, "timestep %lf", dt) != 1) *dt = 0;
     if (from) fclose(from);
-    return *dt > 0 && isfinite(*dt) ? OK : status_set(FAILED, "%s tells no timestep", shown_name(path.text).text);
+    return *dt > 0 && isfinite(*dt) ? OK : status_set(FAILED, "%s tells no timestep", printable_name(path.text).text);
 }
 
 status lammps_frames_list(const char *folder, int *n, struct listed_frame **list)
@@ -32,7 +35,7 @@ status lammps_frames_list(const char *folder, int *n, struct listed_frame **list
     int64_t *step;
     *n = 0, *list = NULL;
     TRY(lammps_time_step(folder, &dt));
-    TRY(lammps_steps(path_join(folder, "plate.dump").text, n, &step));
+    TRY(lammps_list_steps(path_join(folder, "plate.dump").text, n, &step));
     *list = NEW("compare.frames", *n, struct listed_frame);
     for (int k = 0; k < *n; k++) (*list)[k] = (struct listed_frame){(int)step[k], (real)step[k] * dt};
     memory_free(step);
@@ -52,7 +55,7 @@ static double check_at(const struct check *c, int64_t i, int column) { return c-
 /* Sorts the rows by id. FAILED unless they belong to n particles. */
 static status check_sort(struct check *c, int64_t n, const char *path)
 {
-    const int id = history_column(&c->h, "id"), columns = c->h.columns;
+    const int id = history_find_column(&c->h, "id"), columns = c->h.columns;
     bool whole = id >= 0 && c->h.rows == n && c->damage >= 0 && c->start >= 0;
     for (int d = 0; d < DIM_MAX; d++) whole = whole && c->X[d] >= 0 && c->x[d] >= 0;
     double *sorted = NEW("compare.check", n * columns, double);
@@ -64,7 +67,8 @@ static status check_sort(struct check *c, int64_t n, const char *path)
     for (int64_t k = 0; k < n && whole; k++) whole = (int64_t)sorted[k * columns + id] == k + 1;
     memory_free(whole ? c->h.value : sorted);
     if (whole) c->h.value = sorted;
-    return whole ? OK : status_set(FAILED, "%s does not belong to the run of LAMMPS beside it", shown_name(path).text);
+    return whole ? OK
+                 : status_set(FAILED, "%s does not belong to the run of LAMMPS beside it", printable_name(path).text);
 }
 
 static status check_read(struct check *c, const char *folder, int64_t n)
@@ -73,8 +77,8 @@ static status check_read(struct check *c, const char *folder, int64_t n)
     const struct path path = path_join(folder, "check.csv");
     TRY(history_read_file(&c->h, path.text));
     for (int d = 0; d < DIM_MAX; d++)
-        c->X[d] = history_column(&c->h, upper[d]), c->x[d] = history_column(&c->h, lower[d]);
-    c->damage = history_column(&c->h, "damage"), c->start = history_column(&c->h, "damage_start");
+        c->X[d] = history_find_column(&c->h, upper[d]), c->x[d] = history_find_column(&c->h, lower[d]);
+    c->damage = history_find_column(&c->h, "damage"), c->start = history_find_column(&c->h, "damage_start");
     const status s = check_sort(c, n, path.text);
     if (s != OK) history_free(&c->h);
     return s;
@@ -112,7 +116,7 @@ static void frame_fill(struct frame *f, const struct lammps_frame *from, const s
     }
 }
 
-status lammps_run_frame(struct frame *f, const char *folder, int number)
+status lammps_run_read_frame(struct frame *f, const char *folder, int number)
 {
     struct lammps_frame from;
     struct check c = {0};
@@ -160,8 +164,8 @@ status lammps_check_print(const char *folder)
     int n;
     int64_t *step;
     const struct path dump = path_join(folder, "check.dump");
-    if (!run_holds(folder, "check.dump") || !run_holds(folder, "check.csv")) return OK;
-    TRY(lammps_steps(dump.text, &n, &step));
+    if (!run_has_file(folder, "check.dump") || !run_has_file(folder, "check.csv")) return OK;
+    TRY(lammps_list_steps(dump.text, &n, &step));
     const int64_t last = step[n - 1];
     memory_free(step);
     if (last == 0) return OK; /* LAMMPS has not reached this step */

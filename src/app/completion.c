@@ -93,7 +93,7 @@ status completion_print(FILE *out, const char *shell)
         return status_set(REFUSED, "%.40s: no such shell; cleave help --completion bash or zsh", shell);
     if (!bash) fputs("#compdef cleave\n", out);
     fprintf(out, head, shell, shell);
-    scene_override_keys(out);
+    scene_print_override_keys(out);
     fputs("'\n", out);
     fputs(bash ? words_of_bash : words_of_zsh, out);
     fputs("    local commands='", out);

@@ -53,13 +53,13 @@ static status converge_option(struct converge_arguments *a, const char *word, co
     else if (!strcmp(word, "-s"))
         return converge_override(a, value);
     else if (!strcmp(word, "-j"))
-        return option_count(&w->options.jobs, word, value, 1, THREADS_MOST);
+        return option_read_count(&w->options.jobs, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "-t"))
-        return option_count(&w->options.threads, word, value, 1, THREADS_MOST);
+        return option_read_count(&w->options.threads, word, value, 1, THREADS_MOST);
     else if (!strcmp(word, "--runs"))
-        return option_count(&w->runs, word, value, 1, RUNS_MOST);
+        return option_read_count(&w->runs, word, value, 1, RUNS_MOST);
     else if (!strcmp(word, "--levels"))
-        return option_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
+        return option_read_count(&w->levels, word, value, LEVELS_LEAST, LEVELS_MOST);
     else if (!strcmp(word, "--budget"))
         return budget_read(w, value);
     else
@@ -103,9 +103,9 @@ static status converge_place(struct converge_arguments *a)
     TRY(scene_read(&scene, w->scene, w->override, w->overrides));
     study_folder_default(a->folder, sizeof a->folder, &scene, "converge");
     if (!w->folder) w->folder = a->folder;
-    const status fits = w->options.overwrite ? OK : study_folder_fits(w->folder, scene.text);
+    const status fits = w->options.overwrite ? OK : study_folder_check_scene(w->folder, scene.text);
     scene_free(&scene);
-    return fits == OK ? figures_guard(w->folder) : fits;
+    return fits == OK ? figures_check_replaceable(w->folder) : fits;
 }
 
 static status converge_all(struct converge_arguments *a)
@@ -129,10 +129,12 @@ static status converge_all(struct converge_arguments *a)
 
 status command_converge(int argc, char **argv)
 {
-    struct converge_arguments a = {
-        .key = NEW("converge.keys", argc, struct varied_key),
-        .wanted = NEW("converge.wanted", argc, const char *),
-        .wish = {.runs = RUNS_USUAL, .levels = LEVELS_USUAL, .budget = BUDGET_USUAL, .options.stop = stop_signals()}};
+    struct converge_arguments a = {.key = NEW("converge.keys", argc, struct varied_key),
+                                   .wanted = NEW("converge.wanted", argc, const char *),
+                                   .wish = {.runs = RUNS_USUAL,
+                                            .levels = LEVELS_USUAL,
+                                            .budget = BUDGET_USUAL,
+                                            .options.stop = stop_signals_install()}};
     status done = converge_words(&a, argc, argv);
     struct scene_override *override = NEW("converge.overrides", argc, struct scene_override);
     for (int k = 0; k < a.keys; k++) override[k] = (struct scene_override){a.key[k].key, a.key[k].value[0]};

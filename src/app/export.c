@@ -14,8 +14,8 @@ static const char usage[] = "export " EXPORT_WORDS;
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;
-    r->allow_different = arguments_take(argc, argv, "--allow-different");
-    r->overwrite = arguments_take(argc, argv, "--overwrite");
+    r->allow_different = arguments_remove_option(argc, argv, "--allow-different");
+    r->overwrite = arguments_remove_option(argc, argv, "--overwrite");
     for (int k = 2; k < *argc; k++) {
         const bool style = !strcmp(argv[k], "--style");
         if (style && k + 1 < *argc && (!strcmp(argv[k + 1], "peri") || !strcmp(argv[k + 1], "bpm")))
@@ -39,7 +39,7 @@ status command_export(int argc, char **argv)
         return status_set(REFUSED, "export: lammps is expected; usage: cleave %s", usage);
     TRY(export_words(&request, &argc, argv));
     TRY(arguments_read(&a, argc, argv, usage));
-    team_make(a.threads);
+    team_set_threads(a.threads);
     request.scene = a.scene, request.folder = a.folder;
     request.override = a.override, request.overrides = a.overrides;
     status result =

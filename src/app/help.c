@@ -14,7 +14,7 @@ static status help_scene(void)
         printf("# yaml-language-server: $schema=%s\n"
                "As the first line of a scene, this lets editors complete keys and underline mistakes.\n\n",
                schema);
-    return scene_help(stdout, NULL);
+    return scene_print_help(stdout, NULL);
 }
 
 /* Returns REFUSED with the page or command nearest to a word that is no key, if there is one within two letters. */
@@ -48,16 +48,16 @@ status command_help(int argc, char **argv)
     const char *word = completion ? argv[1] : help_word(argc, argv, joined, sizeof joined);
     if (!word || !strcmp(word, "scene")) return help_scene();
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
-    if (!strcmp(word, "--schema")) return scene_schema(stdout);
+    if (!strcmp(word, "--schema")) return scene_print_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
-    if (!strcmp(word, "--reference")) return scene_reference(stdout), OK;
-    if (!strcmp(word, "units")) return scene_help_units(stdout), OK;
-    if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_help_expressions(stdout), OK;
+    if (!strcmp(word, "--reference")) return scene_print_reference(stdout), OK;
+    if (!strcmp(word, "units")) return scene_print_units(stdout), OK;
+    if (!strcmp(word, "expression") || !strcmp(word, "expressions")) return scene_print_expressions(stdout), OK;
     if (!strcmp(word, "run")) return manual_run_print(stdout);
     if (!strcmp(word, "trust")) return trust_print(stdout);
     if (!strcmp(word, "theory")) return theory_print(stdout);
     for (int k = 0; k < commands_count; k++)
         if (!strcmp(word, commands[k].name)) return usage_print_of(stdout, &commands[k]), OK;
     TRY(help_misspelt(word));
-    return scene_help(stdout, word);
+    return scene_print_help(stdout, word);
 }

@@ -57,19 +57,19 @@ static void print_build(void)
 /* Prints the sets of kernels, beginning with the one in use. */
 static void print_kernels(void)
 {
-    printf("%-18s %s: %s\n", "kernels", simd_in_use()->name, simd_in_use()->meaning);
+    printf("%-18s %s: %s\n", "kernels", simd_current_kernels()->name, simd_current_kernels()->meaning);
     for (const struct simd_set *s = simd_sets; s < simd_sets + simd_set_count; s++)
-        if (s != simd_in_use())
+        if (s != simd_current_kernels())
             printf("%-18s %s: %s%s\n", "", s->name, s->meaning, s->runs() ? "" : "; not on this processor");
 }
 
 static void print_machine(void)
 {
-    struct machine m = team_machine();
+    struct machine m = machine_properties();
     printf("%-18s %s\n", "processor", m.model);
     print_kernels();
     printf("%-18s %d\n", "cores", m.cores);
-    printf("%-18s %d; the hardware allows %d\n", "threads of a run", team_make(0), m.threads_allowed);
+    printf("%-18s %d; the hardware allows %d\n", "threads of a run", team_set_threads(0), m.threads_allowed);
     print_bytes("L1 data cache", m.cache[1]);
     print_bytes("L2 cache", m.cache[2]);
     print_bytes("L3 cache", m.cache[3]);

@@ -8,8 +8,8 @@
 
 #include "commands.h"
 #include "commit.h"
-#include "base/harmless.h"
-#include "base/last_words.h"
+#include "base/output_filter.h"
+#include "base/crash_message.h"
 #include "output/output.h"
 #include "simd/simd.h"
 
@@ -71,8 +71,8 @@ int main(int argc, char **argv)
 {
     keep_descriptors();
     limit_spin(argv);
-    last_words_start();
-    harmless_output_start();
+    crash_message_install();
+    output_filter_start();
     version_commit(CLEAVE_COMMIT);
     status result = call(argc, argv);
     const bool lost = fflush(stdout) != 0 || ferror(stdout);

@@ -247,6 +247,6 @@ status manual_print(FILE *out)
         troff_text(out, commands[k].meaning);
     }
     for (size_t k = 1; k < COUNT_OF(sections); k++) section_troff(out, &sections[k]);
-    scene_manual_keys(out);
+    scene_print_manual_keys(out);
     return ferror(out) ? status_set(FAILED, "the manual page cannot be written") : OK;
 }

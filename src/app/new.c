@@ -52,7 +52,8 @@ static status check_path(const char *path, int *length, const char **name)
     bool fine = letters > 0 && letters < NAME_MAX_LENGTH && **name != '-' && *length < PATH_LONGEST;
     for (int k = 0; k < letters; k++) fine &= isalnum((unsigned char)(*name)[k]) || strchr("_-", (*name)[k]);
     if (fine) return OK;
-    return status_set(REFUSED, "%s: no name of a scene; letters, digits, _ and - are expected", shown_name(path).text);
+    return status_set(REFUSED, "%s: no name of a scene; letters, digits, _ and - are expected",
+                      printable_name(path).text);
 }
 
 static void scene_write(FILE *out, const struct kind *k, const char *path, const char *name)

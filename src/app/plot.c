@@ -31,7 +31,7 @@ static status read_frames_option(struct plot_words *w, const char *text)
     r->every = strcmp(text, "all") == 0;
     r->panels = strcmp(text, "last") == 0 ? 1 : 0;
     if (r->every || r->panels) return OK;
-    return option_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
+    return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
 /* Reads times with units, separated by commas. */
@@ -47,8 +47,8 @@ static status read_times(struct plot_words *w, const char *text)
         real time = 0;
         if (r->times == PANELS_MAX)
             s = status_set(REFUSED, "plot: --times: at most %d times; a film shows all frames", PANELS_MAX);
-        else if (!word_time(&time, word, what, sizeof what))
-            s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", shown_name(word).text, what);
+        else if (!time_read(&time, word, what, sizeof what))
+            s = status_set(REFUSED, "plot: --times %s: %s; or all, or last", printable_name(word).text, what);
         else
             r->time[r->times++] = time;
     }
@@ -63,11 +63,12 @@ static status read_slice(struct plot_words *w, const char *text)
     char what[256];
     const char *wrong = "an axis and a position are expected, as z=4mm, or the axis alone";
     if (text[0] < 'x' || text[0] > 'z' || (text[1] && text[1] != '='))
-        return status_set(REFUSED, "plot: --slice %s: %s", shown_name(text).text, wrong);
+        return status_set(REFUSED, "plot: --slice %s: %s", printable_name(text).text, wrong);
     projection->normal = text[0] - 'x';
     projection->placed = text[1] == '=';
-    if (!projection->placed || word_length(&projection->layer, text + 2, what, sizeof what)) return OK;
-    return status_set(REFUSED, "plot: --slice %s: %s %s", shown_name(text).text, shown_name(text + 2).text, what);
+    if (!projection->placed || length_read(&projection->layer, text + 2, what, sizeof what)) return OK;
+    return status_set(REFUSED, "plot: --slice %s: %s %s", printable_name(text).text, printable_name(text + 2).text,
+                      what);
 }
 
 static status read_view(struct plot_words *w, const char *text)
@@ -77,7 +78,8 @@ static status read_view(struct plot_words *w, const char *text)
     projection->camera = camera_isometric;
     if (strcmp(text, "iso") == 0) return OK;
     if (strlen(text) != 2 || text[0] < 'x' || text[0] > 'z' || (text[1] != '+' && text[1] != '-'))
-        return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected", shown_name(text).text);
+        return status_set(REFUSED, "plot: --view %s: iso, x+, x-, y+, y-, z+ or z- is expected",
+                          printable_name(text).text);
     projection->camera = camera_along(text[0] - 'x', text[1] == '+' ? 1 : -1);
     return OK;
 }
@@ -93,13 +95,13 @@ static status read_format(struct plot_words *w, const char *text)
 {
     w->format = text;
     if (picture_format_named(&w->request.format, text)) return OK;
-    return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", shown_name(text).text);
+    return status_set(REFUSED, "plot: --format %s: png, svg, pdf, mp4 or gif is expected", printable_name(text).text);
 }
 
 static status read_field(struct plot_words *w, const char *text) { return w->request.field = text, OK; }
 static status read_out(struct plot_words *w, const char *text) { return w->request.out = text, OK; }
 static status read_scene_option(struct plot_words *w, const char *text) { return w->scene.scene = text, OK; }
-static status read_override(struct plot_words *w, const char *text) { return arguments_override(&w->scene, text); }
+static status read_override(struct plot_words *w, const char *text) { return arguments_add_override(&w->scene, text); }
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
@@ -121,7 +123,7 @@ static status read_option(struct plot_words *w, const char *word, const char *va
         if (!value) return status_set(REFUSED, "plot: %s needs a value; see cleave plot --help", word);
         return options[k].read(w, value);
     }
-    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", shown_name(word).text,
+    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", printable_name(word).text,
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
@@ -135,7 +137,7 @@ static status settle_format(struct plot_words *w)
     return status_set(REFUSED,
                       w->format ? "plot: -o %s: its ending is not that of --format %s; give one of the two"
                                 : "plot: -o %s: an ending .png, .svg, .pdf, .mp4 or .gif is expected",
-                      shown_name(out).text, w->format);
+                      printable_name(out).text, w->format);
 }
 
 static status words_together(const struct plot_words *w)
@@ -146,7 +148,7 @@ static status words_together(const struct plot_words *w)
             REFUSED, "plot: --scene draws a scene before it runs, so that it takes no folder, field, time or slice");
     if (w->times && w->frames)
         return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
-                          shown_name(w->times).text, shown_name(w->frames).text);
+                          printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_moves(r->format))
         return status_set(REFUSED,
                           "plot: --frames %d: a picture has at most %d panels; a film (mp4, gif) has any number",
@@ -184,13 +186,13 @@ static status check_folder(const char *folder)
         return status_set(REFUSED,
                           "%s is a file: the folder of a run is expected; a scene is drawn by `cleave plot "
                           "--scene %s`",
-                          shown_name(folder).text, shown_name(folder).text);
-    if (run_holds(folder, "sweep.csv") || run_holds(folder, "converge.csv"))
+                          printable_name(folder).text, printable_name(folder).text);
+    if (run_has_file(folder, "sweep.csv") || run_has_file(folder, "converge.csv"))
         return status_set(REFUSED,
                           "%s holds a study: its pictures are in %s/pictures; `cleave plot` draws one of its "
                           "runs",
-                          shown_name(folder).text, shown_name(folder).text);
-    if (!run_holds(folder, "frames.hdf.series") && !run_holds(folder, "history.csv"))
+                          printable_name(folder).text, printable_name(folder).text);
+    if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
         return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
 }
@@ -198,11 +200,11 @@ static status check_folder(const char *folder)
 static status draw_words(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;
-    if (w->scene.scene) return scene_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
+    if (w->scene.scene) return scene_draw_picture(w->scene.scene, w->scene.override, w->scene.overrides, r);
     TRY(check_folder(r->folder));
     const bool one =
         r->field || r->projection.outside || r->projection.normal >= 0 || r->out || picture_moves(r->format);
-    return one ? field_picture(r) : run_pictures(r);
+    return one ? field_draw_picture(r) : run_draw_pictures(r);
 }
 
 status command_plot(int argc, char **argv)

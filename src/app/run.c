@@ -26,7 +26,7 @@ static void print_breaks(const struct run *e)
     const struct diagnostics *w = e->diagnostics;
     const struct tip *tip = tips_longest(&e->fracture->tips);
     const bool in_steps = scene_in_steps(e->scene), broke = !isnan(w->break_time);
-    const int64_t tied = tips_tied(&e->fracture->tips);
+    const int64_t tied = tips_count_tied(&e->fracture->tips);
     if (broke && in_steps)
         printf("  first bond broken in load step %.0f", w->break_time / e->clock.dt);
     else if (broke)
@@ -46,7 +46,7 @@ static void print_breaks(const struct run *e)
 
 static void print_summary(const struct run *e, const char *folder, double wall)
 {
-    const struct shown_name shown = shown_name(folder);
+    const struct printable_name shown = printable_name(folder);
     const bool in_steps = scene_in_steps(e->scene);
     printf("%s: %lld particles, ", e->scene->name, (long long)e->part.n_body);
     if (in_steps)
@@ -73,7 +73,7 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     snprintf(folder, sizeof folder, "results/%s", s->name);
     const enum output_mode mode = a->resume ? OUTPUT_RESUME : a->overwrite ? OUTPUT_OVERWRITE : OUTPUT_FIRST;
     const char *to = a->folder ? a->folder : folder;
-    for (int k = 0; k < s->n_series; k++) TRY(output_series_guard(to, s->series[k].name));
+    for (int k = 0; k < s->n_series; k++) TRY(output_check_series_folder(to, s->series[k].name));
     TRY(output_open(out, to, s->text, mode, s->compress));
     for (int k = 0; k < s->n_series; k++) TRY(output_add_series(out, s->series[k].name, &s->series[k].region));
     return OK;
@@ -83,45 +83,46 @@ static status open_folder(struct output *out, const struct scene *s, const struc
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {
-    double start = team_clock();
+    double start = wall_clock();
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
-    engine_warn(e);
+    engine_warn_of_input(e);
     const struct levels_choice levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical);
     char coarse[1024];
-    if (frame_levels_coarse(&levels, e->frame, s, coarse, sizeof coarse)) warnings_add(&e->warnings, "%s", coarse);
+    if (frame_levels_exceed_limit(&levels, e->frame, s, coarse, sizeof coarse))
+        warnings_add(&e->warnings, "%s", coarse);
     warnings_print(&e->warnings, 0, stderr);
     if (threads > 2 * omp_get_num_procs())
         fprintf(stderr, "warning: %d threads share %d hardware threads: fewer (-t) are faster\n", threads,
                 omp_get_num_procs());
-    e->report->stop = stop_signals();
+    e->report->stop = stop_signals_install();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_restore, e));
     output_temporal_remove(out);
     status ran = engine_run(e);
-    if (ran == OK) ran = engine_baseline(e);
+    if (ran == OK) ran = engine_run_baseline(e);
     if (ran == OK || ran == INTERRUPTED) {
-        const status temporal = output_temporal(out, s->text);
+        const status temporal = output_write_temporal(out, s->text);
         if (temporal != OK) ran = temporal;
     }
     struct error_bar bar[ERROR_BARS_MOST];
     e->report->bar = bar;
-    e->report->bars = error_bars_at_hand(bar, ERROR_BARS_MOST, s, out->folder);
-    status written = ran == REFUSED ? OK : summary_write(e, ran, threads, team_clock() - start);
+    e->report->bars = error_bars_read(bar, ERROR_BARS_MOST, s, out->folder);
+    status written = ran == REFUSED ? OK : summary_write(e, ran, threads, wall_clock() - start);
     if (ran != OK) return ran;
     TRY(written);
-    if (!a->quiet) print_summary(e, out->folder, team_clock() - start);
+    if (!a->quiet) print_summary(e, out->folder, wall_clock() - start);
     return OK;
 }
 
 status command_run(int argc, char **argv)
 {
-    const volatile sig_atomic_t *stop = stop_signals(); /* before the scene is read, which can take seconds */
+    const volatile sig_atomic_t *stop = stop_signals_install(); /* before the scene is read, which can take seconds */
     struct run_arguments a;
     struct pilot pilot;
     TRY(arguments_read(&a, argc, argv,
                        "run SCENE [-o DIR] [-s KEY=VALUE]... [-t THREADS] [--resume|--overwrite] [-q]"));
-    int threads = team_make(a.threads);
+    int threads = team_set_threads(a.threads);
     struct scene s = {0};
     struct run e = {0};
     struct output out = {0};

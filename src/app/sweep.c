@@ -41,9 +41,9 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (!strcmp(word, "-s"))
             TRY(key_add(a, argv[++k]));
         else if (!strcmp(word, "-j"))
-            TRY(option_count(&a->options.jobs, word, argv[++k], 1, THREADS_MOST));
+            TRY(option_read_count(&a->options.jobs, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "-t"))
-            TRY(option_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
+            TRY(option_read_count(&a->options.threads, word, argv[++k], 1, THREADS_MOST));
         else if (!strcmp(word, "--list"))
             a->list = true;
         else if (!strcmp(word, "--collect"))
@@ -82,9 +82,9 @@ static void sweep_print(const struct study *s)
     const int runs = s->n - cases_in(s, CASE_SAME);
     printf("%d runs: %d done", runs, done + before);
     if (before > 0) printf(" (%d before)", before);
-    if (failed > 0) printf(", %d failed: see %s/logs", failed, shown_name(s->folder).text);
+    if (failed > 0) printf(", %d failed: see %s/logs", failed, printable_name(s->folder).text);
     if (done + before + failed < runs) printf(", %d left", runs - done - before - failed);
-    printf("; %s/sweep.csv", shown_name(s->folder).text);
+    printf("; %s/sweep.csv", printable_name(s->folder).text);
     printf("\n");
 }
 
@@ -103,7 +103,7 @@ static status sweep_collect(const struct study *s, const struct sweep_arguments 
 /* Prints the commands of the runs, without duplicates. */
 static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 {
-    TRY(a->options.overwrite ? study_folder_guard(s->folder) : study_folder_fits(s->folder, s->text));
+    TRY(a->options.overwrite ? study_folder_check(s->folder) : study_folder_check_scene(s->folder, s->text));
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state != CASE_SAME) study_print_command(s, &s->at[k], a->options, stdout);
     return OK;
@@ -112,14 +112,14 @@ static status sweep_list(const struct study *s, const struct sweep_arguments *a)
 static status sweep_all(struct study *s, struct sweep_arguments *a)
 {
     TRY(study_make_of(s, a->scene, a->folder, "sweep", a->key, a->keys));
-    TRY(study_cross(s, a->key, a->keys));
+    TRY(study_add_combinations(s, a->key, a->keys));
     TRY(study_check(s, a->collect));
     study_print_same(s, stderr);
     if (a->list) return sweep_list(s, a);
-    TRY(study_output_guard(s, a->key, a->keys));
+    TRY(study_check_output_files(s, a->key, a->keys));
     status ran = OK;
     if (a->collect)
-        TRY(study_take(s, a->options.overwrite));
+        TRY(study_lock_folder(s, a->options.overwrite));
     else
         ran = study_run(s, a->options);
     if (ran != OK && ran != INTERRUPTED) return ran;
@@ -139,7 +139,8 @@ static status sweep_all(struct study *s, struct sweep_arguments *a)
 
 status command_sweep(int argc, char **argv)
 {
-    struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key), .options.stop = stop_signals()};
+    struct sweep_arguments a = {.key = NEW("sweep.keys", argc, struct varied_key),
+                                .options.stop = stop_signals_install()};
     struct study s = {.lock.fd = -1};
     status done = sweep_words(&a, argc, argv);
     if (done == OK) done = sweep_all(&s, &a);

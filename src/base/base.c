@@ -9,7 +9,7 @@ enum { MESSAGE_LENGTH = 1024 };
 
 /* per thread, so that a worker's message never mixes with another's */
 static _Thread_local char message[MESSAGE_LENGTH];
-static _Thread_local bool placed; /* set by status_at */
+static _Thread_local bool placed; /* set by status_prepend_location */
 
 status status_set(status s, const char *format, ...)
 {
@@ -18,13 +18,13 @@ status status_set(status s, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    text_harmless(text);
+    text_replace_controls(text);
     snprintf(message, sizeof message, "%s", text);
     placed = false;
     return s;
 }
 
-status status_at(const char *place, status s)
+status status_prepend_location(const char *place, status s)
 {
     if (s != REFUSED || placed || !*place) return s;
     status_set(s, "%s%s", place, message);
@@ -47,20 +47,20 @@ static int harmful_bytes(const unsigned char *c, size_t left)
     return c[1] == 0x81 && c[2] >= 0xA6 && c[2] <= 0xA9 ? 3 : 0;
 }
 
-void bytes_harmless(char *text, size_t length)
+void bytes_replace_controls(char *text, size_t length)
 {
     unsigned char *c = (unsigned char *)text;
     for (size_t k = 0; k < length; k++)
         for (int n = harmful_bytes(c + k, length - k); n > 0; n--) c[k + (size_t)n - 1] = '?';
 }
 
-void text_harmless(char *text) { bytes_harmless(text, strlen(text)); }
+void text_replace_controls(char *text) { bytes_replace_controls(text, strlen(text)); }
 
-struct shown_name shown_name(const char *name)
+struct printable_name printable_name(const char *name)
 {
-    struct shown_name s;
+    struct printable_name s;
     snprintf(s.text, sizeof s.text, "%s", name);
-    text_harmless(s.text);
+    text_replace_controls(s.text);
     return s;
 }
 

@@ -37,21 +37,21 @@ static void eigenvalue_start(struct lanczos *l)
         l->w[k] = (real)(seed >> 11) * 0x1p-52 - 1;
         l->v[k] = l->before[k] = 0;
     }
-    team_sums(l->n, 2, overlap_block, l, sum);
+    reproducible_sums(l->n, 2, overlap_block, l, sum);
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
 /* Computes w = A v less its components along v and the previous vector. Returns the length of w; *diagonal: component
  * of A v along v. */
-static real next(struct lanczos *l, operator_fn *apply, void *context, real last, real *diagonal)
+static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];
     apply(context, l->v, l->w);
-    team_sums(l->n, 2, overlap_block, l, sum);
+    reproducible_sums(l->n, 2, overlap_block, l, sum);
     *diagonal = sum[0];
 #pragma omp parallel for schedule(static)
     for (int64_t k = 0; k < l->n; k++) l->w[k] -= *diagonal * l->v[k] + last * l->before[k];
-    team_sums(l->n, 2, overlap_block, l, sum);
+    reproducible_sums(l->n, 2, overlap_block, l, sum);
     return sqrt(sum[1]);
 }
 
@@ -73,7 +73,7 @@ static bool above_all(const real *a, const real *b, int n, real x)
     return pivot > 0;
 }
 
-real largest_of_tridiagonal(const real *a, const real *b, int n)
+real tridiagonal_largest_eigenvalue(const real *a, const real *b, int n)
 {
     real low = a[0], high = 0;
     for (int k = 0; k < n; k++) {
@@ -90,7 +90,7 @@ real largest_of_tridiagonal(const real *a, const real *b, int n)
     return high;
 }
 
-real largest_eigenvalue(int64_t n, operator_fn *apply, void *context)
+real largest_eigenvalue(int64_t n, matrix_product_fn *apply, void *context)
 {
     real a[ITERATIONS_MOST], b[ITERATIONS_MOST], found[ITERATIONS_MOST] = {0};
     const int most = n < ITERATIONS_MOST ? (int)n : ITERATIONS_MOST;
@@ -101,7 +101,7 @@ real largest_eigenvalue(int64_t n, operator_fn *apply, void *context)
     eigenvalue_start(&l);
     while (k < most) {
         b[k] = next(&l, apply, context, k > 0 ? b[k - 1] : 0, &a[k]);
-        found[k] = largest_of_tridiagonal(a, b, k + 1);
+        found[k] = tridiagonal_largest_eigenvalue(a, b, k + 1);
         k++;
         if (!(b[k - 1] > EXHAUSTED * fabs(found[k - 1]))) break;
         if (k > ITERATIONS_LEAST && found[k - 1] - found[k - 1 - ITERATIONS_SEEN] <= STATIONARY * found[k - 1]) break;

@@ -52,7 +52,7 @@ static void input_add(const struct stat *s)
     inputs[input_count++] = one;
 }
 
-void input_remember(const char *path)
+void input_register(const char *path)
 {
     struct stat s;
     if (stat(path, &s) == 0) input_add(&s);

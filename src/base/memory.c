@@ -187,16 +187,16 @@ static void *array_make(const char *label, int64_t count, size_t size, enum cont
 }
 
 void *memory_new(const char *label, int64_t count, size_t size) { return array_make(label, count, size, ZEROED); }
-void *memory_bare(const char *label, int64_t count, size_t size)
+void *memory_new_uninitialised(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, WRITTEN_SOON);
 }
-void *memory_sparse(const char *label, int64_t count, size_t size)
+void *memory_new_sparse(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, MOSTLY_UNWRITTEN);
 }
 
-void *memory_blank(const char *label, int64_t count, size_t size)
+void *memory_new_lazy_zero(const char *label, int64_t count, size_t size)
 {
     return array_make(label, count, size, MOSTLY_ZERO);
 }
@@ -211,7 +211,7 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
     return grown;
 }
 
-void *memory_grow(const char *label, void *pointer, int64_t count, size_t size)
+void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size)
 {
     struct block block = {NULL, 0, 0};
     if (pointer) memcpy(&block, (char *)pointer - sizeof block, sizeof block);
@@ -236,7 +236,7 @@ static bool pages_extend(struct block *block, char **pointer, size_t length)
 #endif
 }
 
-void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
+void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size)
 {
     struct block block;
     char *array = pointer;
@@ -250,7 +250,7 @@ void *memory_extend(const char *label, void *pointer, int64_t old_count, int64_t
         memcpy(array - sizeof block, &block, sizeof block);
         return array;
     }
-    array = memory_sparse(label, count, size);
+    array = memory_new_sparse(label, count, size);
     memcpy(array, pointer, (size_t)old_count * size);
     memory_free(pointer);
     return array;
@@ -270,7 +270,7 @@ void memory_free(void *pointer)
     free(block.whole);
 }
 
-void memory_reuse(bool reuse)
+void memory_set_reuse(bool reuse)
 {
 #ifdef __GLIBC__ /* the heap neither gives back pages nor merges small pieces whenever a large one is released */
     if (reuse) mallopt(M_TRIM_THRESHOLD, KEPT_ALL), mallopt(M_MXFAST, 0);

@@ -10,7 +10,7 @@ static status exchange(struct archive *a, const char *name, void *data, size_t s
     if (a->saving) {
         GROW("archive.entries", m->entry, m->n + 1);
         struct memory_entry *to = &m->entry[m->n++];
-        *to = (struct memory_entry){memory_bare("archive.entry", (int64_t)size, 1), size};
+        *to = (struct memory_entry){memory_new_uninitialised("archive.entry", (int64_t)size, 1), size};
         array_copy(to->data, data, (int64_t)size, 1);
         return OK;
     }

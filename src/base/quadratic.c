@@ -17,7 +17,10 @@ static real pair_term(const void *context, int64_t k)
     const struct pair *p = context;
     return p->a[k] * p->b[k];
 }
-static real inner(int64_t n, const real *a, const real *b) { return team_sum(n, pair_term, &(struct pair){a, b}); }
+static real inner(int64_t n, const real *a, const real *b)
+{
+    return reproducible_sum(n, pair_term, &(struct pair){a, b});
+}
 
 /* State of the minimisation, in unknowns scaled by `scale`. */
 struct descent {
@@ -112,7 +115,7 @@ static int descend(struct descent *d, real close, int most)
     return products;
 }
 
-int quadratic_descend(const struct quadratic *q, real *x, real close, int products)
+int quadratic_minimise(const struct quadratic *q, real *x, real close, int products)
 {
     const int64_t n = q->n;
     if (n == 0) return 0;

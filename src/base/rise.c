@@ -7,14 +7,14 @@
 /* relative to the value: larger records are no mere background of something that grows faster; empirical */
 #define SOMETHING 0.03
 
-void rise_note(struct rise *r, int64_t step, real value)
+void growth_rate_add_sample(struct rise *r, int64_t step, real value)
 {
     if (r->n > 0 && step < r->at[(r->n - 1) % RISE_VALUES].step + RISE_CLOSEST) return;
     r->at[r->n % RISE_VALUES].step = step;
     r->at[r->n++ % RISE_VALUES].value = value;
 }
 
-enum rise_rate rise_rate(const struct rise *r, int64_t step, real value, real *steps)
+enum growth_rate growth_rate(const struct rise *r, int64_t step, real value, real *steps)
 {
     real newer = value, older = 0, least = 0;
     *steps = INFINITY;

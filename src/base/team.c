@@ -111,7 +111,7 @@ static const char *processor_name(hwloc_topology_t topology)
     return name != NULL ? name : "unknown processor";
 }
 
-struct machine team_machine(void)
+struct machine machine_properties(void)
 {
     struct machine m = {.cores = omp_get_num_procs(), .threads_allowed = omp_get_num_procs()};
     struct place place;
@@ -129,11 +129,11 @@ struct machine team_machine(void)
     return m;
 }
 
-int64_t team_memory(void) { return memory.bytes > 0 ? memory.bytes : team_machine().memory; }
+int64_t machine_memory_size(void) { return memory.bytes > 0 ? memory.bytes : machine_properties().memory; }
 
-const char *team_memory_limit(void)
+const char *machine_memory_limit_name(void)
 {
-    (void)team_memory();
+    (void)machine_memory_size();
     return memory.name;
 }
 
@@ -205,7 +205,7 @@ static bool threads_start(int threads)
     return started;
 }
 
-int team_make(int threads)
+int team_set_threads(int threads)
 {
     struct place place;
     bool known = place_make(&place);
@@ -242,7 +242,7 @@ struct core_shares {
     int n, cores;
 };
 
-int team_cores(void)
+int machine_cores(void)
 {
     struct place place;
     if (!place_make(&place)) return omp_get_num_procs();
@@ -264,7 +264,7 @@ struct core_shares *core_shares_make(int shares)
     return NULL;
 }
 
-void core_share_take(const struct core_shares *s, int share)
+void core_share_bind(const struct core_shares *s, int share)
 {
     if (!s || share >= s->n) return;
     hwloc_bitmap_t mine = hwloc_bitmap_alloc();
@@ -297,8 +297,8 @@ static void sum_block(int64_t n, int terms, void (*block)(const void *context, i
     for (int k = 0; k < terms; k++) part[k] = own[k];
 }
 
-void team_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
-               const void *context, real *sum)
+void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
+                       const void *context, real *sum)
 {
     int64_t blocks = (n + SUM_BLOCK - 1) / SUM_BLOCK;
     real few[FEW_BLOCKS * TERMS_MAX], *part = blocks <= FEW_BLOCKS ? few : NEW("team.sums", blocks * terms, real);
@@ -322,10 +322,10 @@ static void single_block(const void *context, int64_t first, int64_t end, real *
     for (int64_t i = first; i < end; i++) sum[0] += s->term(s->context, i);
 }
 
-real team_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
+real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context)
 {
     real sum;
-    team_sums(n, 1, single_block, &(struct single){term, context}, &sum);
+    reproducible_sums(n, 1, single_block, &(struct single){term, context}, &sum);
     return sum;
 }
 
@@ -338,20 +338,20 @@ static double clock_read(clockid_t which)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-double team_clock(void) { return clock_read(CLOCK_MONOTONIC); }
+double wall_clock(void) { return clock_read(CLOCK_MONOTONIC); }
 
-double team_thread_clock(void) { return clock_read(CLOCK_THREAD_CPUTIME_ID); }
+double thread_cpu_clock(void) { return clock_read(CLOCK_THREAD_CPUTIME_ID); }
 
 const char *const timer_name[TIMERS] = {
     [TIMER_BONDS] = "bonds",     [TIMER_SCATTER] = "scatter", [TIMER_GRID] = "grid",     [TIMER_GATHER] = "gather",
     [TIMER_CONVERT] = "convert", [TIMER_SAMPLE] = "sample",   [TIMER_OUTPUT] = "output",
 };
 
-void timers_start(struct timers *l) { *l = (struct timers){.last = team_clock()}; }
+void timers_start(struct timers *l) { *l = (struct timers){.last = wall_clock()}; }
 
-void timer_book(struct timers *l, enum timer which)
+void timer_add_elapsed(struct timers *l, enum timer which)
 {
-    double now = team_clock();
+    double now = wall_clock();
     l->spent[which] += now - l->last;
     l->last = now;
 }

@@ -16,7 +16,7 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    text_harmless(text);
+    text_replace_controls(text);
     for (int k = 0; k < w->n; k++)
         if (strcmp(w->text[k], text) == 0) return false;
     GROW("warnings", w->text, w->n + 1);
@@ -25,7 +25,7 @@ bool warnings_add(struct warnings *w, const char *format, ...)
     return true;
 }
 
-void warnings_join(struct warnings *w, const struct warnings *from, int first)
+void warnings_append_from(struct warnings *w, const struct warnings *from, int first)
 {
     for (int k = first; k < from->n; k++) warnings_add(w, "%s", from->text[k]);
 }
@@ -40,7 +40,7 @@ void warnings_print_new(const struct warnings *w, int first)
     if (!w->silent) warnings_print(w, first, stderr);
 }
 
-void warnings_say(struct warnings *w, const char *text)
+void warnings_add_and_print(struct warnings *w, const char *text)
 {
     if (warnings_add(w, "%s", text)) warnings_print_new(w, w->n - 1);
 }

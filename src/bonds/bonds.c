@@ -32,7 +32,7 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
 {
-    const int n = family_of(map, s, p, (int32_t)i, found, room);
+    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, room);
     if (i < p->n) wanted[i / LANES] = fresh[i] = 1;
     for (int k = 0; k < n; k++)
         if (found[k] < p->n) wanted[found[k] / LANES] = fresh[found[k]] = 1;
@@ -64,7 +64,7 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-struct pair_table pairs_make(const struct bond_source *s)
+struct pair_table pair_table_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
     real *c = NEW("bonds.moduli", s->materials, real);
@@ -149,13 +149,13 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
 }
 
 /* Returns true if the bonds of row block g follow from the site map and none has changed. */
-static bool is_regular(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
+static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
     const int32_t *particle = pass->b->particle + g * LANES;
     return m->map->at && !pass->b->changed[g] && row_block_rows(pass->b, g) == LANES &&
            particle[LANES - 1] - particle[0] == LANES - 1 &&
-           row_block_regular(m->map, m->source, m->p, particle[0], &room->regular);
+           row_block_find_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
 /* Raises *reach to |distance|. */
@@ -165,7 +165,7 @@ static void reach_widen(int32_t *reach, int32_t distance)
 }
 
 /* Raises room->reach to the largest index distance of a bond of row block g, without images (they have no rows). */
-static void note_reach(const struct rows_pass *pass, struct row_block_room *room, int64_t g, bool regular)
+static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
     for (int k = 0; regular && k < room->regular.n; k++)
@@ -176,7 +176,7 @@ static void note_reach(const struct rows_pass *pass, struct row_block_room *room
 }
 
 /* Counts the columns of row block g (first pass) or fills them (second pass). Returns the number of its bonds. */
-static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_room *room, int64_t g)
+static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
     const struct row_maker *m = &pass->maker;
@@ -187,18 +187,18 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_roo
     if (pass->count) b->changed[g] = row_block_inherits(m->old, particle, rows);
     if (is_regular(pass, room, g)) {
         if (pass->count)
-            b->column_count[g] = row_block_regular_columns(&room->regular), note_reach(pass, room, g, true);
+            b->column_count[g] = regular_bonds_count_columns(&room->regular), note_reach(pass, room, g, true);
         else
             row_block_fill_regular(b, room, g, m);
-        return row_block_regular_bonds(&room->regular);
+        return regular_bonds_count(&room->regular);
     }
-    if (pass->found && pass->found[g]) row_block_found_take(pass->found[g], room->row, rows);
+    if (pass->found && pass->found[g]) row_block_found_restore(pass->found[g], room->row, rows);
     for (int l = 0; l < rows; l++) {
-        if (!pass->found || !pass->found[g]) row_find(&room->row[l], m, particle[l]);
-        if (!pass->count) row_finish(&room->row[l], m, particle[l]);
+        if (!pass->found || !pass->found[g]) row_find_neighbours(&room->row[l], m, particle[l]);
+        if (!pass->count) row_compute_weights(&room->row[l], m, particle[l]);
         made += room->row[l].n;
     }
-    const int columns = row_block_columns(room, particle, rows, &by_offset);
+    const int columns = row_block_count_columns(room, particle, rows, &by_offset);
     if (pass->count)
         b->column_count[g] = columns, note_reach(pass, room, g, false);
     else
@@ -216,22 +216,22 @@ static int64_t rows_pass(const struct rows_pass *pass)
     int32_t reach = 0;
 #pragma omp parallel reduction(+ : made) reduction(max : reach)
     {
-        struct row_block_room room = {0};
-        row_block_room_make(&room, m->room, m->map);
+        struct row_block_buffer room = {0};
+        row_block_buffer_make(&room, m->room, m->map);
 #pragma omp for schedule(static)
         for (int64_t g = 0; g < pass->b->row_blocks; g++) {
-            if (pass->kept && pass->count) pass->kept[g] = row_block_kept(pass->b, m, g);
+            if (pass->kept && pass->count) pass->kept[g] = row_block_find_unchanged(pass->b, m, g);
             const int64_t from = pass->kept ? pass->kept[g] : -1;
             if (from < 0)
                 pass->b->made[g] = (int32_t)row_block_pass(pass, &room, g);
             else if (pass->count)
                 pass->b->column_count[g] = m->old->column_count[from];
             else
-                row_block_keep(pass->b, m->old, g, from);
+                row_block_copy_unchanged(pass->b, m->old, g, from);
             made += pass->b->made[g];
         }
         reach = room.reach;
-        row_block_room_free(&room);
+        row_block_buffer_free(&room);
     }
     const int32_t row_blocks = (reach + LANES - 1) / LANES;
     if (row_blocks > pass->b->reach) pass->b->reach = row_blocks;
@@ -242,7 +242,7 @@ static int64_t rows_pass(const struct rows_pass *pass)
  * kept. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
-    struct pair_table pairs = pairs_make(maker.source);
+    struct pair_table pairs = pair_table_make(maker.source);
     maker.pairs = &pairs;
     struct rows_pass pass = {.b = b,
                              .maker = maker,
@@ -250,7 +250,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
                              .kept = maker.old ? BARE("bonds.kept", b->row_blocks, int64_t) : NULL,
                              .found = maker.old ? NEW("bonds.found", b->row_blocks, struct row_block_found *) : NULL};
     rows_pass(&pass);
-    columns_place(b, &pass.maker, pass.kept);
+    columns_assign(b, &pass.maker, pass.kept);
     pass.count = false;
     b->n = rows_pass(&pass);
     for (int64_t g = 0; g < b->row_blocks && pass.found; g++) memory_free(pass.found[g]);
@@ -276,8 +276,8 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     memset(b, 0, sizeof *b);
     if (old) b->reach = old->reach; /* covers the row blocks that are kept */
     b->stencils = stencils_make(old ? old->stencils : NULL);
-    struct site_map *map = site_map_keep(old ? old->site_map : NULL, s, p);
-    int most = bonds_room(s);
+    struct site_map *map = site_map_share(old ? old->site_map : NULL, s, p);
+    int most = bonds_most_neighbours(s);
     uint8_t *wanted = NEW("bonds.wanted", (p->n + LANES - 1) / LANES, uint8_t);
     uint8_t *fresh = NEW("bonds.fresh", p->n, uint8_t);
     mark_rows(s, p, old, map, most, wanted, fresh);
@@ -292,8 +292,8 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     if (p->n_of[KIND_PD] < p->n)
         b->site_map = map;
     else
-        site_map_leave(map);
-    columns_leave(old, b);
+        site_map_release(map);
+    columns_forget_taken(old, b);
 
     b->core = s->core;
     b->stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume);
@@ -306,21 +306,21 @@ void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const s
     state_make(b, p, s);
     clamped_make(b, p, s);
 #ifdef CLEAVE_ASSERT
-    const char *fault = bonds_fault(b);
+    const char *fault = bonds_find_violation(b);
     if (fault) fprintf(stderr, "bonds_make: %s\n", fault), abort();
 #endif
 }
 
-void bonds_images_follow(struct particles *p, const struct bond_source *s)
+void bonds_update_image_kinds(struct particles *p, const struct bond_source *s)
 {
     for (int64_t k = p->n; k < p->n_all; k++) p->kind[k] = p->kind[s->image[k - p->n].source];
 }
 
-void bonds_renew(struct bonds *b, struct particles *p, const struct bond_source *s)
+void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *s)
 {
     struct bonds old = *b;
-    bonds_images_follow(p, s);
-    particles_list(p);
+    bonds_update_image_kinds(p, s);
+    particles_update_lists(p);
     bonds_make(b, &old, p, s);
     for (int64_t row = 0; row < old.rows; row++) {
         const int32_t i = old.particle[row];
@@ -352,7 +352,7 @@ void bonds_free(struct bonds *b)
     memory_free(b->changed);
     memory_free(b->holes.hole);
     stencils_free(b->stencils);
-    site_map_leave(b->site_map);
+    site_map_release(b->site_map);
     memory_free(b->plastic_stretch);
     memory_free(b->plastic_path);
     memory_free(b->pair);

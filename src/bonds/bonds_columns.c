@@ -81,7 +81,7 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
  * write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
-    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_sparse : memory_bare;
+    void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_sparse : memory_new_uninitialised;
     b->first = make("bonds.first", b->room, sizeof *b->first);
     b->nbr = make("bonds.nbr", b->room * LANES, sizeof *b->nbr);
     b->inverse_length = make("bonds.inverse_length", b->room * LANES, sizeof *b->inverse_length);
@@ -98,12 +98,12 @@ static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sp
 static void columns_extend(struct bonds *b, int64_t room)
 {
     const int64_t had = b->room, each = LANES;
-    b->first = memory_extend("bonds.first", b->first, had, room, sizeof *b->first);
-    b->nbr = memory_extend("bonds.nbr", b->nbr, had * each, room * each, sizeof *b->nbr);
-    b->inverse_length =
-        memory_extend("bonds.inverse_length", b->inverse_length, had * each, room * each, sizeof *b->inverse_length);
-    b->w = memory_extend("bonds.w", b->w, had * each, room * each, sizeof *b->w);
-    b->common = memory_extend("bonds.common", b->common, had, room, sizeof *b->common);
+    b->first = memory_resize_uninitialised("bonds.first", b->first, had, room, sizeof *b->first);
+    b->nbr = memory_resize_uninitialised("bonds.nbr", b->nbr, had * each, room * each, sizeof *b->nbr);
+    b->inverse_length = memory_resize_uninitialised("bonds.inverse_length", b->inverse_length, had * each, room * each,
+                                                    sizeof *b->inverse_length);
+    b->w = memory_resize_uninitialised("bonds.w", b->w, had * each, room * each, sizeof *b->w);
+    b->common = memory_resize_uninitialised("bonds.common", b->common, had, room, sizeof *b->common);
     b->room = room;
 }
 
@@ -120,7 +120,7 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the arrays of the previous rows, until columns_leave detaches them. */
+/* Makes b use the arrays of the previous rows, until columns_forget_taken detaches them. */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -133,10 +133,10 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
 
 /* Rows with plastic bonds store all columns anew, because their plastic state is archived in the order of the row
  * blocks (bonds_archive.c). */
-void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept)
+void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];
-    shell_lengths(b, m->source->family.spacing);
+    shell_lengths_make(b, m->source->family.spacing);
     if (m->old && !m->old->plastic_stretch && m->old->room > 0) {
         columns_fit(b, m->old, kept);
         columns_share(b, m->old, kept);
@@ -147,7 +147,7 @@ void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *ke
     columns_arrays(b, m->source, m->map->at != NULL);
 }
 
-void columns_leave(struct bonds *old, const struct bonds *b)
+void columns_forget_taken(struct bonds *old, const struct bonds *b)
 {
     if (!old || old->w != b->w) return;
     old->first = old->nbr = NULL, old->inverse_length = old->w = NULL, old->common = NULL;

@@ -4,7 +4,7 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g)
+int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *m, int64_t g)
 {
     const int32_t *particle = b->particle + g * LANES;
     const int64_t first = m->old ? m->old->row_of[particle[0]] : -1;
@@ -38,7 +38,7 @@ static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, in
     }
 }
 
-void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
+void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     b->stencil[g] = old->stencil[from];
     b->implicit[g] = old->implicit[from], b->changed[g] = old->changed[from];
@@ -56,7 +56,8 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows)
 {
     int64_t n = 0;
     for (int l = 0; l < rows; l++) n += row[l].n;
-    struct row_block_found *found = memory_bare("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
+    struct row_block_found *found =
+        memory_new_uninitialised("bonds.group_found", 1, sizeof *found + (size_t)n * sizeof *found->nbr);
     int32_t *to = found->nbr;
     for (int l = 0; l < rows; l++) {
         found->n[l] = row[l].n, found->family_volume[l] = row[l].family_volume;
@@ -66,7 +67,7 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows)
     return found;
 }
 
-void row_block_found_take(const struct row_block_found *found, struct row *row, int rows)
+void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows)
 {
     const int32_t *from = found->nbr;
     for (int l = 0; l < rows; l++) {

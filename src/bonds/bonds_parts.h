@@ -23,17 +23,17 @@ struct pair_table {
 };
 
 /* Allocates the arrays of `row` (the bonds of one particle under construction) for up to `room` bonds. Release with
- * row_room_free. */
-void row_room_make(struct row *row, int room);
+ * row_buffer_free. */
+void row_buffer_make(struct row *row, int room);
 
 /* Releases the arrays of `row`. */
-void row_room_free(struct row *row);
+void row_buffer_free(struct row *row);
 
 /* Lists the neighbours of particle or image i within the cutoff, except those that a void hides, ascending, in `found`,
  * which has `room` entries. l: map from lattice sites to particles, used where possible instead of a search; NULL:
  * always search. Returns the number of neighbours; if it exceeds `room`, the list is incomplete. */
-int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
-              int32_t *found, int room);
+int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
+                       int32_t *found, int room);
 
 /* Inputs for making rows. */
 struct row_maker {
@@ -55,19 +55,19 @@ static inline bool row_lasts(const struct row_maker *m, int64_t i)
 }
 
 /* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
-void row_find(struct row *row, const struct row_maker *m, int32_t i);
+void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i);
 
 /* Computes lengths and weights of the bonds from particle i to the neighbours in `row`, and copies which bonds are
  * broken, and their plastic state, from the previous bonds m->old. */
-void row_finish(struct row *row, const struct row_maker *m, int32_t i);
+void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i);
 
 /* Returns the number of the previous row block (bonds of eight particles) in m->old that equals row block g, so that
  * its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
-int64_t row_block_kept(const struct bonds *b, const struct row_maker *m, int64_t g);
+int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *m, int64_t g);
 
 /* Copies row block `from` of the previous bonds `old` to row block g of b: stencil, flags, limits and volumes, and the
  * columns unless b has taken over the column arrays of `old`. */
-void row_block_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
+void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
 
 /* Neighbours found for the rows of a row block, kept between the two passes. */
 struct row_block_found {
@@ -80,23 +80,23 @@ struct row_block_found {
 struct row_block_found *row_block_found_make(const struct row *row, int rows);
 
 /* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
-void row_block_found_take(const struct row_block_found *found, struct row *row, int rows);
+void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows);
 
 /* Assigns a range of columns to every row block of b and allocates the column arrays. kept: [row blocks] number of the
  * previous row block whose columns stay in place, -1: the row block is rebuilt, in the free columns (a hole) of a
  * removed row block if they are enough, else behind all columns (bonds_columns.c). */
-void columns_place(struct bonds *b, const struct row_maker *m, const int64_t *kept);
+void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept);
 
 /* Sets the pointers in `old` to NULL for those arrays that b has taken over, so that releasing `old` does not release
  * them. */
-void columns_leave(struct bonds *old, const struct bonds *b);
+void columns_forget_taken(struct bonds *old, const struct bonds *b);
 
 /* Returns true if a pre-crack or a void may cut a bond of particle i; false if all are too far away. */
-bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i);
+bool cuts_near_particle(const struct bond_source *s, const struct particles *p, int64_t i);
 
 /* Returns the stretch above which the vectorised test reports the bond between particles i and j for the exact test of
  * breaking: its critical stretch less a tolerance for round-off [1]. */
-real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
+real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
 
 /* Returns true if columns with one index distance each, as on a lattice, need little padding, so that they are
  * preferred to rows packed without gaps. offsets: number of distinct index distances; longest: largest number of bonds
@@ -122,7 +122,7 @@ void regular_bonds_free(struct regular_bonds *to);
 
 /* Computes the families of the eight particles i to i + 7, by index distance, from the map l of lattice sites into
  * `to`. Returns false if the map is not sufficient, so that the families must be searched. */
-bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
+bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
  * quickly (bonds_stencil_cache.c). l: map of lattice sites. Release with stencil_cache_free. */
@@ -138,29 +138,29 @@ int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_
 
 /* Computes inverse length `inverse` [1/m] and weight w [1] of the eight bonds between particle i + l and particle j +
  * l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
-void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
-                   int64_t j, real *inverse, real *w);
+void regular_bonds_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                         int64_t i, int64_t j, real *inverse, real *w);
 
 /* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
  * is not possible, e.g. because a crack is near. */
-bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
-                       struct regular_bonds *to);
+bool row_block_find_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p,
+                            int64_t i, struct regular_bonds *to);
 
 /* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
-int row_block_regular_columns(const struct regular_bonds *bonds);
+int regular_bonds_count_columns(const struct regular_bonds *bonds);
 
 /* Returns the number of directed bonds of eight particles on a lattice. */
-int row_block_regular_bonds(const struct regular_bonds *bonds);
+int regular_bonds_count(const struct regular_bonds *bonds);
 
 /* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
  * `ratio` with memory_free. */
-struct pair_table pairs_make(const struct bond_source *s);
+struct pair_table pair_table_make(const struct bond_source *s);
 
 /* Returns the number of rows in row block g: eight, except for the last row block. */
 static inline int row_block_rows(const struct bonds *b, int64_t g) { return eight_at(g * LANES, b->rows); }
 
 /* Working memory of one thread for the eight rows of a row block. */
-struct row_block_room {
+struct row_block_buffer {
     struct regular_bonds regular; /* bonds found without a search */
     int room;                     /* largest number of bonds of a row */
     struct row row[LANES];
@@ -172,37 +172,37 @@ struct row_block_room {
 };
 
 /* Allocates the working memory g in which one thread makes row blocks. room: largest number of bonds of a row; map: map
- * of lattice sites. Release with row_block_room_free. */
-void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map);
+ * of lattice sites. Release with row_block_buffer_free. */
+void row_block_buffer_make(struct row_block_buffer *g, int room, const struct site_map *map);
 
 /* Releases the working memory g. */
-void row_block_room_free(struct row_block_room *g);
+void row_block_buffer_free(struct row_block_buffer *g);
 
 /* Returns the number of columns that the bonds in g->row[0] to g->row[rows - 1] need. particle: the particles of these
  * rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without gaps. */
-int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset);
+int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset);
 
 /* Fills the columns of row block g of b from the first `rows` rows of bonds in `room`, and sets breaking limits, family
- * volumes and alignment of the row block. by_offset: result of row_block_columns. */
-void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
+ * volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
+void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, int rows, bool by_offset,
                     const struct particles *p);
 
 /* Fills row block g of b from the bonds in room->regular, which were found without a search, because its eight
  * particles are consecutive on one lattice. */
-void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m);
+void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct row_maker *m);
 
 /* Stores the columns in `room` as columns of row block g, or, if their bonds equal those of a known stencil, makes the
  * row block follow that stencil and stores nothing. Called after the columns were filled. */
-void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p);
+void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p);
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
-void shell_lengths(struct bonds *b, real spacing);
+void shell_lengths_make(struct bonds *b, real spacing);
 
 /* Returns the number k > 0 of the lattice shell (length spacing sqrt(k)) whose length eight bonds have up to the
  * round-off of positions, and stores these round-off differences in excess[LANES], in units of the last place of 1/r; 0
  * if the bonds have no common shell. inverse: inverse lengths of the bonds [1/m]. */
-int shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
+int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `of` with one more user, or a new table if
  * `of` is NULL (bonds_stencils.c). Release with stencils_free. */
@@ -229,10 +229,10 @@ const struct stencil *stencil_find(struct stencils *all, const struct stencil *s
 
 /* Makes row block g follow the stencil of the row block that contains particle `cached`, or, if cached is -1, its own
  * stencil found before. Returns false if there is no stencil to follow. */
-bool row_block_follow(struct bonds *b, int64_t g, int64_t cached);
+bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */
-void column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
+void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
  * (bonds_state.c). Does nothing for bond-based models. */

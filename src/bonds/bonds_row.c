@@ -10,7 +10,7 @@
  * exact. */
 #define TRIGGER_MARGIN 1e-9
 
-void row_room_make(struct row *row, int room)
+void row_buffer_make(struct row *row, int room)
 {
     row->nbr = BARE("bonds.row", room + 1, int32_t); /* room for one more: row_copy may write it */
     row->inverse_length = BARE("bonds.row", room + 1, real);
@@ -18,7 +18,7 @@ void row_room_make(struct row *row, int room)
     row->plastic = BARE("bonds.row", room + 1, struct bond_plasticity);
 }
 
-void row_room_free(struct row *row)
+void row_buffer_free(struct row *row)
 {
     memory_free(row->nbr);
     memory_free(row->inverse_length);
@@ -34,7 +34,7 @@ static int family_search(const struct bond_source *s, const struct particles *p,
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
-    int n = cells_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
+    int n = cells_find_near(s->cells, p, X, s->family.cutoff, i, found, room), kept = 0;
     if (n > room) return n;
     for (int k = 0; k < n; k++)
         if (p->body[found[k]] == p->body[i]) found[kept++] = found[k];
@@ -47,25 +47,25 @@ static int family_seen(const struct bond_source *s, const struct particles *p, i
     int kept = 0;
     if (!voids_near(s->voids, i)) return n;
     for (int k = 0; k < n; k++)
-        if (!voids_part(s->voids, p, i, found[k])) found[kept++] = found[k];
+        if (!void_separates_particles(s->voids, p, i, found[k])) found[kept++] = found[k];
     return kept;
 }
 
-int family_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
-              int32_t *found, int room)
+int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
+                       int32_t *found, int room)
 {
-    int n = l && l->at && i < p->n ? site_map_family(l, p, i, found) : -1;
+    int n = l && l->at && i < p->n ? site_map_find_neighbours(l, p, i, found) : -1;
     if (n < 0) n = family_search(s, p, i, found, room);
     return n > room ? n : family_seen(s, p, i, found, n);
 }
 
-int bonds_room(const struct bond_source *s)
+int bonds_most_neighbours(const struct bond_source *s)
 {
     if (s->room > 0) return s->room;
-    return cells_most(s->cells, s->family.cutoff);
+    return cells_most_neighbours(s->cells, s->family.cutoff);
 }
 
-bool cracks_part(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
+bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
     particle_place(p, i, a);
@@ -75,18 +75,18 @@ bool cracks_part(const struct crack *crack, int cracks, const struct particles *
     return false;
 }
 
-bool cracks_near(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cracks_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
     for (int c = 0; c < s->cracks; c++)
-        if (crack_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
+        if (crack_may_cut_near(&s->crack[c], X, s->family.cutoff, p->dim)) return true;
     return false;
 }
 
-bool cuts_near(const struct bond_source *s, const struct particles *p, int64_t i)
+bool cuts_near_particle(const struct bond_source *s, const struct particles *p, int64_t i)
 {
-    return voids_near(s->voids, i) || cracks_near(s, p, i);
+    return voids_near(s->voids, i) || cracks_near_particle(s, p, i);
 }
 
 /* ---- one row ----------------------------------------------------------------------------------------------------- */
@@ -96,7 +96,8 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
                         int32_t i, int32_t j, const real *xi, real r)
 {
     /* written such that exchanging i and j changes no bit */
-    real weight = family_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
+    real weight =
+        family_bond_weight(&s->family, xi, r) * ((p->volume0[i] * p->volume0[j]) / square(s->family.cell_volume));
     weight *= pairs->ratio[p->material[i] * pairs->materials + p->material[j]];
     if (s->neighbour_volume) /* volume method, Le & Bobaru 2018 */
         weight *= 2 * s->family.full / (s->neighbour_volume[i] + s->neighbour_volume[j]);
@@ -109,7 +110,7 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int room)
 {
-    int n = family_of(map, s, p, i, row->nbr, room), kept = 0;
+    int n = find_neighbours_of(map, s, p, i, row->nbr, room), kept = 0;
     row->family_volume = 0;
     for (int k = 0; k < n; k++) {
         row->family_volume += p->volume0[row->nbr[k]];
@@ -153,7 +154,7 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
 }
 
 /* The stretch above which the vector test reports a bond: its limit less a tolerance. */
-real row_trigger(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
+real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
     return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * bond_strength(p, i, j) *
            (1 - TRIGGER_MARGIN);
@@ -163,19 +164,19 @@ real row_trigger(const struct bond_source *s, const struct particles *p, int32_t
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
-    const bool near = cracks_near(s, p, i);
+    const bool near = cracks_near_particle(s, p, i);
     row->trigger = INFINITY, row->cut_volume = 0;
     for (int k = 0; k < row->n; k++) {
         int32_t j = row->nbr[k];
         real xi[DIM_MAX], r2 = 0;
         for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][j] - p->X[d][i], r2 += square(xi[d]);
-        bool cut = near && cracks_part(s->crack, s->cracks, p, i, j);
+        bool cut = near && cracks_separate_particles(s->crack, s->cracks, p, i, j);
         const real r = sqrt(r2);
         if (cut) row->cut_volume += p->volume0[j];
         row->inverse_length[k] = (cut ? -1 : 1) / r;
         row->w[k] = cut ? 0 : bond_weight(s, p, pairs, i, j, xi, r);
         if (s->yield.stretch) row->plastic[k] = plasticity_of_points(s, p, i, j, r);
-        row->trigger = real_min(row->trigger, row_trigger(s, p, i, j));
+        row->trigger = real_min(row->trigger, bond_test_stretch(s, p, i, j));
     }
 }
 
@@ -233,7 +234,7 @@ static void row_copy(struct row *row, const struct bonds *old, int64_t old_row)
     row->cut_volume = old->broken_volume[old_row];
 }
 
-void row_find(struct row *row, const struct row_maker *m, int32_t i)
+void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i)
 {
     if (row_lasts(m, i))
         row_copy_neighbours(row, m->old, m->old->row_of[i]);
@@ -241,7 +242,7 @@ void row_find(struct row *row, const struct row_maker *m, int32_t i)
         row_search(row, m->map, m->source, m->p, i, m->room);
 }
 
-void row_finish(struct row *row, const struct row_maker *m, int32_t i)
+void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
     if (row_lasts(m, i)) {

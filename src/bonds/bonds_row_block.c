@@ -14,7 +14,7 @@ static bool offsets_are(const int32_t *offset, int n, const struct row *row, int
 }
 
 /* Lists the distinct index distances of the bonds of a row block, ascending, in g->offset. Returns their number. */
-static int row_block_offsets(struct row_block_room *g, const int32_t *particle, int rows)
+static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle, int rows)
 {
     int n = g->row[0].n;
     for (int k = 0; k < n; k++) g->offset[k] = g->row[0].nbr[k] - particle[0];
@@ -31,7 +31,7 @@ static int row_block_offsets(struct row_block_room *g, const int32_t *particle, 
 }
 
 /* Packed rows are for irregular clouds, where columns by distance would be mostly padding. */
-int row_block_columns(struct row_block_room *g, const int32_t *particle, int rows, bool *by_offset)
+int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
     for (int l = 0; l < rows; l++)
@@ -56,7 +56,7 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
 }
 
 /* Stores trigger, volumes and alignment of row block g. */
-static void row_block_note(struct bonds *b, const struct row_block_room *room, int64_t g, int rows)
+static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
     for (int l = 1; l < rows; l++) aligned = aligned && b->particle[g * LANES + l] == b->particle[g * LANES] + l;
@@ -72,13 +72,14 @@ static void row_block_note(struct bonds *b, const struct row_block_room *room, i
 
 /* Returns true if bond number `used` of row l belongs in column k: it has the index distance of column k, or rows are
  * packed. */
-static bool row_has(const struct row_block_room *room, const int32_t *particle, int l, int used, bool by_offset, int k)
+static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
+                    int k)
 {
     const struct row *row = &room->row[l];
     return used < row->n && (!by_offset || row->nbr[used] - particle[l] == room->offset[k]);
 }
 
-void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int rows, bool by_offset,
+void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, int rows, bool by_offset,
                     const struct particles *p)
 {
     const int32_t *particle = b->particle + g * LANES;
@@ -107,7 +108,7 @@ void row_block_fill(struct bonds *b, struct row_block_room *room, int64_t g, int
 }
 
 /* Makes the stencil of the columns in `room`. Returns false if the row block must store its columns. */
-static bool stencil_of(const struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p)
+static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
     room->stencil.columns = 0;
@@ -117,12 +118,13 @@ static bool stencil_of(const struct bonds *b, struct row_block_room *room, int64
     return true;
 }
 
-void row_block_store(struct bonds *b, struct row_block_room *room, int64_t g, const struct particles *p)
+void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     b->stencil[g] = stencil_of(b, room, g, p) ? stencil_find(b->stencils, &room->stencil, room->likely) : NULL;
     b->implicit[g] = b->stencil[g] != NULL;
     if (b->implicit[g]) room->likely = b->stencil[g];
-    for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++) column_write(b, b->column[g] + k, &room->column[k]);
+    for (int k = 0; k < b->column_count[g] && !b->implicit[g]; k++)
+        bond_column_write(b, b->column[g] + k, &room->column[k]);
 }
 
 /* Returns which of the particles i .. i + 7 are peridynamic, one bit each. */
@@ -133,13 +135,13 @@ static uint8_t peridynamic(const struct particles *p, int64_t i)
     return (uint8_t)bits;
 }
 
-bool row_block_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p, int64_t i,
-                       struct regular_bonds *to)
+bool row_block_find_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p,
+                            int64_t i, struct regular_bonds *to)
 {
     int bonds[LANES] = {0}, columns = 0, longest = 0;
-    if (!regular_bonds(map, p, i, to)) return false;
+    if (!regular_bonds_find(map, p, i, to)) return false;
     for (int l = 0; l < LANES; l++)
-        if (cuts_near(s, p, i + l)) return false;
+        if (cuts_near_particle(s, p, i + l)) return false;
     const uint8_t own = peridynamic(p, i);
     if (own == UINT8_MAX && to->full) {
         array_fill_bytes(to->bonds, UINT8_MAX, to->n, 1);
@@ -155,14 +157,14 @@ bool row_block_regular(const struct site_map *map, const struct bond_source *s, 
     return columns_by_offset(columns, longest);
 }
 
-int row_block_regular_columns(const struct regular_bonds *bonds)
+int regular_bonds_count_columns(const struct regular_bonds *bonds)
 {
     int columns = 0;
     for (int k = 0; k < bonds->n; k++) columns += bonds->bonds[k] != 0;
     return columns;
 }
 
-int row_block_regular_bonds(const struct regular_bonds *bonds)
+int regular_bonds_count(const struct regular_bonds *bonds)
 {
     int sum = 0;
     for (int k = 0; k < bonds->n; k++) sum += __builtin_popcount(bonds->bonds[k]);
@@ -174,7 +176,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
 {
     const struct bond_source *s = m->source;
     column->first = j;
-    regular_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
+    regular_bonds_weigh(s, m->p, m->pairs, i, j, column->inverse_length, column->w);
     for (int l = 0; l < LANES; l++) {
         column->nbr[l] = j + l;
         if (!(bonds >> l & 1)) column->inverse_length[l] = column->w[l] = 0;
@@ -190,7 +192,7 @@ static void regular_triggers(real trigger[LANES], const struct regular_bonds *bo
         trigger[l] = INFINITY;
         for (int k = 0; k < bonds->n && !(alike && trigger[l] < INFINITY); k++)
             if (bonds->bonds[k] >> l & 1)
-                trigger[l] = real_min(trigger[l], row_trigger(m->source, m->p, i + l, i + bonds->offset[k] + l));
+                trigger[l] = real_min(trigger[l], bond_test_stretch(m->source, m->p, i + l, i + bonds->offset[k] + l));
     }
 }
 
@@ -203,12 +205,13 @@ static bool whole_families(const struct regular_bonds *bonds)
 }
 
 /* On a lattice columns are computed without rows. */
-void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_t g, const struct row_maker *m)
+void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &room->regular;
     const real *volume = m->p->volume0;
     const int32_t i = b->particle[g * LANES];
-    const bool follows = whole_families(bonds) && row_block_follow(b, g, stencil_cache_find_row(bonds, m->source, i));
+    const bool follows =
+        whole_families(bonds) && row_block_use_stencil(b, g, stencil_cache_find_row(bonds, m->source, i));
     real family_volume[LANES] = {0};
     int columns = 0;
     if (!follows || m->p->strength) regular_triggers(b->trigger + g * LANES, bonds, m, i);
@@ -224,19 +227,19 @@ void row_block_fill_regular(struct bonds *b, struct row_block_room *room, int64_
 }
 
 /* Room for the worst case, of which little is ever touched: the arrays are not cleared. */
-void row_block_room_make(struct row_block_room *g, int room, const struct site_map *map)
+void row_block_buffer_make(struct row_block_buffer *g, int room, const struct site_map *map)
 {
     g->room = room;
-    for (int l = 0; l < LANES; l++) row_room_make(&g->row[l], room);
+    for (int l = 0; l < LANES; l++) row_buffer_make(&g->row[l], room);
     g->offset = BARE("bonds.offset", (int64_t)LANES * room + 1, int32_t);
     regular_bonds_make(&g->regular, map);
     stencil_make(&g->stencil, LANES * room + 1);
     g->column = BARE("bonds.column_copy", (int64_t)LANES * room + 1, struct column_copy);
 }
 
-void row_block_room_free(struct row_block_room *g)
+void row_block_buffer_free(struct row_block_buffer *g)
 {
-    for (int l = 0; l < LANES; l++) row_room_free(&g->row[l]);
+    for (int l = 0; l < LANES; l++) row_buffer_free(&g->row[l]);
     memory_free(g->offset);
     regular_bonds_free(&g->regular);
     stencil_free(&g->stencil);

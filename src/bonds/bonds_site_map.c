@@ -18,7 +18,7 @@ enum { HALF_MOST = 16 };
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
-int64_t site_of(const struct site_map *l, const struct particles *p, int64_t i)
+int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -70,12 +70,12 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     bool regular = true;
 #pragma omp parallel for schedule(static) reduction(&& : regular)
     for (int64_t i = 0; i < p->n; i++) {
-        const int64_t site = site_of(l, p, i);
-        regular = regular && site >= 0 && (i == 0 || site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
+        const int64_t site = lattice_site_of(l, p, i);
+        regular = regular && site >= 0 && (i == 0 || lattice_site_of(l, p, i - 1) < site) && p->body[i] == p->body[0];
         if (site >= 0) l->at[site] = (int32_t)i + 1;
     }
     for (int64_t k = p->n; k < p->n_all && regular; k++) {
-        const int64_t site = site_of(l, p, k);
+        const int64_t site = lattice_site_of(l, p, k);
         regular = site >= 0 && l->at[site] == 0;
         if (regular) l->at[site] = (int32_t)k + 1;
     }
@@ -138,7 +138,7 @@ void site_map_free(struct site_map *l)
     *l = (struct site_map){0};
 }
 
-struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s, const struct particles *p)
+struct site_map *site_map_share(struct site_map *of, const struct bond_source *s, const struct particles *p)
 {
     struct site_map *l = of ? of : NEW("bonds.sites", 1, struct site_map);
     if (!of) site_map_make(l, s, p);
@@ -146,16 +146,16 @@ struct site_map *site_map_keep(struct site_map *of, const struct bond_source *s,
     return l;
 }
 
-void site_map_leave(struct site_map *l)
+void site_map_release(struct site_map *l)
 {
     if (!l || --l->users > 0) return;
     site_map_free(l);
     memory_free(l);
 }
 
-int site_map_family(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found)
+int site_map_find_neighbours(const struct site_map *l, const struct particles *p, int32_t i, int32_t *found)
 {
-    const int32_t *own = l->at + site_of(l, p, i);
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
     int n = 0;
     for (int k = 0; k < l->rows; k++)
         for (int a = -l->row[k].half; a <= l->row[k].half; a++) {
@@ -199,9 +199,9 @@ static bool is_full(const struct regular_bonds *b)
     return other == 0;
 }
 
-bool regular_bonds(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to)
+bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to)
 {
-    const int64_t site = site_of(l, p, i);
+    const int64_t site = lattice_site_of(l, p, i);
     to->n = 0;
     if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
     for (int k = 0; k < l->rows; k++)
@@ -254,7 +254,7 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     for (int l = 0; l < LANES && !family_plain(f); l++) {
         real one[DIM_MAX];
         for (int d = 0; d < dim; d++) one[d] = xi[d][l];
-        w[l] = same && l > 0 ? w[0] : family_weight(f, one, r[l]);
+        w[l] = same && l > 0 ? w[0] : family_bond_weight(f, one, r[l]);
     }
     for (int l = 0; l < LANES; l++) w[l] *= (volume[i + l] * volume[j + l]) / square(f->cell_volume);
     if (pairs->materials == 1)
@@ -271,8 +271,8 @@ static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct partic
     }
 }
 
-void regular_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs, int64_t i,
-                   int64_t j, real *inverse, real *w)
+void regular_bonds_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
+                         int64_t i, int64_t j, real *inverse, real *w)
 {
     switch (p->dim) {
     case 1:

@@ -4,7 +4,7 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-real state_weight_left(const struct bonds *b, int64_t row)
+real state_intact_weighted_volume(const struct bonds *b, int64_t row)
 {
     real Q = 0;
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
@@ -21,7 +21,7 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     struct column_copy column;
     for (int l = 0; l < LANES; l++) Q[l] = 0;
     for (int64_t k = 0; b->state.local && k < b->column_count[g]; k++) {
-        column_read(&column, b, g, k);
+        bond_column_read(&column, b, g, k);
         for (int l = 0; l < LANES; l++)
             if (column.w[l] != 0) Q[l] += column.w[l] / square(column.inverse_length[l]);
     }
@@ -34,7 +34,7 @@ static void row_block_weigh(struct bonds *b, const struct particles *p, const st
     }
 }
 
-void state_weigh(struct bonds *b, const struct particles *p, const struct bond_source *s)
+void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *s)
 {
     if (!b->state.modulus) return;
 #pragma omp parallel for schedule(static)

@@ -61,8 +61,8 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
     const real *inverse = from->inverse_length, *w = from->w;
     int16_t excess[LANES];
     int alone = from->first < 0, alike = 1, bonds = 0;
-    *column =
-        (struct stencil_column){.offset = (int32_t)(from->first - i), .shell = (uint8_t)shell_of(b, inverse, excess)};
+    *column = (struct stencil_column){.offset = (int32_t)(from->first - i),
+                                      .shell = (uint8_t)lattice_shell_of(b, inverse, excess)};
     for (int l = 0; l < LANES; l++) {
         to->w[to->columns][l] = w[l];
         alone |= (w[l] == 0) != (inverse[l] == 0); /* cut or broken */
@@ -132,7 +132,7 @@ const struct stencil *stencil_find(struct stencils *all, const struct stencil *s
     return known;
 }
 
-bool row_block_follow(struct bonds *b, int64_t g, int64_t cached)
+bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached)
 {
     const int64_t from = cached >= 0 ? b->row_of[cached] / LANES : g;
     if (!b->stencil[from]) return false;
@@ -145,7 +145,7 @@ bool row_block_follow(struct bonds *b, int64_t g, int64_t cached)
 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
-void column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k)
+void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
     if (!__atomic_load_n(&b->implicit[row_block], __ATOMIC_ACQUIRE)) {
@@ -162,7 +162,7 @@ void column_read(struct column_copy *to, const struct bonds *b, int64_t row_bloc
         to->nbr[l] = to->first + l, to->inverse_length[l] = to->w[l] == 0 ? 0 : of->inverse_length;
 }
 
-void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks)
+void bonds_clear_neighbour_marks(const struct bonds *b, int64_t row, uint64_t *marks)
 {
     if (row < 0) return;
     const int64_t row_block = row / LANES, from = b->column[row_block];
@@ -177,13 +177,13 @@ void bonds_unmark(const struct bonds *b, int64_t row, uint64_t *marks)
     }
 }
 
-void column_write(const struct bonds *b, int64_t column, const struct column_copy *from)
+void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from)
 {
     b->first[column] = from->first;
     memcpy(b->nbr + column * LANES, from->nbr, sizeof from->nbr);
     memcpy(b->inverse_length + column * LANES, from->inverse_length, sizeof from->inverse_length);
     memcpy(b->w + column * LANES, from->w, sizeof from->w);
-    bonds_share(b, column);
+    bonds_update_column_common(b, column);
 }
 
 /* Writes the columns of a row block from its stencil. */
@@ -191,12 +191,12 @@ static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;
     for (int64_t column = b->column[row_block]; column < b->column[row_block] + b->column_count[row_block]; column++) {
-        column_read(&copy, b, row_block, column - b->column[row_block]);
-        column_write(b, column, &copy);
+        bond_column_read(&copy, b, row_block, column - b->column[row_block]);
+        bond_column_write(b, column, &copy);
     }
 }
 
-void row_block_expand(struct bonds *b, int64_t row_block)
+void row_block_write_columns(struct bonds *b, int64_t row_block)
 {
 #pragma omp critical(bonds_unfold)
     if (b->implicit[row_block]) {
@@ -205,10 +205,10 @@ void row_block_expand(struct bonds *b, int64_t row_block)
     }
 }
 
-void bonds_changed(struct bonds *b, int64_t row, int64_t q)
+void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t q)
 {
     b->stencil[row / LANES] = NULL;
     b->changed[row / LANES] = 1;
-    bonds_share(b, q / LANES);
+    bonds_update_column_common(b, q / LANES);
     __atomic_store_n(&b->clamped.stale, true, __ATOMIC_RELAXED); /* several threads may break bonds */
 }

@@ -14,12 +14,12 @@
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int room)
 {
-    const int n = family_of(map, s, p, (int32_t)i, found, room);
+    const int n = find_neighbours_of(map, s, p, (int32_t)i, found, room);
     real volume = 0;
     for (int k = 0; k < n; k++) {
         real xi[DIM_MAX];
         for (int d = 0; d < p->dim; d++) xi[d] = p->X[d][found[k]] - p->X[d][i];
-        volume += p->volume0[found[k]] * family_weight(f, xi, sqrt(dot(xi, xi, p->dim)));
+        volume += p->volume0[found[k]] * family_bond_weight(f, xi, sqrt(dot(xi, xi, p->dim)));
     }
     return volume;
 }
@@ -47,7 +47,7 @@ static void whole_volumes(real *volume, int64_t n, real full)
 
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s)
 {
-    const int most = bonds_room(s);
+    const int most = bonds_most_neighbours(s);
     struct family plain = s->family; /* shell weights are left out: the surface correction counts volumes */
     struct site_map map = {0};
     plain.shell_weight[0] = plain.shell_weight[1] = 1;
@@ -60,7 +60,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
         regular_bonds_make(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            bool regular = map.at && first + LANES <= p->n && regular_bonds(&map, p, first, &bonds);
+            bool regular = map.at && first + LANES <= p->n && regular_bonds_find(&map, p, first, &bonds);
             for (int l = 0; l < LANES && regular; l++) regular = !voids_near(s->voids, first + l);
             if (regular) {
                 const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
@@ -93,7 +93,7 @@ static real row_stiffness(const struct row *row, const struct particles *p, int3
     return spring_bound_of(&bound, p->dim);
 }
 
-real bonds_row_bound(const struct bonds *b, const struct particles *p, int64_t row)
+real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p, int64_t row)
 {
     const int64_t i = b->particle[row];
     struct spring_bound bound = {{{0}}, 0};
@@ -164,7 +164,7 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     for (int k = 0; k < bonds->n; k++) {
         real inverse[LANES];
         real w[LANES];
-        regular_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
+        regular_bonds_weigh(s, p, pairs, i, i + bonds->offset[k], inverse, w);
         for (int l = 0; l < LANES; l++) w[l] = l >= bonds->from[k] && l <= bonds->to[k] ? w[l] : 0;
         bounds_add_any(&bounds, p, i, i + bonds->offset[k], inverse, w, stiffness);
     }
@@ -180,19 +180,19 @@ static real row_block_frequency_made(const struct bonds *b, const struct particl
     for (int64_t k = 0; k < columns && regular && !b->stencil[g]; k++) regular = b->first[b->column[g] + k] >= 0;
     if (!regular) {
         for (int64_t r = g * LANES; r < g * LANES + row_block_rows(b, g); r++)
-            largest = real_max(largest, bonds_row_bound(b, p, r) / p->mass[b->particle[r]]);
+            largest = real_max(largest, bonds_row_stiffness_bound(b, p, r) / p->mass[b->particle[r]]);
         return largest;
     }
     struct eight_bounds bounds = {0};
     struct column_copy column;
     for (int64_t k = 0; k < columns; k++) {
-        column_read(&column, b, g, k);
+        bond_column_read(&column, b, g, k);
         bounds_add_any(&bounds, p, b->particle[g * LANES], column.first, column.inverse_length, column.w, b->stiffness);
     }
     return bounds_frequency(&bounds, p, b->particle[g * LANES]);
 }
 
-real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
+real bonds_critical_step_of_existing(const struct bonds *b, const struct particles *p)
 {
     real largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
@@ -204,7 +204,7 @@ real bonds_critical_step_made(const struct bonds *b, const struct particles *p)
  * materials, because each row of a bond responds with its own modulus. Release `ratio` with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
-    struct pair_table pairs = pairs_make(s);
+    struct pair_table pairs = pair_table_make(s);
     const real first = family_micro_modulus(&s->family, &s->material[0]);
     for (int a = 0; a < s->materials && s->modulus; a++)
         for (int b = 0; b < s->materials; b++)
@@ -223,30 +223,31 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     array_fill_bytes(kind, KIND_PD, p->n_all, 1);
     all.kind = kind;
     struct site_map map;
-    const struct row_maker maker = {.source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_room(s)};
+    const struct row_maker maker = {
+        .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_most_neighbours(s)};
     site_map_make(&map, s, p);
 #pragma omp parallel reduction(max : largest)
     {
         struct row row = {0};
         struct regular_bonds regular;
-        row_room_make(&row, maker.room);
+        row_buffer_make(&row, maker.room);
         regular_bonds_make(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
-            if (map.at && first + LANES <= p->n && row_block_regular(&map, s, &all, first, &regular)) {
+            if (map.at && first + LANES <= p->n && row_block_find_regular(&map, s, &all, first, &regular)) {
                 /* an equal row block is already in `largest` */
                 if (stencil_cache_find_row(&regular, s, first) < 0)
                     largest = real_max(largest, row_block_frequency(&regular, s, p, &pairs, first, stiffness));
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
-                row_find(&row, &maker, (int32_t)i);
-                row_finish(&row, &maker, (int32_t)i);
+                row_find_neighbours(&row, &maker, (int32_t)i);
+                row_compute_weights(&row, &maker, (int32_t)i);
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
             }
         }
         regular_bonds_free(&regular);
-        row_room_free(&row);
+        row_buffer_free(&row);
     }
     site_map_free(&map);
     memory_free(kind);

@@ -14,13 +14,13 @@ static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
         const int64_t q = bond_to_write(b, row / LANES, k, lane);
         b->w[q] = 0;
         b->inverse_length[q] = -fabs(b->inverse_length[q]);
-        bonds_changed(b, row, q);
+        bonds_update_common_of_bond(b, row, q);
         return;
     }
 }
 
-void bonds_take(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
-                const int32_t *now)
+void bonds_transfer_damage(struct bonds *b, struct particles *p, const struct bonds *old, const struct particles *was,
+                           const int32_t *now)
 {
     for (int64_t from = 0; from < old->rows; from++) {
         const int32_t i = now[old->particle[from]], row = i < 0 ? -1 : b->row_of[i];

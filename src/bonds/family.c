@@ -45,7 +45,7 @@ static real true_length(const struct family *f, real r)
     return fabs(squares - whole) < 1e-9 * whole ? f->spacing * sqrt(whole) : r;
 }
 
-real family_weight(const struct family *f, const real *xi, real r)
+real family_bond_weight(const struct family *f, const real *xi, real r)
 {
     int dim = space_dim(f->space);
     real fourth = 0;
@@ -74,8 +74,8 @@ static void sum_point(const struct family *f, const real *xi, int dim, struct la
     for (int d = 0; d < dim; d++) fourth += square(square(xi[d] / r));
     int class = fourth > 3.0 / (dim + 2) + 1e-9 ? 0 : 1;
     s->volume += V * beta;
-    s->sigma += r * V * family_weight(f, xi, r);
-    s->weighted += r * r * family_weight(f, xi, r);
+    s->sigma += r * V * family_bond_weight(f, xi, r);
+    s->weighted += r * r * family_bond_weight(f, xi, r);
     s->axial[class] += r * V * beta * fourth / dim;
     s->mixed[class] += dim > 1 ? r * V * beta * (1 - fourth) / (dim * (dim - 1)) : 0;
 }
@@ -133,7 +133,7 @@ real family_micro_modulus(const struct family *f, const struct material *m)
     return material_micro_modulus_continuum(m, f->space, f->horizon, f->section);
 }
 
-void family_constants(const struct family *f, const struct material *m, real *c11, real *c12)
+void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing), dim = space_dim(f->space);
     const real scale = 0.5 * family_micro_modulus(f, m) * f->cell_volume;
@@ -143,7 +143,7 @@ void family_constants(const struct family *f, const struct material *m, real *c1
             for (int x = -reach; x <= reach; x++) {
                 const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
                 if (r == 0 || r > f->cutoff) continue;
-                const real k = scale * family_weight(f, xi, r) / (r * r * r);
+                const real k = scale * family_bond_weight(f, xi, r) / (r * r * r);
                 *c11 += k * square(square(xi[0])), *c12 += k * square(xi[0] * xi[1]);
             }
 }

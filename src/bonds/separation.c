@@ -39,7 +39,7 @@ static int crossings(const struct family *f, real height, struct crossing *c)
                 real xi[DIM_MAX] = {x * f->spacing, z * f->spacing, y * f->spacing};
                 real r = sqrt(dot(xi, xi, dim));
                 if (xi[1] < height || r > f->cutoff) continue;
-                real w = family_weight(f, xi, r);
+                real w = family_bond_weight(f, xi, r);
                 c[n++] = (struct crossing){square(r) / xi[1], w * square(r), w * xi[1], w};
             }
     return n;
@@ -62,7 +62,7 @@ static real layer_work(const struct state_modulus *m, const struct family *f, re
     return work;
 }
 
-real family_separation(const struct family *f, const struct state_modulus *m, bool local)
+real family_separation_work(const struct family *f, const struct state_modulus *m, bool local)
 {
     const int reach = (int)ceil(f->cutoff / f->spacing);
     const int64_t room = (int64_t)reach * (2 * reach + 1) * (space_dim(f->space) > 2 ? 2 * reach + 1 : 1);
@@ -83,7 +83,7 @@ real family_crossing_energy(const struct family *f, const struct material *m)
         for (int y = -width; y <= width; y++)
             for (int z = -depth; z <= depth; z++) {
                 const real xi[DIM_MAX] = {x * f->spacing, y * f->spacing, z * f->spacing}, r = sqrt(dot(xi, xi, dim));
-                if (r <= f->cutoff) sum += x * family_weight(f, xi, r) * r;
+                if (r <= f->cutoff) sum += x * family_bond_weight(f, xi, r) * r;
             }
     const real energy = 0.5 * family_micro_modulus(f, m) * square(m->critical_stretch) * square(f->cell_volume) * sum;
     return energy * f->spacing / f->cell_volume;

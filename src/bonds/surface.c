@@ -7,7 +7,7 @@
 #include "surface_parts.h"
 
 /* Fills the factors by class and offset, and the weighted volumes of the classes. */
-static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct alike *a,
+static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {
     const int n = b->offset.n;
@@ -24,16 +24,17 @@ static void tables_make(struct surface_weights *to, const struct near_faces *b, 
         }
 }
 
-status surface_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s, bool rotates)
+status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s,
+                            bool rotates)
 {
     struct near_faces b;
-    struct faces f;
-    struct alike a;
+    struct face_targets f;
+    struct bond_classes a;
     TRY(near_faces_make(&b, p, s, to->apart));
-    faces_make(&f, &b, rotates);
-    alike_make(&a, &b);
+    face_targets_make(&f, &b, rotates);
+    bond_classes_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
-    surface_fit(factor, &b, &f, &a, rotates);
+    surface_fit_factors(factor, &b, &f, &a, rotates);
     *to = (struct surface_weights){.spacing = s->family.spacing,
                                    .reach = b.offset.reach,
                                    .dim = p->dim,
@@ -46,13 +47,13 @@ status surface_make(struct surface_weights *to, const struct particles *p, const
         to->class_of[b.particle[t]] = a.class_of[t], to->mirrors[b.particle[t]] = a.mirrors[t];
     tables_make(to, &b, &a, &s->family, factor);
     memory_free(factor);
-    alike_free(&a);
-    faces_free(&f);
+    bond_classes_free(&a);
+    face_targets_free(&f);
     near_faces_free(&b);
     return OK;
 }
 
-void surface_free(struct surface_weights *w)
+void surface_weights_free(struct surface_weights *w)
 {
     memory_free(w->offset_at);
     memory_free(w->class_of);

@@ -24,7 +24,7 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
-    const struct seen seen = seen_of(b, j);
+    const struct seen seen = mirrored_source_of(b, j);
     const int64_t t = b->place[seen.particle];
     return t < 0 ? 2 : colour[(t << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
@@ -65,7 +65,7 @@ static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_
 }
 
 /* Numbers the classes in the order of their first particle. */
-static void classes_make(struct alike *a, const struct near_faces *b, const uint64_t *colour)
+static void classes_make(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
 {
     const int dim = b->offset.dim;
     int64_t room = 64;
@@ -109,26 +109,26 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
 }
 
 /* Returns the entry (class, offset in its mirrors) of bond k of particle t. */
-static int64_t entry_of(const struct alike *a, const struct near_faces *b, int64_t t, int k)
+static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
 /* Joins the entries of both directions of every bond that may change. */
-static void bonds_join(const struct alike *a, const struct near_faces *b, int64_t *parent)
+static void bonds_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     for (int64_t t = 0; t < b->n; t++)
         for (int k = 0; k < b->offset.n; k++) {
             const int32_t j = neighbour_of(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && is_whole(b, j))) continue;
-            const struct seen seen = seen_of(b, j);
-            const int64_t other = entry_of(a, b, b->place[seen.particle], twin_offset(b, &seen, k));
+            const struct seen seen = mirrored_source_of(b, j);
+            const int64_t other = entry_of(a, b, b->place[seen.particle], reverse_offset(b, &seen, k));
             groups_join(parent, entry_of(a, b, t, k), other);
         }
 }
 
 /* Joins bonds that are mirror images of each other within a class. */
-static void twins_join(const struct alike *a, const struct near_faces *b, int64_t *parent)
+static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;
     for (int32_t class = 1; class < a->classes; class ++)
@@ -140,7 +140,7 @@ static void twins_join(const struct alike *a, const struct near_faces *b, int64_
 }
 
 /* Finds the mirrors under which each class is its own image. */
-static void symmetries_find(struct alike *a, const struct near_faces *b, const uint64_t *colour)
+static void symmetries_find(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
 {
     a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
     for (int32_t class = 1; class < a->classes; class ++) {
@@ -150,10 +150,10 @@ static void symmetries_find(struct alike *a, const struct near_faces *b, const u
     }
 }
 
-void alike_make(struct alike *a, const struct near_faces *b)
+void bond_classes_make(struct bond_classes *a, const struct near_faces *b)
 {
     uint64_t *colour = NEW("surface.colour", b->n << b->offset.dim, uint64_t);
-    *a = (struct alike){0};
+    *a = (struct bond_classes){0};
     colours(b, colour);
     classes_make(a, b, colour);
     symmetries_find(a, b, colour);
@@ -169,7 +169,7 @@ void alike_make(struct alike *a, const struct near_faces *b)
     }
 }
 
-void alike_free(struct alike *a)
+void bond_classes_free(struct bond_classes *a)
 {
     memory_free(a->class_of);
     memory_free(a->mirrors);

@@ -24,7 +24,7 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     for (int d = 0; d < o->dim; d++) o->direction[o->n][d] = at[d] / length;
     for (int d = 0; d < o->dim && length2 == 1; d++)
         if (at[d] != 0) o->axis[d][at[d] > 0] = o->n;
-    o->share[o->n] = family_weight(f, xi, length * f->spacing);
+    o->share[o->n] = family_bond_weight(f, xi, length * f->spacing);
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
@@ -79,7 +79,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-struct seen seen_of(const struct near_faces *b, int64_t j)
+struct seen mirrored_source_of(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_root(b->p, b->source->image, j), 0};
     for (int d = 0; d < b->p->dim && j >= b->p->n; d++)
@@ -87,17 +87,17 @@ struct seen seen_of(const struct near_faces *b, int64_t j)
     return to;
 }
 
-struct seen seen_beyond(const struct near_faces *b, const struct seen *from, int k)
+struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int k)
 {
     const int32_t j = neighbour_of(b, b->place[from->particle], b->offset.mirrored[from->mirrors * b->offset.n + k]);
     struct seen to = {-1, 0};
     if (j < 0) return to;
-    to = seen_of(b, j);
+    to = mirrored_source_of(b, j);
     to.mirrors ^= from->mirrors;
     return to;
 }
 
-int twin_offset(const struct near_faces *b, const struct seen *to, int k)
+int reverse_offset(const struct near_faces *b, const struct seen *to, int k)
 {
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
 }
@@ -114,13 +114,13 @@ struct search {
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
-    const int n = family_of(search->map, s, b->p, (int32_t)i, search->found, search->room);
-    const bool near = cracks_near(s, b->p, i);
+    const int n = find_neighbours_of(search->map, s, b->p, (int32_t)i, search->found, search->room);
+    const bool near = cracks_near_particle(s, b->p, i);
     int kept = 0;
     for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
-        if (near && cracks_part(s->crack, s->cracks, b->p, i, j)) continue;
+        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
         const int at = to || kept == 0 ? offset_between(&b->offset, b->p, s->family.spacing, i, j) : 0;
         if (at < 0) return -1;
         if (to) to[at] = j;
@@ -133,16 +133,16 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
 static bool eight_whole(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
                         int64_t first)
 {
-    if (!map->at || first + LANES > b->p->n || !regular_bonds(map, b->p, first, regular)) return false;
+    if (!map->at || first + LANES > b->p->n || !regular_bonds_find(map, b->p, first, regular)) return false;
     bool near = !regular->full || regular->n != b->offset.n;
-    for (int l = 0; l < LANES && !near; l++) near = cuts_near(b->source, b->p, first + l);
+    for (int l = 0; l < LANES && !near; l++) near = cuts_near_particle(b->source, b->p, first + l);
     return !near;
 }
 
 /* Marks whole families. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
-    const int room = bonds_room(b->source);
+    const int room = bonds_most_neighbours(b->source);
     bool lattice = true;
 #pragma omp parallel reduction(&& : lattice)
     {
@@ -167,13 +167,13 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
 static bool near_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
-    const int room = bonds_room(b->source);
+    const int room = bonds_most_neighbours(b->source);
     uint8_t *near = NEW("surface.near", p->n, uint8_t);
     struct search search = {map, NEW("surface.found", room, int32_t), room};
     for (int64_t i = 0; i < p->n_all; i++) { /* images too: their families reach into the body */
         if (is_whole(b, i)) continue;
         if (i < p->n) near[i] = 1;
-        const int n = family_of(map, b->source, p, (int32_t)i, search.found, room);
+        const int n = find_neighbours_of(map, b->source, p, (int32_t)i, search.found, room);
         for (int k = 0; k < n; k++)
             if (search.found[k] < p->n) near[search.found[k]] = 1;
     }
@@ -203,14 +203,15 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;
-    const int room = bonds_room(s);
+    const int room = bonds_most_neighbours(s);
     int32_t *found = NEW("surface.found", room, int32_t);
     apart[0] = apart[1] = -1;
     for (int64_t i = 0; i < b->p->n && apart[0] < 0; i++) {
-        const int n = family_of(map, s, b->p, (int32_t)i, found, room);
+        const int n = find_neighbours_of(map, s, b->p, (int32_t)i, found, room);
         for (int k = 0; k < n && apart[0] < 0; k++)
             if (offset_between(&b->offset, b->p, s->family.spacing, i, found[k]) < 0 &&
-                !(cracks_near(s, b->p, i) && cracks_part(s->crack, s->cracks, b->p, i, found[k])))
+                !(cracks_near_particle(s, b->p, i) &&
+                  cracks_separate_particles(s->crack, s->cracks, b->p, i, found[k])))
                 apart[0] = i, apart[1] = found[k];
     }
     memory_free(found);

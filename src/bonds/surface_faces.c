@@ -41,7 +41,7 @@ static struct face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
     struct face f = {{0}, {0}, 0};
-    const struct seen seen = seen_of(b, j);
+    const struct seen seen = mirrored_source_of(b, j);
     const int64_t t = b->place[seen.particle];
     if (t < 0) return f;
     for (int d = 0; d < b->p->dim; d++) {
@@ -132,7 +132,7 @@ static real plane_of_faces(const struct offsets *o)
 }
 
 /* Computes the mean of N (x) N of particle t, weighted by nearness. */
-static void normals_gather(struct faces *f, const struct near_faces *b, const struct smooth *smooth, real plane,
+static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, real plane,
                            bool rotates, int64_t t)
 {
     const int dim = b->p->dim;
@@ -141,7 +141,7 @@ static void normals_gather(struct faces *f, const struct near_faces *b, const st
     for (int k = 0; k < b->offset.n; k++) {
         const int32_t j = neighbour_of(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = seen_of(b, j);
+        const struct seen seen = mirrored_source_of(b, j);
         const int64_t other = b->place[seen.particle];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)
@@ -157,14 +157,14 @@ static void normals_gather(struct faces *f, const struct near_faces *b, const st
 /* Distributes the face of particle t at one end of an axis over the layers behind it. The area is extrapolated from the
  * middles of the layers to the face. The weights of the dipole have sum 0. Without rotations they are the difference 1,
  * -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order at the face. */
-static void face_spread(struct faces *f, const struct near_faces *b, const struct smooth *smooth, int64_t t, int axis,
-                        int up, bool rotates)
+static void face_spread(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, int64_t t,
+                        int axis, int up, bool rotates)
 {
     static const real area[2][2] = {{1}, {1.5, -0.5}}, first[2] = {1, -1}, second[CHAIN] = {2, -3, 1};
     struct seen chain[CHAIN] = {{b->particle[t], 0}};
     int length = 1;
     while (length < CHAIN) { /* through mirrors too */
-        const struct seen next = seen_beyond(b, &chain[length - 1], b->offset.axis[axis][!up]);
+        const struct seen next = mirrored_neighbour(b, &chain[length - 1], b->offset.axis[axis][!up]);
         if (next.particle < 0 || b->place[next.particle] < 0) break;
         chain[length++] = next;
     }
@@ -186,7 +186,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     for (int up = 0; up < 2; up++) {
         struct seen at = {b->particle[t], 0};
         while (n < most) {
-            at = seen_beyond(b, &at, b->offset.axis[axis][up]);
+            at = mirrored_neighbour(b, &at, b->offset.axis[axis][up]);
             if (at.particle < 0) break;
             n++;
             if (b->place[at.particle] < 0) return most; /* not near any face */
@@ -195,7 +195,7 @@ static int layers(const struct near_faces *b, int64_t t, int axis, int most)
     return n;
 }
 
-void faces_make(struct faces *f, const struct near_faces *b, bool rotates)
+void face_targets_make(struct face_targets *f, const struct near_faces *b, bool rotates)
 {
     const int dim = b->p->dim, most = rotates ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
@@ -222,7 +222,7 @@ void faces_make(struct faces *f, const struct near_faces *b, bool rotates)
     memory_free(smooth);
 }
 
-void faces_free(struct faces *f)
+void face_targets_free(struct face_targets *f)
 {
     memory_free(f->area);
     memory_free(f->dipole);

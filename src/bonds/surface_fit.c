@@ -206,7 +206,8 @@ struct class_goal {
 };
 
 /* Adds the targets of particle t, reflected by `mirrors`, with weight `share`. */
-static void class_goal_add(struct class_goal *to, int dim, const struct faces *f, int64_t t, int mirrors, real share)
+static void class_goal_add(struct class_goal *to, int dim, const struct face_targets *f, int64_t t, int mirrors,
+                           real share)
 {
     to->dipole += share * f->dipole[t];
     for (int d = 0; d < dim; d++) {
@@ -217,8 +218,8 @@ static void class_goal_add(struct class_goal *to, int dim, const struct faces *f
 }
 
 /* Computes the mean targets of all classes. */
-static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b, const struct faces *f,
-                        const struct alike *a)
+static void class_goals(struct class_goal *goal, int dim, const struct near_faces *b, const struct face_targets *f,
+                        const struct bond_classes *a)
 {
     for (int64_t t = 0; t < b->n; t++) {
         const int32_t class = a->class_of[t];
@@ -231,7 +232,7 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
 
 /* Computes quadratic form and target of a class. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
-                       struct class_goal *goal, const struct alike *a, int32_t class, real alpha)
+                       struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
     real P[STRAINS][STRAINS];
     strain_weights(m, goal->normal2, P);
@@ -269,7 +270,7 @@ static void class_weigh(const struct moments *m, const struct class_fit *c, cons
 
 /* The least-squares problem. */
 struct problem {
-    const struct alike *alike;
+    const struct bond_classes *alike;
     int offsets;
     struct moments moments;
     struct class_fit *class;
@@ -282,7 +283,7 @@ struct problem {
 /* Sorts the entries by group. */
 static void group_entries(struct problem *q)
 {
-    const struct alike *a = q->alike;
+    const struct bond_classes *a = q->alike;
     const int64_t entries = (int64_t)a->classes * q->offsets;
     q->first = NEW("surface.first", a->groups + 1, int64_t);
     q->bonds = NEW("surface.bonds", a->groups, real);
@@ -390,7 +391,7 @@ static void solve(struct problem *q, real *factor, const uint8_t *fixed)
     real *low = NEW("surface.low", n, real), *high = NEW("surface.high", n, real);
     for (int64_t k = 0; k < n; k++) low[k] = fixed[k] ? factor[k] : LEAST, high[k] = fixed[k] ? factor[k] : MOST;
     const struct quadratic f = {fit_product, q, n, q->goal, q->diagonal, low, high};
-    quadratic_descend(&f, factor, CLOSE, (int)fmin(PRODUCTS, WORK / work));
+    quadratic_minimise(&f, factor, CLOSE, (int)fmin(PRODUCTS, WORK / work));
     memory_free(low);
     memory_free(high);
 }
@@ -403,14 +404,14 @@ static bool at_crack_end(const struct near_faces *b, int64_t t)
     const struct particles *p = b->p;
     const int32_t i = b->particle[t];
     const bool across = voids_near(b->source->voids, i) && b->source->voids->near[i] & VOID_ACROSS;
-    if (!across && !cracks_near(b->source, p, i)) return false;
+    if (!across && !cracks_near_particle(b->source, p, i)) return false;
     for (int k = 0; k < o->n; k++) {
         const int32_t j = neighbour_of(b, t, k);
         if (j < 0) continue;
-        const struct seen seen = seen_of(b, j);
+        const struct seen seen = mirrored_source_of(b, j);
         for (int l = 0; l < o->n && b->place[seen.particle] >= 0; l++) {
             int place = 0;
-            bool within = seen_beyond(b, &seen, l).particle >= 0;
+            bool within = mirrored_neighbour(b, &seen, l).particle >= 0;
             for (int d = o->dim - 1; d >= 0; d--) {
                 const int at = o->at[k][d] + o->at[l][d];
                 within = within && abs(at) <= o->reach;
@@ -441,8 +442,8 @@ static bool may_break(const struct bond_limit *limit)
 /* Fixes the factors of bonds in thin parts, which have too few layers, and at crack ends: factor of the volume method
  * (Le & Bobaru 2018), in models with rotations 1. If bonds may break, bonds at crack ends break next and get factor 1,
  * for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
-static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct faces *f,
-                        const struct alike *a, bool rotates)
+static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct face_targets *f,
+                        const struct bond_classes *a, bool rotates)
 {
     const int n = b->offset.n;
     const bool breaks = may_break(&b->source->limit);
@@ -452,14 +453,15 @@ static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, con
         for (int k = 0; k < n && plain; k++) {
             const int64_t g = a->group_of[(int64_t) class * n + k];
             if (g < 0) continue;
-            const int64_t other = b->place[seen_of(b, alike_neighbour(a, b, class, k)).particle];
+            const int64_t other = b->place[mirrored_source_of(b, alike_neighbour(a, b, class, k)).particle];
             const real both = neighbours(b, t) + neighbours(b, other);
             x[g] = rotates || (end && breaks) ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST), fixed[g] = 1;
         }
     }
 }
 
-void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a, bool rotates)
+void surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
+                         const struct bond_classes *a, bool rotates)
 {
     struct problem q = {.alike = a, .offsets = b->offset.n};
     moments_make(&q.moments, &b->offset);

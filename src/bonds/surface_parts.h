@@ -39,7 +39,7 @@ struct seen {
 
 /* Returns the particle of the body of which entry j of the particle arrays is an image (j itself, if it is not an
  * image), and the mirrors in between as one bit per reversed axis. */
-struct seen seen_of(const struct near_faces *b, int64_t j);
+struct seen mirrored_source_of(const struct near_faces *b, int64_t j);
 
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
@@ -53,7 +53,7 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
 
 /* Returns the neighbour at offset number k of `from`, a particle near faces that is seen through mirrors, with the
  * mirrors in between. Its particle is -1 if there is no neighbour or the bond is cut. */
-struct seen seen_beyond(const struct near_faces *b, const struct seen *from, int k);
+struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int k);
 
 /* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
 static inline bool is_whole(const struct near_faces *b, int64_t j)
@@ -63,7 +63,7 @@ static inline bool is_whole(const struct near_faces *b, int64_t j)
 
 /* Returns the number of the offset by which `to`, the other particle of a bond with offset number k, reaches the first
  * particle: the reversed offset, reflected in the mirrors of `to`. */
-int twin_offset(const struct near_faces *b, const struct seen *to, int k);
+int reverse_offset(const struct near_faces *b, const struct seen *to, int k);
 
 /* Lists the particles near faces and their neighbours in b. s: inputs of the bonds. Returns REFUSED, with a message, if
  * the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a whole number
@@ -74,7 +74,7 @@ status near_faces_make(struct near_faces *b, const struct particles *p, const st
 void near_faces_free(struct near_faces *b);
 
 /* Properties of faces near each particle, to which the weights of its bonds are fitted. */
-struct faces {
+struct face_targets {
     real (*area)[DIM_MAX];             /* [n] outward area, extrapolated to the face [spacing^(dim-1)] */
     real *dipole;                      /* [n] tau over alpha [1] */
     real (*normal2)[DIM_MAX][DIM_MAX]; /* [n] N (x) N, mean over nearby faces, of trace 1 at a face; 0: no face */
@@ -83,15 +83,15 @@ struct faces {
 enum { THIN = 4, THIN_ROTATING = 5 };
 
 /* Computes, for the particles b near faces, the outward areas, moments and normals to which bond weights are fitted,
- * into f. rotates: true for the model with particle rotations. Release with faces_free. */
-void faces_make(struct faces *f, const struct near_faces *b, bool rotates);
+ * into f. rotates: true for the model with particle rotations. Release with face_targets_free. */
+void face_targets_make(struct face_targets *f, const struct near_faces *b, bool rotates);
 
 /* Releases all arrays of f. */
-void faces_free(struct faces *f);
+void face_targets_free(struct face_targets *f);
 
 /* Classes of particles near faces whose neighbours have equal relative positions, up to reflections along axes, and
  * groups of bonds that share one factor on their weight; factors are stored by class and offset. */
-struct alike {
+struct bond_classes {
     int32_t classes, *class_of; /* [near n] class; 0 is not used (no face nearby) */
     uint8_t *mirrors;           /* [near n] mirrors that turn the particle into one of its class */
     int64_t *member;            /* [classes] first particle of the class, as index in near_faces */
@@ -102,22 +102,23 @@ struct alike {
 };
 
 /* Sorts the particles b near faces into classes with equal surroundings up to mirrors, and their bonds into groups with
- * one factor each. Release with alike_free. */
-void alike_make(struct alike *a, const struct near_faces *b);
+ * one factor each. Release with bond_classes_free. */
+void bond_classes_make(struct bond_classes *a, const struct near_faces *b);
 
 /* Returns the particle or image at offset number k from the first member of class `class`, seen through the mirrors of
  * that member; -1 if there is none. */
-static inline int32_t alike_neighbour(const struct alike *a, const struct near_faces *b, int32_t class, int k)
+static inline int32_t alike_neighbour(const struct bond_classes *a, const struct near_faces *b, int32_t class, int k)
 {
     const int64_t t = a->member[class];
     return neighbour_of(b, t, b->offset.mirrored[a->mirrors[t] * b->offset.n + k]);
 }
 
 /* Releases all arrays of a. */
-void alike_free(struct alike *a);
+void bond_classes_free(struct bond_classes *a);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [a->groups] [1]; f: targets of the fit; rotates: true for the model with particle rotations. */
-void surface_fit(real *factor, const struct near_faces *b, const struct faces *f, const struct alike *a, bool rotates);
+void surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
+                         const struct bond_classes *a, bool rotates);
 
 #endif

@@ -126,7 +126,7 @@ static void rows_sweep(struct contact *c, struct particles *p, real dt, struct c
             if (faces)
                 contact_face_evaluate(c, p, row, dt, &own);
             else
-                contact_pair_row(c, p, row, &own);
+                contact_pair_add_force(c, p, row, &own);
         }
 #pragma omp critical
         found_join(all, &own);
@@ -141,16 +141,16 @@ static void faces_force(struct contact *c, struct particles *p, real dt)
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < c->rows; row++) {
             if (!contact_follows(c, row)) continue;
-            contact_face_row(c, p, row);
-            if (c->spring) contact_face_slide(c, p, row, dt);
+            contact_face_add_force(c, p, row);
+            if (c->spring) contact_face_advance_spring(c, p, row, dt);
         }
 #pragma omp for schedule(static)
         for (int64_t row = 0; row < (c->spring ? c->rows : 0); row++)
-            if (contact_follows(c, row)) contact_face_drag(c, p, row);
+            if (contact_follows(c, row)) contact_face_add_friction(c, p, row);
     }
 }
 
-void contact_record(struct contact *c, const struct particles *p)
+void contact_allocate_forces(struct contact *c, const struct particles *p)
 {
     for (int d = 0; d < p->dim && contact_works(c); d++)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
@@ -176,7 +176,7 @@ void contact_force(struct contact *c, struct particles *p, real dt)
     if (all.touching / 2 > c->pairs_most) c->pairs_most = all.touching / 2;
 }
 
-void contact_clock(struct contact *c, real t)
+void contact_update_times(struct contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;
@@ -197,7 +197,7 @@ static real contact_energy_term(const void *context, int64_t row)
 
 real contact_energy(const struct contact *c, const struct particles *p)
 {
-    const real pairs = c->pairs > 0 ? team_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
+    const real pairs = c->pairs > 0 ? reproducible_sum(c->rows, contact_energy_term, &(struct contact_sum){c, p}) : 0;
     return pairs + contact_rigid_energy(c, p) + contact_friction_stored(c);
 }
 
@@ -205,7 +205,7 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size)
+status contact_archive_array(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
         memory_free(*array);
@@ -240,31 +240,31 @@ status contact_archive(struct contact *c, const struct particles *p, struct arch
     if (!c->made) return OK;
     if (c->n < 0 || c->rows < 0 || c->pairs < 0 || c->n > p->n_all || c->rows > c->n || c->pairs > INT32_MAX)
         return status_set(FAILED, "cannot resume: the checkpoint has an impossible number of pairs in contact");
-    TRY(contact_stored(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
+    TRY(contact_archive_array(a, "contact/particle", (void **)&c->particle, c->n, sizeof *c->particle));
     archive_renumber(a, c->particle, c->n);
     for (int d = 0; d < p->dim; d++) {
         char name[] = "contact/at_x";
         name[sizeof name - 2] = (char)('x' + d);
-        TRY(contact_stored(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
+        TRY(contact_archive_array(a, name, (void **)&c->at[d], c->n, sizeof *c->at[d]));
     }
-    TRY(contact_stored(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
-    TRY(contact_stored(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
+    TRY(contact_archive_array(a, "contact/first", (void **)&c->first, c->rows + 1, sizeof *c->first));
+    TRY(contact_archive_array(a, "contact/other", (void **)&c->other, c->pairs, sizeof *c->other));
     if (c->law.form == CONTACT_PAIR)
-        TRY(contact_stored(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
+        TRY(contact_archive_array(a, "contact/distance", (void **)&c->distance, c->pairs, sizeof *c->distance));
     else {
-        TRY(contact_stored(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
-        TRY(contact_stored(a, "contact/balance", (void **)&c->balance, c->rows, sizeof *c->balance));
+        TRY(contact_archive_array(a, "contact/face", (void **)&c->face, c->rows, sizeof *c->face));
+        TRY(contact_archive_array(a, "contact/balance", (void **)&c->balance, c->rows, sizeof *c->balance));
     }
     if (c->law.friction > 0) {
         ARCHIVE_VALUE(a, "contact/friction_work", c->friction_work);
-        TRY(contact_stored(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
+        TRY(contact_archive_array(a, "contact/spring", (void **)&c->spring, c->rows, sizeof *c->spring));
         if (!a->saving) contact_reactions_make(c);
     }
     TRY(contact_rigid_archive(c, a));
-    TRY(contact_marks_archive(c, a));
+    TRY(contact_selection_archive(c, a));
     if (a->saving) return OK;
     TRY(contact_check(c, p));
-    contact_list_describe(c, p);
-    if (c->touch) contact_marks_follow(c);
+    contact_list_compute_arrays(c, p);
+    if (c->touch) contact_selection_activate_all(c);
     return OK;
 }

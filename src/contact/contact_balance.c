@@ -14,7 +14,7 @@
 /* largest part against the rate, relative to the change of the contact force in a step [1]; empirical */
 #define BALANCE_DRAG 0.1 /* force against the rate over the change of the contact force in the step [1]; empirical */
 
-real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance)
+real contact_balance_force(struct contact_balance *b, real stiffness, real gap, bool advance)
 {
     if (!advance) return b->drag;
     const real was = b->gap;

@@ -133,7 +133,7 @@ void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t
     const struct face_gap at = face_gap(c, &field, face->zero);
     const bool touches = contact_touches(contact_marks(c), row, at.gap < 0);
     const real force = 0.5 * face->stiffness * (touches ? at.gap : 0) +
-                       contact_balance(&c->balance[row], face->stiffness, at.gap, dt > 0);
+                       contact_balance_force(&c->balance[row], face->stiffness, at.gap, dt > 0);
     face->mean = field.mean;
     if (!touches) return;
     face->push = force * at.slope;
@@ -160,7 +160,8 @@ static real face_pull(const struct contact *c, int64_t k, int64_t l)
     return face->push - face->lift * (c->rise[l] - face->mean);
 }
 
-struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real lag)
+struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                                          real lag)
 {
     struct contact_weight w = {0};
     const int32_t i = c->particle[k], j = c->particle[l];
@@ -179,7 +180,7 @@ struct contact_weight contact_weight(const struct contact *c, const struct parti
 
 /* The force has two parts: by the energy of the row, and by the energies of the rows whose fields contain its
  * particle. */
-void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
+void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX] = {0}, apart[DIM_MAX], reach;
@@ -196,7 +197,7 @@ void contact_face_row(const struct contact *c, struct particles *p, int64_t row)
     for (int d = 0; d < p->dim; d++) p->f[d][i] += f[d];
 }
 
-void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term)
+void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term)
 {
     const struct face_field field = face_field_at(c, p, p->x, row);
     const struct face_gap at = face_gap(c, &field, c->face[row].zero);
@@ -242,7 +243,7 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
         real reach, r2 = 0;
         field_share(c, p->dim, row, c->other[q], &reach);
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - p->X[d][j]);
-        if (r2 < square(reach)) widest = real_max(widest, contact_notch(c, p, row, c->other[q]));
+        if (r2 < square(reach)) widest = real_max(widest, contact_notch_width(c, p, row, c->other[q]));
     }
     return widest / c->size[row];
 }
@@ -269,8 +270,8 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
 
 /* For a row in contact the overlap is chosen such that the energy does not change. Otherwise contact begins where the
  * surfaces of the scene meet, or later if the reference or the present configuration is closer. */
-void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
-                        int64_t row)
+void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
+                             int64_t row)
 {
     struct contact_face *face = &c->face[row];
     const bool pairs = c->first[row + 1] > c->first[row];

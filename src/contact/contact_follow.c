@@ -78,17 +78,17 @@ static void rows_touch(const struct contact *c, const struct particles *p, struc
     int64_t n = 0;
     for (int64_t row = 0; row < c->rows; row++)
         if (contact_follows(c, row)) list[n++] = c->particle[row];
-    loads_touch(l, p, list, n);
-    active_rows_touch(b, p, l, list, n);
+    loads_set_contact_particles(l, p, list, n);
+    active_rows_activate(b, p, l, list, n);
     memory_free(list);
 }
 
-void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     if (c->waiting > 0 && rows_follow(c, p)) rows_touch(c, p, b, l);
 }
 
-void contact_follow(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
+void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);

@@ -16,7 +16,7 @@ static void lay_down(real *spring, const real *normal, int dim)
     for (int d = 0; d < dim; d++) spring[d] = (spring[d] - out * normal[d]) * sqrt(before / after);
 }
 
-void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most)
+void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most)
 {
     real along[DIM_MAX], before[DIM_MAX], length2 = 0, stored = 0, work = 0;
     lay_down(s->length, normal, dim);
@@ -67,7 +67,7 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
 {
     struct contact_partner sum = {.density = 0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q], lag);
+        const struct contact_weight w = contact_face_weight(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         if (w.weight == 0) continue;
         sum.density += w.weight;
@@ -81,7 +81,7 @@ static struct contact_partner partner_mean(const struct contact *c, const struct
     return sum;
 }
 
-/* Adds share (r^2 1 - r r) to a symmetric tensor, in the order of tensor_principal. */
+/* Adds share (r^2 1 - r r) to a symmetric tensor, in the order of tensor_principal_values. */
 static void inertia_add(real *tensor, const real *r, real share)
 {
     for (int a = 0; a < 3; a++) {
@@ -103,7 +103,7 @@ static real quadratic_form(const real *tensor, const real *e)
 static void partner_invert(struct contact_partner *to, const real *inertia, const real *squares)
 {
     real value[3], axis[9];
-    tensor_principal(inertia, value, axis);
+    tensor_principal_values(inertia, value, axis);
     const real widest = real_max(value[0], dot(to->arm, to->arm, DIM_MAX));
     for (int k = 0; k < 3; k++) {
         const real *e = axis + 3 * k, forces = dot(to->arm, to->arm, 3) * quadratic_form(squares, e);
@@ -119,7 +119,7 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
 {
     real inertia[6] = {0}, squares[6] = {0}, momentum[DIM_MAX] = {0};
     for (int64_t q = c->first[row]; q < c->first[row + 1]; q++) {
-        const struct contact_weight w = contact_weight(c, p, row, c->other[q], lag);
+        const struct contact_weight w = contact_face_weight(c, p, row, c->other[q], lag);
         const int32_t j = c->particle[c->other[q]];
         const real share = w.weight / to->density;
         real r[DIM_MAX] = {0}, v[DIM_MAX] = {0}, turning[DIM_MAX];
@@ -147,7 +147,7 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
 
 /* Half of a step is measured at its start and half at its end, since leap-frog applies the forces of both times to
  * it. */
-void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt)
+void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
     struct contact_reaction *reaction = &c->reaction[row];
@@ -162,7 +162,7 @@ void contact_face_slide(struct contact *c, const struct particles *p, int64_t ro
         slid[d] = 0.5 * (first[d] + now.slip[d]) * dt;
     }
     s->density = now.density;
-    contact_slide(s, p->dim, normal, slid, k, c->law.friction * force);
+    contact_spring_advance(s, p->dim, normal, slid, k, c->law.friction * force);
     vector_product(now.arm, s->drag, moment);
     for (int d = 0; d < DIM_MAX; d++) {
         reaction->arm[d] = now.arm[d];
@@ -174,7 +174,7 @@ void contact_face_slide(struct contact *c, const struct particles *p, int64_t ro
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
-    const struct contact_weight w = contact_weight(c, p, l, row, 0);
+    const struct contact_weight w = contact_face_weight(c, p, l, row, 0);
     const real share = w.weight / c->spring[l].density;
     real r[DIM_MAX] = {0}, turning[DIM_MAX];
     for (int d = 0; d < p->dim; d++) r[d] = reaction->arm[d] - w.apart[d];
@@ -183,7 +183,7 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
 }
 
 /* Particles have no images: scenes with mirrors have no friction. */
-void contact_face_drag(const struct contact *c, struct particles *p, int64_t row)
+void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX];
@@ -200,9 +200,9 @@ static real lost_by(const void *context, int64_t k) { return ((const struct cont
 
 static real springs_sum(const struct contact *c, real (*term)(const void *context, int64_t k))
 {
-    real sum = c->spring ? team_sum(c->rows, term, c->spring) : 0;
+    real sum = c->spring ? reproducible_sum(c->rows, term, c->spring) : 0;
     for (int b = 0; b < c->rigids && c->near; b++)
-        if (c->near[b].spring) sum += team_sum(c->near[b].n, term, c->near[b].spring);
+        if (c->near[b].spring) sum += reproducible_sum(c->near[b].n, term, c->near[b].spring);
     return sum;
 }
 
@@ -216,24 +216,24 @@ void contact_reactions_make(struct contact *c)
 }
 
 /* Springs of particles still in contact are kept with their particles; the energy of other springs is lost. */
-void contact_springs_begin(struct contact *c, const struct contact *before)
+void contact_springs_copy(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;
     c->spring = NEW("contact.spring", c->rows, struct contact_spring);
     contact_reactions_make(c);
     for (int64_t row = 0; row < c->rows; row++)
-        contact_spring_take(&c->spring[row], before->spring,
-                            before->made ? contact_row_of(before, c->particle[row]) : -1);
+        contact_spring_copy(&c->spring[row], before->spring,
+                            before->made ? contact_list_find(before, c->particle[row]) : -1);
 }
 
-void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at)
+void contact_spring_copy(struct contact_spring *to, const struct contact_spring *before, int64_t at)
 {
     if (!before || at < 0) return;
     *to = before[at];
     to->lost = 0;
 }
 
-void contact_friction_settle(struct contact *c, const struct contact *before)
+void contact_friction_carry_over(struct contact *c, const struct contact *before)
 {
     c->friction_work = contact_friction_work(before) + contact_friction_stored(before) - contact_friction_stored(c);
 }

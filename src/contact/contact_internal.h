@@ -57,20 +57,20 @@ static inline real contact_stiffness(const struct contact *c, const struct parti
 static inline bool contact_works(const struct contact *c) { return c->law.between != CONTACT_NONE || c->rigids > 0; }
 
 /* Returns true if contact forces may act on the particle number `row` of the contact list in this step, as
- * contact_follow_more and contact_follow have determined. */
+ * contact_activate_more and contact_activate_particles have determined. */
 static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
 
 /* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
  * as loaded in l and their bonds as active in b. To be called in steps without a search for pairs. */
-void contact_follow_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
 
-/* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_mark): one
+/* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_select): one
  * per particle of the contact list for the form `surface`, one per pair for the form `pair`. Returns NULL if
  * overlapping contacts act. */
 static inline const uint8_t *contact_marks(const struct contact *c) { return c->by_overlap ? NULL : c->touch; }
 
 /* Returns the array of bytes that selects which contacts with rigid body number `body` act in an equilibrium
- * (contact_mark), one per particle listed near this body. Returns NULL if overlapping contacts act. */
+ * (contact_select), one per particle listed near this body. Returns NULL if overlapping contacts act. */
 static inline const uint8_t *contact_near_marks(const struct contact *c, int body)
 {
     return c->by_overlap ? NULL : c->near[body].touch;
@@ -97,15 +97,15 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
 /* Computes the linear spring that represents the contact of particle number `row` of the contact list with the faces
  * beside it, by the contact law of form `surface`. term: its arrays must have a capacity of one element more than the
  * pairs of the particle. */
-void contact_face_term(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
+void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
 
 /* Lets contact forces act on all particles of the contact list, whether they move or not, as an equilibrium requires.
  */
-void contact_marks_follow(struct contact *c);
+void contact_selection_activate_all(struct contact *c);
 
-/* Saves the selection of contacts for equilibria (contact_mark) to the archive if a->saving, else restores it. Returns
- * FAILED if the archive cannot be read or written or a stored size differs. */
-status contact_marks_archive(struct contact *c, struct archive *a);
+/* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it.
+ * Returns FAILED if the archive cannot be read or written or a stored size differs. */
+status contact_selection_archive(struct contact *c, struct archive *a);
 
 /* Returns the distance by which the list of pairs extends beyond the contact distance [m], so that it stays complete
  * while particles move by less than half of it. */
@@ -116,19 +116,19 @@ static inline real contact_skin(const struct contact *c)
 
 /* Returns the entry of particle i in the contact list (particles that may come into contact), by bisection, or -1 if i
  * is not in it. */
-int64_t contact_row_of(const struct contact *c, int64_t i);
+int64_t contact_list_find(const struct contact *c, int64_t i);
 
 /* Returns the width of the widest notch (a pre-crack with a width) that separates the entries k and l of the contact
  * list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
-real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
+real contact_notch_width(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
 
 /* Computes three arrays for all particles of the contact list: c->root, the entry of which a mirror image is made;
  * c->size, the spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
-void contact_list_describe(struct contact *c, const struct particles *p);
+void contact_list_compute_arrays(struct contact *c, const struct particles *p);
 
 /* Adds the contact forces of all pairs of particle number `row` of the contact list to p->f of this particle, by the
  * contact law of form `pair`. found: receives largest overlap and number of contacts. */
-void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
+void contact_pair_add_force(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found);
 
 /* Returns half the elastic energy of all pairs of particle number `row` of the contact list [J], by the contact law of
  * form `pair`; each pair belongs to two particles. */
@@ -145,14 +145,14 @@ void contact_profile_make(struct contact_profile *profile, int dim);
 
 /* Computes gap and energy derivatives of the contact between particle number `row` of the contact list and the faces
  * beside it, by the contact law of form `surface`, into c->face[row]. First of two passes over the particles;
- * contact_face_row adds the forces. dt: time since the last call [s]; found: receives largest overlap and number of
- * contacts. */
+ * contact_face_add_force adds the forces. dt: time since the last call [s]; found: receives largest overlap and number
+ * of contacts. */
 void contact_face_evaluate(struct contact *c, const struct particles *p, int64_t row, real dt,
                            struct contact_found *found);
 
 /* Adds the contact force on particle number `row` of the contact list to p->f, by the contact law of form `surface`.
  * Second of two passes: contact_face_evaluate must have been called for all particles of the list. */
-void contact_face_row(const struct contact *c, struct particles *p, int64_t row);
+void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic contact energy of particle number `row` of the contact list [J], by the contact law of form
  * `surface`. */
@@ -161,14 +161,14 @@ real contact_face_energy(const struct contact *c, const struct particles *p, int
 /* Determines the height above the face at which contact of particle number `row` of the contact list begins, after a
  * search, by the contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was
  * not listed. The contact energy of a particle that was listed does not change. */
-void contact_face_begin(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
-                        int64_t row);
+void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
+                             int64_t row);
 
 /* Returns a damping force on the gap of a contact that removes the energy which leap-frog integration adds when
  * contact begins or ends [unit of stiffness times gap]; 0 if no energy is to be removed. The contact has the energy
  * 1/4 stiffness gap^2. b: state of this contact, updated if `advance`, i.e. if a time step was done since the last
  * call; otherwise the last force is returned again. */
-real contact_balance(struct contact_balance *b, real stiffness, real gap, bool advance);
+real contact_balance_force(struct contact_balance *b, real stiffness, real gap, bool advance);
 
 /* Returns the initial state of contact_balance for a contact with the present gap on a new list. before: its state on
  * the previous list, whose energy error is carried over; NULL if it was not listed. */
@@ -182,22 +182,22 @@ struct contact_weight {
 
 /* Computes the contribution of entry l of the contact list to the density of the face at entry k, at the positions x -
  * lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
-struct contact_weight contact_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                                     real lag);
+struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
+                                          real lag);
 
 /* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slid:
  * displacement of the particle relative to the face in the step, dim components [m]; k: stiffness of the spring [N/m];
  * most: force at which the spring slides [N], 0 after separation. */
-void contact_slide(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
+void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
 
 /* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
- * of form `surface`. First of two passes over the particles; contact_face_drag adds the forces. */
-void contact_face_slide(struct contact *c, const struct particles *p, int64_t row, real dt);
+ * of form `surface`. First of two passes over the particles; contact_face_add_friction adds the forces. */
+void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt);
 
 /* Adds friction forces on particle number `row` of the contact list to p->f: the force of its own spring, and the
  * reactions to springs of particles that slide on a face to which it belongs. Second of two passes, after
- * contact_face_slide for all particles. */
-void contact_face_drag(const struct contact *c, struct particles *p, int64_t row);
+ * contact_face_advance_spring for all particles. */
+void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row);
 
 /* Returns the elastic energy stored in all friction springs [J]. */
 real contact_friction_stored(const struct contact *c);
@@ -208,15 +208,15 @@ void contact_reactions_make(struct contact *c);
 
 /* Allocates the friction springs of a new list of particles, and copies the springs of particles that were on the
  * previous list `before`. */
-void contact_springs_begin(struct contact *c, const struct contact *before);
+void contact_springs_copy(struct contact *c, const struct contact *before);
 
 /* Copies friction spring number `at` of the previous list `before` to *to. Leaves *to unchanged if `before` is NULL or
  * `at` is -1, i.e. if the particle was not listed. */
-void contact_spring_take(struct contact_spring *to, const struct contact_spring *before, int64_t at);
+void contact_spring_copy(struct contact_spring *to, const struct contact_spring *before, int64_t at);
 
 /* Sets the friction work of a new list of particles to that of the previous list `before` plus the elastic energy of
  * springs that are not on the new list. */
-void contact_friction_settle(struct contact *c, const struct contact *before);
+void contact_friction_carry_over(struct contact *c, const struct contact *before);
 
 /* Lists for each rigid body the particles within `skin` [m] of its surface, with the gaps at which contact begins and
  * the friction springs. before: the previous list, from which known particles keep gap and spring. */
@@ -240,7 +240,7 @@ status contact_rigid_archive(struct contact *c, struct archive *a);
 
 /* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
  * of elements of `size` bytes. Returns FAILED if the archive cannot be read or written or the stored size differs. */
-status contact_stored(struct archive *a, const char *name, void **array, int64_t count, size_t size);
+status contact_archive_array(struct archive *a, const char *name, void **array, int64_t count, size_t size);
 
 /* Returns the elastic energy of the contacts with all rigid bodies at the present positions [J]. */
 real contact_rigid_energy(const struct contact *c, const struct particles *p);

@@ -20,7 +20,7 @@ static struct contact_pair contact_pair(const struct contact *c, const struct pa
     return pair;
 }
 
-void contact_pair_row(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found)
+void contact_pair_add_force(const struct contact *c, struct particles *p, int64_t row, struct contact_found *found)
 {
     const int32_t i = c->particle[row];
     real f[DIM_MAX] = {0};
@@ -58,7 +58,7 @@ real contact_pair_distance(const struct contact *c, const struct particles *p, i
     for (int d = 0; d < p->dim; d++) reference2 += square(p->X[d][i] - p->X[d][j]);
     const real mean = 0.5 * (c->size[k] + c->size[l]);
     if (c->law.distance == DISTANCE_LAMMPS) return real_min(NEAR_LAMMPS * sqrt(reference2), FAR_LAMMPS * mean);
-    const real nominal = real_min(sqrt(reference2), mean) - contact_notch(c, p, k, l);
+    const real nominal = real_min(sqrt(reference2), mean) - contact_notch_width(c, p, k, l);
     const real r = sqrt(contact_apart(c, p, k, l, apart));
     return real_min(nominal, isnan(was) ? r : real_max(was, r));
 }

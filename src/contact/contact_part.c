@@ -36,7 +36,7 @@ static status contact_state(struct run *e, struct archive *a)
     struct contact *c = e->contact;
     c->marked = scene_in_steps(e->scene);
     TRY(contact_archive(c, &e->part, a));
-    if (!a->saving && c->made && !c->touch) contact_follow(c, &e->part, &e->bonds, &e->loads);
+    if (!a->saving && c->made && !c->touch) contact_activate_particles(c, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -56,7 +56,7 @@ static void put_rigid(const struct rigid_set *rigid, const struct contact *c, co
         json_point(j, "", r->x, r->dim);
         for (int d = 0; d < r->dim; d++) json_real(j, velocity[d], v[d]);
         json_real(j, "force_max", r->force_most);
-        json_real(j, "patch", contact_patch(c, p, k));
+        json_real(j, "patch", contact_patch_diameter(c, p, k));
         json_close(j, '}');
     }
     json_close(j, ']');
@@ -93,7 +93,7 @@ status contact_overlap_check(struct run *e)
              "particles in contact overlap by more than %.1f spacings (contact.overlap_max in the summary): contact "
              "pressures are then wrong: use a larger contact.stiffness",
              OVERLAP_DOUBTFUL);
-    warnings_say(&e->warnings, text);
+    warnings_add_and_print(&e->warnings, text);
     return OK;
 }
 

@@ -47,7 +47,7 @@ static bool is_near(const struct contact *c, const struct particles *p, const st
 /* Returns the entry of a particle on the previous list of a body, or -1. */
 static int64_t near_before(const struct contact *before, int body, int32_t particle)
 {
-    const int64_t row = before->made ? contact_row_of(before, particle) : -1;
+    const int64_t row = before->made ? contact_list_find(before, particle) : -1;
     int64_t low = 0, high = row >= 0 ? before->near[body].n : 0;
     while (low < high) {
         const int64_t middle = (low + high) / 2;
@@ -81,7 +81,7 @@ static void near_find_body(struct contact *c, const struct contact *before, cons
         if (!found[row]) continue;
         const int64_t was = near_before(before, body, c->particle[row]);
         const real gap = gap_of(c, p, r, row, normal), zero = was >= 0 ? before->near[body].zero[was] : -INFINITY;
-        if (near->spring) contact_spring_take(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
+        if (near->spring) contact_spring_copy(&near->spring[near->n], was >= 0 ? before->near[body].spring : NULL, was);
         near->row[near->n] = (int32_t)row;
         /* an iterate of an equilibrium has moved into the body: contact acts from gap 0 */
         const bool deep = c->marked && before->made && was < 0;
@@ -134,7 +134,7 @@ static real overlap_of(const struct contact *c, const struct particles *p, int b
     return marks ? overlap : real_max(0, overlap);
 }
 
-real contact_patch(const struct contact *c, const struct particles *p, int body)
+real contact_patch_diameter(const struct contact *c, const struct particles *p, int body)
 {
     real low[DIM_MAX], high[DIM_MAX], normal[DIM_MAX], width2 = 0;
     for (int d = 0; d < DIM_MAX; d++) low[d] = INFINITY, high[d] = -INFINITY;
@@ -153,7 +153,7 @@ static void balance_step(struct contact *c, const struct particles *p, int body,
     const struct contact_near *near = &c->near[body];
     real normal[DIM_MAX];
     const real k = 4 * contact_stiffness(c, p, near->row[q], near->row[q]);
-    contact_balance(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
+    contact_balance_force(&near->balance[q], k, contact_rigid_gap(c, p, body, q, normal), true);
 }
 
 /* Computes the force on the particle of list entry q [N]. Returns the overlap [m]. */
@@ -180,7 +180,7 @@ static void spring_step(struct contact *c, const struct particles *p, int body, 
     for (int d = 0; d < p->dim; d++) x[d] = p->x[d][i];
     rigid_velocity(&c->rigid[body], x, v);
     for (int d = 0; d < p->dim; d++) slid[d] = (p->v[d][i] - v[d]) * dt;
-    contact_slide(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
+    contact_spring_advance(&near->spring[q], p->dim, normal, slid, k, c->law.friction * k * overlap);
 }
 
 struct rigid_sum {
@@ -224,7 +224,7 @@ static void body_force(struct contact *c, struct particles *p, int body, real dt
         contact_found_add(all, overlap, i);
         all->touching++; /* a pair with only one of its two rows */
     }
-    team_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
+    reproducible_sums(near->n, RIGID_TERMS, rigid_block, &s, sum);
     for (int d = 0; d < DIM_MAX; d++) c->rigid[body].force[d] = sum[d], c->rigid[body].moment[d] = sum[DIM_MAX + d];
 }
 
@@ -233,7 +233,7 @@ void contact_rigid_force(struct contact *c, struct particles *p, real dt, struct
     for (int b = 0; b < c->rigids && c->near; b++) body_force(c, p, b, dt, all);
 }
 
-real contact_rigid_norm(const struct contact *c, const struct particles *p)
+real contact_rigid_force_norm(const struct contact *c, const struct particles *p)
 {
     real sum = 0, f[DIM_MAX];
     for (int b = 0; b < c->rigids && c->near; b++)
@@ -254,7 +254,7 @@ real contact_rigid_energy(const struct contact *c, const struct particles *p)
 {
     real energy = 0;
     for (int b = 0; b < c->rigids && c->near; b++)
-        energy += team_sum(c->near[b].n, near_energy, &(struct rigid_sum){c, p, b});
+        energy += reproducible_sum(c->near[b].n, near_energy, &(struct rigid_sum){c, p, b});
     return energy;
 }
 
@@ -278,13 +278,14 @@ status contact_rigid_archive(struct contact *c, struct archive *a)
                 "again with --overwrite",
                 (long long)near->n, (long long)c->rows);
         snprintf(name, sizeof name, "contact/near_row_%d", b);
-        TRY(contact_stored(a, name, (void **)&near->row, near->n, sizeof *near->row));
+        TRY(contact_archive_array(a, name, (void **)&near->row, near->n, sizeof *near->row));
         snprintf(name, sizeof name, "contact/near_zero_%d", b);
-        TRY(contact_stored(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
+        TRY(contact_archive_array(a, name, (void **)&near->zero, near->n, sizeof *near->zero));
         snprintf(name, sizeof name, "contact/near_spring_%d", b);
-        if (c->law.friction > 0) TRY(contact_stored(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
+        if (c->law.friction > 0)
+            TRY(contact_archive_array(a, name, (void **)&near->spring, near->n, sizeof *near->spring));
         snprintf(name, sizeof name, "contact/near_balance_%d", b);
-        TRY(contact_stored(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
+        TRY(contact_archive_array(a, name, (void **)&near->balance, near->n, sizeof *near->balance));
         for (int64_t q = 0; q < near->n; q++)
             if (near->row[q] < 0 || near->row[q] >= c->rows)
                 return status_set(FAILED, "cannot resume: particles near a rigid body are none of the checkpoint");

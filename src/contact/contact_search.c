@@ -33,7 +33,7 @@ static bool is_exposed(const struct particles *p, const struct bonds *b, real le
     return everywhere || p->damage[i] > 0 || lacks_family(b, row, 0, least_volume);
 }
 
-int64_t contact_row_of(const struct contact *c, int64_t i)
+int64_t contact_list_find(const struct contact *c, int64_t i)
 {
     int64_t low = 0, high = c->rows;
     while (low < high) {
@@ -46,7 +46,7 @@ int64_t contact_row_of(const struct contact *c, int64_t i)
     return low < c->rows && c->particle[low] == i ? low : -1;
 }
 
-real contact_notch(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
+real contact_notch_width(const struct contact *c, const struct particles *p, int64_t k, int64_t l)
 {
     const int32_t i = c->particle[k], j = c->particle[l];
     real widest = 0, a[DIM_MAX], b[DIM_MAX];
@@ -81,7 +81,7 @@ static real contact_rise(const struct contact_law *law, const struct particles *
     return fabs(rise) < ROUND_OFF || rise > RISE_MOST ? 0 : real_max(rise, -RISE_MOST);
 }
 
-void contact_list_describe(struct contact *c, const struct particles *p)
+void contact_list_compute_arrays(struct contact *c, const struct particles *p)
 {
     memory_free(c->root);
     memory_free(c->size);
@@ -92,7 +92,7 @@ void contact_list_describe(struct contact *c, const struct particles *p)
     for (int64_t k = 0; k < c->n; k++) {
         c->size[k] = contact_spacing(&c->law, p, c->particle[k]);
         c->rise[k] = contact_rise(&c->law, p, image_root(p, c->law.image, c->particle[k]), c->size[k]);
-        c->root[k] = (int32_t)(k < c->rows ? k : contact_row_of(c, image_root(p, c->law.image, c->particle[k])));
+        c->root[k] = (int32_t)(k < c->rows ? k : contact_list_find(c, image_root(p, c->law.image, c->particle[k])));
     }
 }
 
@@ -117,7 +117,7 @@ static void list_exposed(struct contact *c, const struct particles *p, const str
         c->at[d] = BARE("contact.at", c->n, real);
         for (int64_t k = 0; k < c->n; k++) c->at[d][k] = p->x[d][c->particle[k]];
     }
-    contact_list_describe(c, p);
+    contact_list_compute_arrays(c, p);
 }
 
 /* ---- pairs ------------------------------------------------------------------------------------------------------- */
@@ -152,10 +152,10 @@ static void row_pairs(const struct contact_search *s, struct near *near, uint64_
     const struct particles *p = s->p;
     const int32_t i = s->particle[k];
     if (s->law->between == CONTACT_NONE) return;
-    near_find(near, &s->cells, &s->places, k, s->reach, false);
+    particles_find_near(near, &s->cells, &s->places, k, s->reach, false);
     if (near->n == 0) return;
     for (int q = 0; q < near->n; q++) bit_set(marks, s->particle[near->at[q]]);
-    if (s->law->distance == DISTANCE_SPACING) bonds_unmark(s->b, s->b->row_of[i], marks);
+    if (s->law->distance == DISTANCE_SPACING) bonds_clear_neighbour_marks(s->b, s->b->row_of[i], marks);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = s->particle[near->at[q]];
         if (!bit_is_set(marks, j)) continue;
@@ -221,9 +221,9 @@ static void pairs_begin(struct contact *c, const struct contact *before, const s
         c->distance = BARE("contact.distance", c->pairs, real);
 #pragma omp parallel for schedule(static)
     for (int64_t row = 0; row < c->rows; row++) {
-        const int64_t was = before->made ? contact_row_of(before, c->particle[row]) : -1;
+        const int64_t was = before->made ? contact_list_find(before, c->particle[row]) : -1;
         if (c->law.form == CONTACT_SURFACE)
-            contact_face_begin(c, before, was, p, row);
+            contact_face_set_height(c, before, was, p, row);
         else
             for (int64_t q = c->first[row]; q < c->first[row + 1]; q++)
                 c->distance[q] = contact_pair_distance(c, p, row, c->other[q],
@@ -256,9 +256,9 @@ static void search_pairs(struct contact *c, const struct particles *p, const str
     pairs_find(c, &s);
     if (c->n > 0) cells_free(&s.cells);
     pairs_begin(c, &before, p);
-    contact_springs_begin(c, &before);
+    contact_springs_copy(c, &before);
     contact_rigid_find(c, &before, p, contact_skin(c));
-    contact_friction_settle(c, &before);
+    contact_friction_carry_over(c, &before);
     before.law.stiffness = NULL; /* the new list keeps the law and the recorded forces */
     memset(before.push, 0, sizeof before.push);
     contact_free(&before);
@@ -287,7 +287,8 @@ static bool has_come_far(const struct contact *c)
 }
 
 /* Particles with few broken bonds form no face; they are listed by the next search. */
-void contact_add(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list, int64_t n)
+void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
+                            int64_t n)
 {
     const real least_volume = first_layer_share(family) * family->full;
     if (!contact_works(c)) return;
@@ -298,7 +299,7 @@ void contact_add(struct contact *c, const struct bonds *b, const struct family *
     }
 }
 
-bool contact_has_come(struct contact *c, const struct particles *p)
+bool contact_search_needed(struct contact *c, const struct particles *p)
 {
     if (c->made) c->moved = largest_displacement(c, p);
     return !c->made || has_come_far(c);
@@ -309,15 +310,15 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 {
     if (!contact_works(c)) return;
     const bool new_faces = broken != c->broken && step - c->searched >= BREAKS_WAIT;
-    const bool come = contact_has_come(c, p);
+    const bool come = contact_search_needed(c, p);
     if (c->due || new_faces || come) {
         search_pairs(c, p, b, family);
         c->made = true, c->due = false, c->moved = 0;
         c->searched = step, c->broken = broken;
     } else if (changed == c->changed) {
-        contact_follow_more(c, p, b, l);
+        contact_activate_more(c, p, b, l);
         return;
     }
     c->changed = changed;
-    contact_follow(c, p, b, l); /* also after conversions, which rebuild row blocks */
+    contact_activate_particles(c, p, b, l); /* also after conversions, which rebuild row blocks */
 }

@@ -21,7 +21,7 @@ static void marks_room(struct contact *c)
     }
 }
 
-void contact_marks_follow(struct contact *c)
+void contact_selection_activate_all(struct contact *c)
 {
     memory_free(c->followed);
     c->followed = BARE("contact.followed", c->rows, uint8_t);
@@ -67,7 +67,7 @@ static void balances_rest(struct contact *c)
         for (int64_t q = 0; q < c->near[b].n; q++) c->near[b].balance[q].drag = 0;
 }
 
-int64_t contact_mark(struct contact *c, const struct particles *p, real close)
+int64_t contact_select(struct contact *c, const struct particles *p, real close)
 {
     int64_t changed = 0;
     real normal[DIM_MAX];
@@ -85,16 +85,16 @@ int64_t contact_search(struct contact *c, const struct particles *p, struct bond
     c->due = true;
     contact_update(c, p, b, l, family, c->searched, c->broken, c->changed);
     marks_room(c);
-    contact_marks_follow(c);
+    contact_selection_activate_all(c);
     balances_rest(c);
-    return contact_mark(c, p, close);
+    return contact_select(c, p, close);
 }
 
-real contact_sight(const struct contact *c) { return 0.5 * contact_skin(c); }
+real contact_list_reach(const struct contact *c) { return 0.5 * contact_skin(c); }
 
-void contact_marks_use(struct contact *c, bool use) { c->by_overlap = !use; }
+void contact_use_selection(struct contact *c, bool use) { c->by_overlap = !use; }
 
-void contact_unmark(struct contact *c)
+void contact_end_selection(struct contact *c)
 {
     memory_free(c->touch);
     c->touch = NULL;
@@ -144,8 +144,8 @@ static void rigid_terms(struct visit *v, int body)
     }
 }
 
-void contact_terms(const struct contact *c, const struct particles *p,
-                   void (*visit)(void *context, const struct contact_term *term), void *context)
+void contact_visit_springs(const struct contact *c, const struct particles *p,
+                           void (*visit)(void *context, const struct contact_term *term), void *context)
 {
     int64_t most = 1;
     if (!c->touch) return;
@@ -157,7 +157,7 @@ void contact_terms(const struct contact *c, const struct particles *p,
     for (int64_t row = 0; row < c->rows; row++) {
         if (c->law.form == CONTACT_PAIR) pair_terms(&v, row);
         if (c->law.form == CONTACT_PAIR || !c->touch[row]) continue;
-        contact_face_term(c, p, row, &v.term);
+        contact_face_spring(c, p, row, &v.term);
         visit(context, &v.term);
     }
     for (int b = 0; b < c->rigids; b++) rigid_terms(&v, b);
@@ -167,18 +167,19 @@ void contact_terms(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-status contact_marks_archive(struct contact *c, struct archive *a)
+status contact_selection_archive(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;
     if (!c->marked) return OK;
     ARCHIVE_VALUE(a, "contact/marks", marks);
     if (!a->saving) memory_free(c->touch), c->touch = NULL;
     if (!marks) return OK;
-    TRY(contact_stored(a, "contact/touch", (void **)&c->touch, c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, 1));
+    TRY(contact_archive_array(a, "contact/touch", (void **)&c->touch,
+                              c->law.form == CONTACT_SURFACE ? c->rows : c->pairs, 1));
     for (int b = 0; b < c->rigids; b++) {
         char name[64];
         snprintf(name, sizeof name, "contact/near_touch_%d", b);
-        TRY(contact_stored(a, name, (void **)&c->near[b].touch, c->near[b].n, 1));
+        TRY(contact_archive_array(a, name, (void **)&c->near[b].touch, c->near[b].n, 1));
     }
     return OK;
 }

@@ -85,7 +85,7 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < n; k++) {
             bool foreign = false;
-            near_find(&near, &cells, &places, k, reach, false);
+            particles_find_near(&near, &cells, &places, k, reach, false);
             for (int q = 0; q < near.n && !foreign; q++) foreign = p->body[list[near.at[q]]] != p->body[list[k]];
             if (foreign) mark(p, list[k]);
         }
@@ -95,7 +95,7 @@ static void mark_listed(struct particles *p, const int32_t *list, int64_t n, rea
     for (int d = 0; d < p->dim; d++) memory_free(places.X[d]);
 }
 
-void approach_mark(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach)
+void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach)
 {
     struct body_box *box = bodies > 1 ? body_boxes(p, bodies) : NULL;
     uint8_t *close = NEW("approach.close", p->n, uint8_t);

@@ -28,10 +28,10 @@ static void family_find(struct near *near, const struct bond_source *s, const st
             memory_free(near->at);
             *near = (struct near){BARE("convert.near", map->most, int32_t), 0, map->most};
         }
-        near->n = site_map_family(map, p, (int32_t)i, near->at);
+        near->n = site_map_find_neighbours(map, p, (int32_t)i, near->at);
         if (near->n >= 0) return;
     }
-    near_find(near, s->cells, p, i, s->family.cutoff, false);
+    particles_find_near(near, s->cells, p, i, s->family.cutoff, false);
 }
 
 /* ---- before the first step --------------------------------------------------------------------------------------- */
@@ -40,11 +40,12 @@ static void family_find(struct near *near, const struct bond_source *s, const st
 static bool loses_bond(const struct bond_source *s, const struct particles *p, int64_t i, const struct near *near)
 {
     for (int k = 0; k < near->n; k++)
-        if (p->body[near->at[k]] == p->body[i] && cracks_part(s->crack, s->cracks, p, i, near->at[k])) return true;
+        if (p->body[near->at[k]] == p->body[i] && cracks_separate_particles(s->crack, s->cracks, p, i, near->at[k]))
+            return true;
     return false;
 }
 
-void convert_start(struct particles *p, const struct bond_source *source, const struct region *region)
+void convert_cut_particles(struct particles *p, const struct bond_source *source, const struct region *region)
 {
 #pragma omp parallel
     {
@@ -54,14 +55,14 @@ void convert_start(struct particles *p, const struct bond_source *source, const 
             real X[DIM_MAX];
             particle_place(p, i, X);
             if (region && region_contains(region, X, p->dim, ON_SURFACE * source->family.spacing)) p->kind[i] = KIND_PD;
-            if (!cracks_near(source, p, i)) continue;
+            if (!cracks_near_particle(source, p, i)) continue;
             family_find(&near, source, NULL, p, i);
             if (loses_bond(source, p, i, &near)) p->kind[i] = KIND_PD;
         }
         memory_free(near.at);
     }
-    bonds_images_follow(p, source);
-    particles_list(p);
+    bonds_update_image_kinds(p, source);
+    particles_update_lists(p);
 }
 
 /* ---- one pass ---------------------------------------------------------------------------------------------------- */
@@ -165,17 +166,17 @@ static void sync_near(const struct conversion_sync *sync, struct particles *p, c
     memory_free(exposed.at);
 }
 
-int64_t convert(struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
-                const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *sync,
-                real t)
+int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
+                               struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
+                               const struct conversion_sync *sync, real t)
 {
-    if (!convert_due(p)) return 0;
+    if (!conversion_is_due(p)) return 0;
     struct index_list changed = {0}, touched = {0};
     list_stiffened(&touched, source, p, b);
     convert_marked(c, rule, p, source, b->site_map, &changed, t);
     if (changed.n > 0) {
         sync_near(sync, p, source, b->site_map, &changed);
-        bonds_renew(b, p, source);
+        bonds_rebuild(b, p, source);
         if (sync && sync->converted) sync->converted(sync->context, changed.at, changed.n);
     }
     for (int64_t k = 0; k < changed.n; k++) list_add(&touched, changed.at[k]);

@@ -11,7 +11,7 @@ void bonded_points_update(const struct partial_stress *partial, const struct ref
                           const struct material *material)
 {
     if (!p->end_strain) return;
-    partial_points_update(partial, p, material);
+    bonded_points_strain_from_stress(partial, p, material);
     if (r->mesh.points > 0) mesh_ends_update(&r->mesh, p, r->finite);
 }
 
@@ -27,49 +27,51 @@ static bool may_convert(const struct scene *s, const struct particles *p, const 
 static void sync_listed(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    frame_sync_listed(e->frame, &e->part, &e->loads, list, n);
+    frame_update_listed_points(e->frame, &e->part, &e->loads, list, n);
 }
 
 /* Requests a search for contact of n listed particles, which have become peridynamic. context: the run. */
 static void meet_others(void *context, const int32_t *list, int64_t n)
 {
     struct run *e = context;
-    contact_add(e->contact, &e->bonds, &e->source.family, list, n);
+    contact_request_search(e->contact, &e->bonds, &e->source.family, list, n);
 }
 
-bool conversion_mark(struct run *e)
+bool conversion_prepare(struct run *e)
 {
     if (e->scene->active_set) active_rows_update(&e->bonds, &e->part, &e->loads);
     if (e->coupling->approaches && e->clock.step % APPROACH_STEPS == 0) {
-        frame_sync_motion(e->frame, &e->part, &e->loads);
-        approach_mark(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n, APPROACH_REACH * e->scene->spacing);
+        frame_update_point_motion(e->frame, &e->part, &e->loads);
+        flag_points_near_bodies(&e->part, e->scene->bodies, e->rigid->body, e->rigid->n,
+                                APPROACH_REACH * e->scene->spacing);
     }
-    return notch_approach(e);
+    return slits_flag_approaching(e);
 }
 
-void conversion_follow(struct run *e, int64_t converted)
+void conversion_update_mesh(struct run *e, int64_t converted)
 {
     struct partial_stress *partial = &e->coupling->partial;
     const bool due = converted > 0 || partial->touches > 0;
-    const bool anew = due && frame_follow(e->frame, &e->part, converted, partial, &e->damped);
-    if (anew) frame_follow_points(e->frame, &e->part, &e->bonds, &e->loads);
+    const bool anew = due && frame_update_after_conversion(e->frame, &e->part, converted, partial, &e->damped);
+    if (anew) frame_find_exposed_points(e->frame, &e->part, &e->bonds, &e->loads);
     if (converted > 0 || (due && !anew)) bonded_points_update(partial, e->frame, &e->part, e->scene->material);
     partial->touches = 0;
 }
 
-int64_t conversion_pass(struct run *e, int64_t broken, bool marked, bool fades)
+int64_t conversion_apply(struct run *e, int64_t broken, bool marked, bool fades)
 {
     const struct conversion_sync sync = {sync_listed, e, meet_others};
     struct coupling_state *c = e->coupling;
     if (!marked && broken == 0 && !c->approaches && !may_convert(e->scene, &e->part, e->frame)) return 0;
-    frame_levels_guard(&e->frame->levels, &e->part);
-    const int64_t converted = convert(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
-                                      c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
+    frame_levels_postpone_conversion(&e->frame->levels, &e->part);
+    const int64_t converted =
+        convert_flagged_points(&c->conversion, &e->scene->conversion, &e->part, &e->bonds, &e->source,
+                               c->uses_partial ? &c->partial : NULL, &sync, e->clock.t);
     if (converted > 0) interface_make(c, &e->part, &e->bonds, &e->source), e->grid->sort_needed = true;
-    /* where bonds fade; for broken bonds convert() has updated the partial stresses */
+    /* where bonds fade; for broken bonds convert_flagged_points() has updated the partial stresses */
     if (c->uses_partial && e->scene->growths > 0 && (broken > 0 || converted > 0 || fades))
         partial_stress_make(&c->partial, &e->part, &e->bonds, &e->source, NULL, 0);
-    conversion_follow(e, converted);
+    conversion_update_mesh(e, converted);
     return converted;
 }
 

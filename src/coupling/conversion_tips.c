@@ -16,8 +16,8 @@ static void region_add(struct region *r, const struct solid *s)
  * the mouth of a notch. */
 static bool in_body(const struct particles *p, const struct bond_source *s, const struct crack *c, const real *X)
 {
-    return !mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
-           cells_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
+    return !mirrors_continue_crack(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing) &&
+           cells_find_near(s->cells, p, X, s->family.spacing, -1, NULL, 0) > 0;
 }
 
 /* Adds a ball of `radius` [m] round end k of a pre-crack to the region; in 3D a cylinder round the edge from corner k
@@ -36,8 +36,8 @@ static void conversion_tip_add(struct region *r, const struct particles *p, cons
     if (in_body(p, s, c, middle)) region_add(r, &solid);
 }
 
-void convert_region(struct region *to, const struct region *given, const struct particles *p,
-                    const struct bond_source *source, real radius)
+void initial_pd_region_make(struct region *to, const struct region *given, const struct particles *p,
+                            const struct bond_source *source, real radius)
 {
     memset(to, 0, sizeof *to);
     for (int k = 0; given && k < given->n; k++) region_add(to, &given->solid[k]);

@@ -26,7 +26,7 @@ static void put_notches(struct json *j, const struct notches *n, real spacing)
     if (n->n == 0) return;
     json_open(j, "notches", '[');
     for (int k = 0; k < n->n && k < SAID; k++) {
-        notch_text(n, k, spacing, text, sizeof text);
+        notch_describe(n, k, spacing, text, sizeof text);
         json_text(j, NULL, text);
     }
     json_close(j, ']');
@@ -62,4 +62,4 @@ static status coupling_state_of(struct run *e, struct archive *a)
 }
 
 const struct part part_coupling = {PART(coupling, coupling_state), .free = coupling_free_all, .summary = put_conversion,
-                                   .warn = warn_of_bodies, .state = coupling_state_of};
+                                   .warn = warn_of_joined_bodies, .state = coupling_state_of};

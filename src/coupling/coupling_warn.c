@@ -76,7 +76,7 @@ static int touching(const struct particles *p, const struct cells *cells, int bo
     struct near near = {0};
     int pairs = 0;
     for (int64_t i = 0; i < p->n; i++) {
-        near_find(&near, cells, p, i, reach, false);
+        particles_find_near(&near, cells, p, i, reach, false);
         for (int k = 0; k < near.n; k++) {
             const int32_t j = near.at[k];
             if (j >= p->n || p->body[j] <= p->body[i] || !start_as_one(p, i, j)) continue;
@@ -112,7 +112,7 @@ static void warn_of_touch(const struct run *e, struct warnings *to)
                          : "; on the grid of mpm.frame current they stick until a gap of two cells opens");
 }
 
-void warn_of_bodies(const struct run *e, struct warnings *to)
+void warn_of_joined_bodies(const struct run *e, struct warnings *to)
 {
     warn_of_contact(e->scene, e->frame, e->coupling->approaches, to);
     warn_of_touch(e, to);

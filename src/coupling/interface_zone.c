@@ -29,7 +29,7 @@ static void mark_near(uint8_t *mark, const struct particles *p, const struct bon
         struct near near = {0};
 #pragma omp for schedule(dynamic, 64)
         for (int64_t k = 0; k < n; k++) {
-            near_find_any(&near, s->cells, p, list[k], radius, false);
+            particles_find_near_unordered(&near, s->cells, p, list[k], radius, false);
             for (int q = 0; q < near.n; q++) {
                 const int32_t j = near.at[q];
                 if (!interface_zone_is_free(p, j) || p->body[j] != p->body[list[k]] ||
@@ -72,12 +72,12 @@ static int64_t pairs_of(const struct interface_zone *r, const struct particles *
 {
     const int32_t i = r->particle[k];
     int64_t n = 0;
-    near_find(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
+    particles_find_near(near, s->cells, p, i, NEIGHBOUR_SPACINGS * s->family.spacing, false);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (j >= p->n || p->body[j] != p->body[i] || mark[j] == OUTSIDE || (mark[i] != POINT && mark[j] != POINT))
             continue;
-        if (cracks_part(s->crack, s->cracks, p, i, j)) continue;
+        if (cracks_separate_particles(s->crack, s->cracks, p, i, j)) continue;
         if (to) to[n] = slot[j];
         n++;
     }

@@ -37,9 +37,9 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
             away[d] = 0.5 * (from[d] + to[d]) - middle[d];
             length2 += square(away[d]);
         }
-        if (mirrors_continue(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
+        if (mirrors_continue_crack(s->mirror, s->mirrors, c, X, ON_SURFACE * s->family.spacing)) continue;
         for (int d = 0; d < p->dim && length2 > 0; d++) X[d] += s->family.spacing * away[d] / sqrt(length2);
-        if (cells_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
+        if (cells_find_near(s->cells, p, X, AHEAD_REACH * s->family.spacing, -1, NULL, 0) >= 2) return true;
     }
     return false;
 }
@@ -88,7 +88,7 @@ static bool near_crack(const struct crack *c, const struct particles *p, const s
 {
     real X[DIM_MAX];
     particle_place(p, i, X);
-    return crack_near(c, X, s->family.cutoff, p->dim);
+    return crack_may_cut_near(c, X, s->family.cutoff, p->dim);
 }
 
 static real apart(const struct particles *p, int64_t i, int64_t j)
@@ -119,7 +119,7 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
 #pragma omp for schedule(static)
         for (int64_t i = 0; i < p->n; i++) {
             if (!near_crack(zone->crack, p, s, i) || in_zone(zone, p, i)) continue;
-            near_find(&near, s->cells, p, i, s->family.cutoff, false);
+            particles_find_near(&near, s->cells, p, i, s->family.cutoff, false);
             if (!loses_by(zone->crack, p, i, &near)) continue;
             particles++;
             elsewhere += !(p->flag[i] & FLAG_MESHED);
@@ -157,11 +157,11 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
 {
     real all = 0, lost = 0;
     bool faces = false;
-    near_find(near, source->cells, p, i, source->family.cutoff, false);
+    particles_find_near(near, source->cells, p, i, source->family.cutoff, false);
     for (int q = 0; q < near->n; q++) {
         const int32_t j = near->at[q];
         if (p->body[j] != p->body[i]) continue;
-        const bool cut = cracks_part(n->slit, n->slits + n->images, p, i, j);
+        const bool cut = cracks_separate_particles(n->slit, n->slits + n->images, p, i, j);
         all += p->volume0[j], lost += cut ? p->volume0[j] : 0;
         faces |= cut && apart(p, i, j) < FACE_REACH * source->family.spacing;
     }
@@ -194,7 +194,7 @@ static void faces_find(struct notches *n, const struct particles *p, const struc
     n->faces = 0;
     for (int64_t i = 0; i < p->n; i++) {
         if (!faces[i]) continue;
-        n->depth[n->faces] = beside_void(source, i) ? voids_depth(source->voids, p, i) : 0;
+        n->depth[n->faces] = beside_void(source, i) ? voids_particle_depth(source->voids, p, i) : 0;
         n->face[n->faces++] = (int32_t)i;
     }
     memory_free(faces);
@@ -249,7 +249,7 @@ static real void_meeting_distance(const struct notches *n, const struct particle
                                   real spacing)
 {
     real r2 = 0;
-    if (!voids_part(n->voids, p, n->face[k], n->face[l])) return 0;
+    if (!void_separates_particles(n->voids, p, n->face[k], n->face[l])) return 0;
     for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][n->face[k]] - p->X[d][n->face[l]]);
     return real_min(sqrt(r2) - NOTCH_GAP * spacing, n->depth[k] + n->depth[l] + VOID_AHEAD * spacing);
 }
@@ -279,7 +279,7 @@ static real distance_ahead(const struct particles *p, int32_t i, int32_t j, real
     return r > 0 ? r + real_min(0, rate / r) * ahead : 0;
 }
 
-void notches_approach(const struct notches *n, struct particles *p, real spacing, real ahead)
+void notches_flag_approaching(const struct notches *n, struct particles *p, real spacing, real ahead)
 {
     struct particles places = {.n = n->faces, .n_all = n->faces, .dim = p->dim};
     struct cells cells;
@@ -296,7 +296,7 @@ void notches_approach(const struct notches *n, struct particles *p, real spacing
         for (int64_t k = 0; k < n->faces; k++) {
             const int32_t i = n->face[k];
             if (p->kind[i] != KIND_MPM) continue;
-            near_find(&near, &cells, &places, k, MEET_REACH * spacing, false);
+            particles_find_near(&near, &cells, &places, k, MEET_REACH * spacing, false);
             for (int q = 0; q < near.n && !(p->flag[i] & FLAG_NEAR); q++) {
                 const int32_t j = n->face[near.at[q]];
                 const real after = distance_ahead(p, i, j, ahead);

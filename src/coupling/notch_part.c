@@ -24,8 +24,8 @@ static const char *scene_obstacle(const struct scene *s)
 static const char *obstacle_of(const struct scene *s, const struct reference_frame *r, const struct grid *g)
 {
     const char *why = scene_obstacle(s);
-    if (!why && !frame_any(r)) why = "there are no material points in the reference frame";
-    if (!why && grid_mirror_between(g, s)) why = "a mirror plane is between two nodes of the mesh";
+    if (!why && !frame_in_use(r)) why = "there are no material points in the reference frame";
+    if (!why && grid_mirror_off_nodes(g, s)) why = "a mirror plane is between two nodes of the mesh";
     return why;
 }
 
@@ -40,7 +40,7 @@ static status notches_check(const struct scene *s, const struct notches *n)
     return OK;
 }
 
-status notch_convert(struct run *e)
+status precracks_apply(struct run *e)
 {
     const struct scene *s = e->scene;
     const struct grid *g = &e->grid->field[0].grid;
@@ -51,14 +51,15 @@ status notch_convert(struct run *e)
     TRY(notches_check(s, n));
     struct bond_source cut = e->source;
     cut.crack = n->cut, cut.cracks = n->cuts;
-    convert_region(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source, tips);
+    initial_pd_region_make(&e->coupling->start_region, s->has_pd_region ? &s->pd_region : NULL, &e->part, &e->source,
+                           tips);
     notches_convert(n, &e->part, &e->source);
-    voids_convert(&e->part, e->source.voids, mesh_uncut(g, s));
-    convert_start(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
+    voids_convert_beside(&e->part, e->source.voids, mesh_ignores_voids(g, s));
+    convert_cut_particles(&e->part, &cut, e->coupling->start_region.n > 0 ? &e->coupling->start_region : NULL);
     return OK;
 }
 
-void notch_text(const struct notches *n, int crack, real spacing, char *text, size_t room)
+void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t room)
 {
     if (n->notch[crack].slit)
         snprintf(text, room, "slit of the mesh, bonds within %.3g spacings of its ends", n->radius / spacing);
@@ -68,11 +69,11 @@ void notch_text(const struct notches *n, int crack, real spacing, char *text, si
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-bool notch_approach(struct run *e)
+bool slits_flag_approaching(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;
     if (n->faces == 0 || e->scene->contact_between != CONTACT_ALL || e->clock.step % APPROACH_STEPS != 0) return false;
-    frame_sync_listed(e->frame, &e->part, &e->loads, n->face, n->faces);
-    notches_approach(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
+    frame_update_listed_points(e->frame, &e->part, &e->loads, n->face, n->faces);
+    notches_flag_approaching(n, &e->part, e->scene->spacing, APPROACH_STEPS * e->clock.dt);
     return true;
 }

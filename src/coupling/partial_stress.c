@@ -25,7 +25,7 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
-real segment_share(const real *a, const real *b, const real *X, real half, int dim)
+real segment_share_in_cube(const real *a, const real *b, const real *X, real half, int dim)
 {
     real in = 0, out = 1;
     for (int d = 0; d < dim; d++) {
@@ -41,7 +41,7 @@ real segment_share(const real *a, const real *b, const real *X, real half, int d
     return out > in ? out - in : 0;
 }
 
-struct reflection reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
+struct reflection mirror_reflection_of(const struct bond_source *s, const struct particles *p, int64_t i)
 {
     struct reflection r = {.sign = {1, 1, 1}, .root = i};
     while (r.root >= p->n) { /* X of this image: reflection of X of its source along one axis */
@@ -60,9 +60,10 @@ struct reflection reflection_of(const struct bond_source *s, const struct partic
 
 static bool same(int a, int b) { return a == b; }
 
-void tensor_add(real *T, const real *xp, const real *xm, const real *X, real half, struct response k, int dim)
+void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half, struct response k,
+                             int dim)
 {
-    real share = segment_share(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
+    real share = segment_share_in_cube(xp, xm, X, half, dim), e[DIM_MAX], length = 0;
     if (share == 0) return;
     for (int d = 0; d < dim; d++) e[d] = xm[d] - xp[d], length += square(e[d]);
     length = sqrt(length);
@@ -87,8 +88,8 @@ static real family_share(const struct particles *p, const struct bonds *b, const
     return row >= 0 ? p->volume0[i] / b->state.weighted[row] : s->family.cell_volume / s->family.weighted;
 }
 
-struct response response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s, int32_t i,
-                            const struct bond *bond)
+struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
+                                 int32_t i, const struct bond *bond)
 {
     const int32_t j = bond->nbr;
     const real r = fabs(1 / bond->inverse_length), D = p->dim;
@@ -134,7 +135,7 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
                            const struct box *box, int64_t j, const real *X, real half)
 {
     if (j < p->n && (b->row_of[j] < 0 || box_passes(&box[b->row_of[j]], X, half, p->dim))) return;
-    struct reflection r = reflection_of(s, p, j);
+    struct reflection r = mirror_reflection_of(s, p, j);
     int32_t row = b->row_of[r.root];
     if (row < 0 || p->kind[r.root] != KIND_MPM) return;
     real xp[DIM_MAX], xm[DIM_MAX];
@@ -148,11 +149,11 @@ static void tensor_add_row(real *T, const struct particles *p, const struct bond
             apart |= (xm[d] < xp[d] ? xp[d] : xm[d]) <= X[d] - half || (xm[d] < xp[d] ? xm[d] : xp[d]) >= X[d] + half;
         }
         if (apart) continue;
-        tensor_add(T, xp, xm, X, half, response_of(p, b, s, b->particle[row], &bond), p->dim);
+        partial_tensor_add_bond(T, xp, xm, X, half, bond_response_of(p, b, s, b->particle[row], &bond), p->dim);
     }
 }
 
-real half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
+real particle_half_edge(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
@@ -161,10 +162,10 @@ real half_edge(const struct particles *p, const struct bond_source *s, int64_t i
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct near *near)
 {
-    const real half = half_edge(p, s, i);
+    const real half = particle_half_edge(p, s, i);
     real X[DIM_MAX];
     particle_place(p, i, X);
-    near_find(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
+    particles_find_near(near, s->cells, p, i, s->family.cutoff + half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++)
         if (p->kind[near->at[k]] == KIND_MPM && p->body[near->at[k]] == p->body[i])
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
@@ -201,7 +202,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int n = symmetric_count(p->dim);
-    const bool end = partial_positive(T, entry + n * n, p, b, s, i);
+    const bool end = partial_tensor_limit_state(T, entry + n * n, p, b, s, i);
     if (!partial->gives_all) return partial_matrix(entry, T, p, s, i);
     array_fill_bytes(entry, 0, partial_stress_entry_size(s, p->dim), sizeof *entry);
     return end;
@@ -210,7 +211,7 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
 /* Computes the entry of point i for bond-based models from T V [J]. Returns false if none is needed. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
-    partial_positive_bonds(T, p, s, i);
+    partial_tensor_limit_bonds(T, p, s, i);
     return partial_matrix(entry, T, p, s, i);
 }
 
@@ -236,7 +237,7 @@ static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bo
     struct near near = {0};
     for (int64_t k = 0; k < (changed ? n : p->n_of[KIND_PD]); k++) {
         const int64_t i = changed ? changed[k] : p->list[KIND_PD][k];
-        near_find_any(&near, s->cells, p, i, radius + reach, true);
+        particles_find_near_unordered(&near, s->cells, p, i, radius + reach, true);
         for (int m = 0; m < near.n; m++) {
             real r2 = 0;
             for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][near.at[m]] - p->X[d][i]);
@@ -268,7 +269,7 @@ static void renewal_make(struct renewal *r, const struct particles *p, const str
 {
     /* a changed bond ends within a cutoff plus half the diagonal of a cell of every cell it crosses; on a lattice,
      * within its own length, since the middle of the cell is inside the box that the bond spans */
-    const bool strange = !partial_table_serves_all(table);
+    const bool strange = !partial_table_covers_all(table);
     const real radius = s->family.cutoff + (strange ? s->family.spacing * sqrt(p->dim) : 0);
     uint8_t *mark = NEW("partial.mark", p->n + LANES, uint8_t); /* entries beyond the body stay 0 */
     mark_dirty(mark, p, s, radius, strange ? radius : 0, changed, n);
@@ -353,7 +354,7 @@ static void touch(struct partial_stress *partial, int64_t i)
 static void entries_make(real *entry, bool *crossed, const struct partial_stress *partial, const struct renewal *r,
                          const struct particles *p, const struct bonds *b, const struct bond_source *s)
 {
-    const bool served = partial_table_serves(partial->table);
+    const bool served = partial_table_exists(partial->table);
     const int each = partial_stress_entry_size(s, p->dim);
     struct box *box = NEW("partial.box", r->rows > 0 ? b->rows : 0, struct box);
 #pragma omp parallel
@@ -366,7 +367,7 @@ static void entries_make(real *entry, bool *crossed, const struct partial_stress
             const int64_t i = r->list[k];
             real T[SYM_MAX * SYM_MAX] = {0};
             if (p->kind[i] != KIND_MPM) continue;
-            if (served && partial_table_has(p, s, i))
+            if (served && partial_table_applies_to(p, s, i))
                 partial_table_sum(partial->table, p, b, s, i, &near, T);
             else
                 tensor_sum(T, p, b, s, box, i, &near);
@@ -391,7 +392,7 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
         partial->table = partial_table_make(p, source, size);
     }
     renewal_make(&r, p, b, source, partial->table, changed, n);
-    if (partial_table_serves(partial->table))
+    if (partial_table_exists(partial->table))
         partial_table_update(partial->table, p, b, source, all ? NULL : r.list, r.n);
     real *M = NEW("partial.new", r.n * whole, real);
     bool *crossed = NEW("partial.crossed", r.n, bool);
@@ -412,7 +413,8 @@ void partial_stress_make(struct partial_stress *partial, const struct particles 
     renewal_free(&r);
 }
 
-void partial_points_update(const struct partial_stress *partial, struct particles *p, const struct material *material)
+void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
+                                      const struct material *material)
 {
     const int dim = p->dim, n = symmetric_count(dim);
     real compliance[UINT8_MAX + 1][SYM_MAX * SYM_MAX];

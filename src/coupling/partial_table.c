@@ -142,7 +142,7 @@ static void crossings_of(struct partial_table *t, int64_t k, int64_t *next, bool
             for (cell[0] = low[0]; cell[0] <= high[0]; cell[0]++) {
                 int start[DIM_MAX];
                 for (int d = 0; d < t->dim; d++) X[d] = cell[d], start[d] = -cell[d];
-                const real share = segment_share(from, end, X, 0.5, t->dim);
+                const real share = segment_share_in_cube(from, end, X, 0.5, t->dim);
                 const int64_t place = place_from(t, start);
                 if (share <= 0) continue;
                 if (count)
@@ -183,8 +183,8 @@ static void tensors_make(struct partial_table *t, const struct bond_source *s)
         for (int part = 0; part < t->parts; part++) {
             const struct response one = {
                 .central = part == 0 && !s->rotates, .vector = part == 0 && s->rotates, .pressure = part == 1};
-            tensor_add(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from,
-                       2 * t->reach + 1, one, t->dim);
+            partial_tensor_add_bond(t->tensor + ((int64_t)t->vector[k] * t->parts + part) * t->size, from, to, from,
+                                    2 * t->reach + 1, one, t->dim);
         }
     }
 }
@@ -210,7 +210,7 @@ static bool all_known(const struct particles *p, const struct bond_source *s)
 {
     bool known = true;
 #pragma omp parallel for schedule(static) reduction(&& : known)
-    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_has(p, s, i);
+    for (int64_t i = 0; i < p->n; i++) known = known && partial_table_applies_to(p, s, i);
     return known;
 }
 
@@ -253,8 +253,8 @@ void partial_table_free(struct partial_table *t)
 
 /* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
-bool partial_table_serves(const struct partial_table *t) { return t->vectors > 0; }
-bool partial_table_serves_all(const struct partial_table *t) { return t->uniform; }
+bool partial_table_exists(const struct partial_table *t) { return t->vectors > 0; }
+bool partial_table_covers_all(const struct partial_table *t) { return t->uniform; }
 
 static real *response_at(const struct partial_table *t, int64_t k)
 {
@@ -306,7 +306,7 @@ static void response_make(const struct partial_table *t, const struct particles 
         particle_place(p, bond.nbr, to);
         const int64_t place = place_between(t, X, to);
         INVARIANT(place >= 0 && t->vector[place] >= 0);
-        const struct response r = response_of(p, b, s, b->particle[row], &bond);
+        const struct response r = bond_response_of(p, b, s, b->particle[row], &bond);
         real *part = response + t->vector[place] * t->parts;
         part[0] = s->rotates ? r.vector : r.central;
         if (t->parts > 1) part[1] = r.pressure;
@@ -395,7 +395,7 @@ static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
     }
 }
 
-bool partial_table_has(const struct particles *p, const struct bond_source *s, int64_t i)
+bool partial_table_applies_to(const struct particles *p, const struct bond_source *s, int64_t i)
 {
     return fabs(p->volume0[i] / s->family.cell_volume - 1) <= WHOLE;
 }
@@ -418,7 +418,7 @@ static int crossing_row_add(const struct partial_table *t, const struct particle
 static int crossing_rows_by_site(const struct partial_table *t, const struct site_map *l, const struct particles *p,
                                  const struct bond_source *s, int64_t i, struct crossing_row *to)
 {
-    const int32_t *own = l->at + site_of(l, p, i);
+    const int32_t *own = l->at + lattice_site_of(l, p, i);
     int n = 0;
     for (int k = 0; k <= t->vectors; k++) {
         const struct near_place *near = &t->near[k];
@@ -435,7 +435,7 @@ static int crossing_rows_by_search(const struct partial_table *t, const struct p
     real X[DIM_MAX], Y[DIM_MAX];
     int n = 0;
     particle_place(p, i, X);
-    near_find(near, s->cells, p, i, s->family.cutoff, true);
+    particles_find_near(near, s->cells, p, i, s->family.cutoff, true);
     for (int k = 0; k < near->n; k++) {
         const int32_t j = near->at[k];
         if (p->body[j] != p->body[i]) continue;
@@ -459,7 +459,7 @@ void partial_table_sum(const struct partial_table *t, const struct particles *p,
         if (k + ROWS_AHEAD < rows) row_fetch(t, &row[k + ROWS_AHEAD]);
         int signs = 0;
         if (row[k].j >= p->n) {
-            const struct reflection r = reflection_of(s, p, row[k].j);
+            const struct reflection r = mirror_reflection_of(s, p, row[k].j);
             for (int d = 0; d < t->dim; d++) signs |= (r.sign[d] < 0) << d;
         }
         if (t->parts == 1)

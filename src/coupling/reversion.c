@@ -25,7 +25,7 @@ struct search {
 static void search_near(struct search *s, int64_t i, real radius)
 {
     int kept = 0;
-    near_find(&s->near, s->source->cells, s->p, i, radius, true);
+    particles_find_near(&s->near, s->source->cells, s->p, i, radius, true);
     for (int k = 0; k < s->near.n; k++) {
         const int64_t j = image_root(s->p, s->source->image, s->near.at[k]);
         if (s->p->body[j] == s->p->body[i]) s->near.at[kept++] = (int32_t)j;
@@ -212,7 +212,7 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
         if (real_max(from[d], end[d]) <= to->X[d] - to->half || real_min(from[d], end[d]) >= to->X[d] + to->half)
             return;
     }
-    const real share = 0.5 * segment_share(from, end, to->X, to->half, dim);
+    const real share = 0.5 * segment_share_in_cube(from, end, to->X, to->half, dim);
     if (share == 0) return;
     for (int d = 0; d < dim; d++) {
         e[d] = (end[d] - from[d]) * bond->inverse_length;
@@ -240,12 +240,12 @@ static void crossing_add(struct crossing *to, const struct bonds *b, const struc
 static void crossing_of(struct crossing *to, const struct particles *p, const struct bonds *b,
                         const struct bond_source *source, int64_t i, struct near *near)
 {
-    *to = (struct crossing){.half = half_edge(p, source, i)};
+    *to = (struct crossing){.half = particle_half_edge(p, source, i)};
     particle_place(p, i, to->X);
-    near_find(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
+    particles_find_near(near, source->cells, p, i, source->family.cutoff + to->half * sqrt(p->dim), true);
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
-        const struct reflection r = reflection_of(source, p, j);
+        const struct reflection r = mirror_reflection_of(source, p, j);
         const int64_t row = b->row_of[r.root];
         if (row < 0 || p->body[j] != p->body[i]) continue;
         for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
@@ -270,7 +270,7 @@ static void complete(const struct bond_source *source, const struct particles *p
     real c11, c12, strain[SYM_MAX], trace = 0;
     for (int s = 0; s < n; s++) strain[s] = stress[s];
     if (!reversion_solve(T, strain, n, 1)) return;
-    family_constants(&source->family, &source->material[p->material[i]], &c11, &c12);
+    family_elastic_constants(&source->family, &source->material[p->material[i]], &c11, &c12);
     for (int d = 0; d < dim; d++) trace += strain[d];
     for (int s = 0; s < n; s++) stress[s] = s < dim ? (c11 - c12) * strain[s] + c12 * trace : 2 * c12 * strain[s];
 }
@@ -319,7 +319,7 @@ void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b,
         p->low_since[list[k]] = INFINITY;
         p->reversions[list[k]] += p->reversions[list[k]] < UINT8_MAX;
     }
-    bonds_renew(b, p, source);
+    bonds_rebuild(b, p, source);
     if (partial) partial_stress_make(partial, p, b, source, list, n);
     c->reverted += n;
     c->reversions++;

@@ -35,11 +35,11 @@ status reversion_check(const struct scene *s)
 /* Returns the energy of the bodies at the present positions [J]. */
 static real energy_now(struct run *e)
 {
-    if (e->source.modulus) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    if (e->source.modulus) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) +
+           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain) +
-           diagnostics_kinetic(&e->part) + mesh_kinetic(&e->frame->mesh);
+           particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh);
 }
 
 /* Reverts n listed particles and records the change of energy. */
@@ -48,22 +48,22 @@ static void revert_listed(struct run *e, const int32_t *list, int64_t n)
     const real before = energy_now(e);
     reversion_apply(&e->coupling->conversion, &e->part, &e->bonds, &e->source,
                     e->coupling->uses_partial ? &e->coupling->partial : NULL, list, n);
-    frame_insert(e->frame, &e->part, list, n, &e->damped);
-    conversion_follow(e, n);
-    frame_sync_motion(e->frame, &e->part, &e->loads);
+    frame_insert_points(e->frame, &e->part, list, n, &e->damped);
+    conversion_update_mesh(e, n);
+    frame_update_point_motion(e->frame, &e->part, &e->loads);
     interface_make(e->coupling, &e->part, &e->bonds, &e->source);
     e->grid->sort_needed = e->contact->due = true;
     e->coupling->conversion.reversion_energy += energy_now(e) - before;
 }
 
-void revert(struct run *e)
+void reversion_apply_due(struct run *e)
 {
     const struct scene *s = e->scene;
     int32_t *list;
     if (!e->part.low_since || e->clock.step == 0 || e->clock.step % period(&e->clock, &e->tables, &e->source) != 0 ||
         e->part.n_of[KIND_PD] == 0)
         return;
-    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     const int64_t n = reversion_choose(
         &(struct reversion_rule){.source = &e->source,
                                  .elastic = e->tables.elastic,

@@ -9,9 +9,12 @@
 
 #define ALONG 0.999 /* least cosine between an axis and a direction that counts as along the axis */
 
-bool mesh_uncut(const struct grid *g, const struct scene *s) { return s->dim == 1 || grid_mirror_between(g, s); }
+bool mesh_ignores_voids(const struct grid *g, const struct scene *s)
+{
+    return s->dim == 1 || grid_mirror_off_nodes(g, s);
+}
 
-void voids_convert(struct particles *p, const struct voids *v, bool uncut)
+void voids_convert_beside(struct particles *p, const struct voids *v, bool uncut)
 {
     for (int64_t i = 0; i < p->n && v; i++)
         if (v->near[i] & VOID_ACROSS && (uncut || !(p->flag[i] & FLAG_MESHED))) p->kind[i] = KIND_PD;
@@ -76,7 +79,7 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
         real next[2 * DIM_MAX];
         int beside = 0, across = 0;
         if (s->body[p->body[i]].joined != b) continue;
-        near_find(&near, cells, p, i, reach, false);
+        particles_find_near(&near, cells, p, i, reach, false);
         next_along(p, i, &near, next);
         for (int d = 0; d < p->dim; d++) beside += real_min(next[2 * d], next[2 * d + 1]) < 1.01 * spacing;
         for (int a = 0; a < 2 * p->dim; a++) across += next[a] > 1.5 * spacing && next[a] <= reach;
@@ -90,7 +93,7 @@ static struct closed closed_in_lattice(const struct scene *s, const struct parti
 void voids_warn(const struct run *e, struct warnings *to)
 {
     const struct scene *s = e->scene;
-    const bool uncut = mesh_uncut(&e->grid->field[0].grid, s);
+    const bool uncut = mesh_ignores_voids(&e->grid->field[0].grid, s);
     const struct closed grid = closed_on_grid(&e->part, e->source.voids, uncut);
     char place[96];
     if (grid.n > 0)
@@ -101,7 +104,7 @@ void voids_warn(const struct run *e, struct warnings *to)
                      s->body[e->part.body[grid.first]].name, void_position_text(&e->part, grid.first, place),
                      (long long)grid.n, uncut ? "" : "mpm.frame reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
-        if (s->body[b].joined != b || surface_known(s, b)) continue;
+        if (s->body[b].joined != b || surface_is_exact(s, b)) continue;
         const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, voids_reach(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,

@@ -13,7 +13,7 @@ void active_set_make(struct active_set *r, int64_t blocks)
     r->moved = NEW("active_set.moved", blocks, uint8_t);
     r->list = NEW("active_set.list", blocks, int32_t);
     array_fill_bytes(r->level, 1, blocks, 1);
-    active_set_list(r);
+    active_set_rebuild_list(r);
 }
 
 void active_set_free(struct active_set *r)
@@ -23,7 +23,7 @@ void active_set_free(struct active_set *r)
     memory_free(r->list);
 }
 
-void active_set_list(struct active_set *r)
+void active_set_rebuild_list(struct active_set *r)
 {
     r->active = 0;
     for (int64_t k = 0; k < r->blocks; k++)

@@ -163,8 +163,8 @@ static int search(struct search *s, const struct particles *p)
     }
 }
 
-int cells_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
-               int32_t *found, int room)
+int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
+                    int32_t *found, int room)
 {
     struct search s = {.c = c, .X = X, .radius = radius, .skip = skip, .found = found, .room = room, .ascending = true};
     return search(&s, p);
@@ -187,7 +187,7 @@ static int64_t around(const struct cells *c, int64_t cell, int64_t reach)
     return sum;
 }
 
-int cells_most(const struct cells *c, real radius)
+int cells_most_neighbours(const struct cells *c, real radius)
 {
     real far = 0;
     int64_t most = 0;
@@ -224,13 +224,14 @@ static void cells_find(struct near *near, const struct cells *c, const struct pa
     }
 }
 
-void near_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius, bool itself)
+void particles_find_near(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
+                         bool itself)
 {
     cells_find(near, c, p, i, radius, itself, false);
 }
 
-void near_find_any(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
-                   bool itself)
+void particles_find_near_unordered(struct near *near, const struct cells *c, const struct particles *p, int64_t i,
+                                   real radius, bool itself)
 {
     cells_find(near, c, p, i, radius, itself, true);
 }

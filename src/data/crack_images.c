@@ -11,7 +11,8 @@ static real inner_height(const struct mirror_plane *m, const real *X)
     return (real)-m->outside * (X[m->axis] - m->at);
 }
 
-bool mirrors_continue(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X, real tolerance)
+bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X,
+                            real tolerance)
 {
     for (int k = 0; k < mirrors; k++)
         for (int a = 0; a < c->n && inner_height(&m[k], X) <= tolerance; a++)

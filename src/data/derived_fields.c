@@ -7,7 +7,7 @@
 enum { XX, YY, ZZ, XY, YZ, XZ };
 enum { SWEEPS = 12 }; /* largest number of Jacobi sweeps; they converge quadratically, five suffice */
 
-real tensor_mises(const real s[6])
+real tensor_mises_stress(const real s[6])
 {
     const real normal = square(s[XX] - s[YY]) + square(s[YY] - s[ZZ]) + square(s[ZZ] - s[XX]);
     return sqrt(0.5 * normal + 3 * (square(s[XY]) + square(s[YZ]) + square(s[XZ])));
@@ -46,7 +46,7 @@ static void axis_put(const real *axis, real *to)
     for (int d = 0; d < 3; d++) to[d] = axis[most] < 0 ? -axis[d] : axis[d];
 }
 
-void tensor_principal(const real s[6], real value[3], real direction[9])
+void tensor_principal_values(const real s[6], real value[3], real direction[9])
 {
     real a[3][3] = {{s[XX], s[XY], s[XZ]}, {s[XY], s[YY], s[YZ]}, {s[XZ], s[YZ], s[ZZ]}};
     real v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -69,15 +69,15 @@ void tensor_principal(const real s[6], real value[3], real direction[9])
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
-static void mises_from(const real *from, real *to) { *to = tensor_mises(from); }
+static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
-static void principal_from(const real *from, real *to) { tensor_principal(from, to, NULL); }
+static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }
 static void speed_from(const real *from, real *to) { *to = sqrt(dot(from, from, 3)); }
 
 static void directions_from(const real *from, real *to)
 {
     real value[3];
-    tensor_principal(from, value, to);
+    tensor_principal_values(from, value, to);
 }
 
 const struct derived_field derived_fields[DERIVED_FIELDS] = {

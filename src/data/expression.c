@@ -60,7 +60,7 @@ static real one_operand(enum expression_op op, real a)
     }
 }
 
-real expression_operate(enum expression_op op, real a, real b)
+real expression_apply_operation(enum expression_op op, real a, real b)
 {
     switch (op) {
     case EXPRESSION_ADD:
@@ -93,7 +93,7 @@ static real leaf(const struct expression_step *step, const real *X, int dim, rea
     return X && d < dim ? X[d] : 0;
 }
 
-real expression_at(const struct expression *e, const real *X, int dim, real t)
+real expression_evaluate(const struct expression *e, const real *X, int dim, real t)
 {
     real stack[EXPRESSION_STACK + 1];
     int top = -1;
@@ -102,7 +102,7 @@ real expression_at(const struct expression *e, const real *X, int dim, real t)
             stack[++top] = leaf(step, X, dim, t);
         } else if (expression_has_two(step->op)) {
             top--;
-            stack[top] = expression_operate(step->op, stack[top], stack[top + 1]);
+            stack[top] = expression_apply_operation(step->op, stack[top], stack[top + 1]);
         } else {
             stack[top] = one_operand(step->op, stack[top]);
         }
@@ -123,7 +123,7 @@ void expression_make(struct expression *e, const struct expression_step *step, i
     }
 }
 
-void expression_constant(struct expression *e, real value, const char *text)
+void expression_make_constant(struct expression *e, real value, const char *text)
 {
     expression_make(e, &(struct expression_step){EXPRESSION_NUMBER, value}, 1, text);
 }

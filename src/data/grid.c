@@ -47,7 +47,7 @@ static int64_t box_floor(int64_t k)
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;
 }
 
-status grid_cover(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
+status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t most, bool *changed)
 {
     int64_t first[DIM_MAX], end[DIM_MAX];
     real nodes = 1, low[DIM_MAX], high[DIM_MAX];
@@ -87,7 +87,7 @@ status grid_cover(struct grid *g, const real *from, const real *to, int64_t most
     return OK;
 }
 
-bool grid_box(struct grid *g, const real *from, const real *to, int64_t most)
+bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t most)
 {
     real n = 1;
     g->n = 1;
@@ -120,7 +120,7 @@ void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot)
     g->dashpot[g->dashpots++] = *dashpot;
 }
 
-void grid_idle(struct grid *g)
+void grid_clear_constraints(struct grid *g)
 {
     g->walls = g->dashpots = 0;
     g->absorbed = (struct absorbed){0};

@@ -136,7 +136,7 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
-void hull_area(const struct hull *s, int64_t k, real area[DIM_MAX])
+void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];
     if (s->dim == 2) {
@@ -157,7 +157,7 @@ static real volume_of(const struct hull *s)
     real sum = 0;
     for (int64_t k = 0; k < s->faces; k++) {
         real area[DIM_MAX], arm[DIM_MAX];
-        hull_area(s, k, area);
+        hull_face_area(s, k, area);
         for (int d = 0; d < s->dim; d++) arm[d] = s->corner[s->face[k][0]][d] - s->corner[s->face[0][0]][d];
         sum += dot(arm, area, s->dim) / s->dim;
     }
@@ -199,7 +199,7 @@ void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX]
     s->reversed = s->volume < 0;
     if (s->reversed) faces_reverse(s);
     s->volume = fabs(s->volume);
-    hull_tree_make(s);
+    hull_build_face_tree(s);
 }
 
 void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
@@ -207,7 +207,7 @@ void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM
 {
     hull_take(s, dim, corners, corner, faces, face);
     s->open = true;
-    hull_tree_make(s);
+    hull_build_face_tree(s);
 }
 
 void hull_free(struct hull *s)

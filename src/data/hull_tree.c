@@ -35,7 +35,7 @@ static void node_measure(const struct hull *s, struct hull_node *n, const struct
     for (int d = 0; d < DIM_MAX; d++) n->low[d] = INFINITY, n->high[d] = -INFINITY;
     for (int32_t k = n->first; k < n->first + n->count; k++) {
         real area[DIM_MAX];
-        hull_area(s, leaf[k].face, area);
+        hull_face_area(s, leaf[k].face, area);
         const real size = sqrt(dot(area, area, s->dim));
         weight += size;
         for (int d = 0; d < s->dim; d++) {
@@ -70,7 +70,7 @@ static void node_split(struct hull *s, int32_t at, struct leaflet *leaf)
     node_split(s, left + 1, leaf);
 }
 
-void hull_tree_make(struct hull *s)
+void hull_build_face_tree(struct hull *s)
 {
     struct leaflet *leaf = NEW("hull.tree", s->faces, struct leaflet);
     int32_t(*sorted)[DIM_MAX] = memory_new("hull.faces", s->faces, sizeof *sorted);
@@ -126,7 +126,7 @@ static bool node_winding(const struct hull *s, const struct hull_node *n, const 
     return true;
 }
 
-real hull_winding(const struct hull *s, const real *X)
+real hull_winding_number(const struct hull *s, const real *X)
 {
     int32_t wait[DEEPEST];
     int waiting = 1;
@@ -141,7 +141,7 @@ real hull_winding(const struct hull *s, const real *X)
     return sum;
 }
 
-real hull_doubt(const struct hull *s)
+real hull_ambiguous_share(const struct hull *s)
 {
     const int places = s->dim == 2 ? 64 : 16;
     const struct hull_node *all = &s->node[0];
@@ -151,7 +151,7 @@ real hull_doubt(const struct hull *s)
         real X[DIM_MAX];
         for (int d = 0; d < s->dim; d++)
             X[d] = all->low[d] + ((real)at[d] + 0.5) / places * (all->high[d] - all->low[d]);
-        const real w = hull_winding(s, X);
+        const real w = hull_winding_number(s, X);
         doubtful += w < -0.3 || fabs(w - nearbyint(w)) > 0.3;
     }
     return (real)doubtful / (real)n;
@@ -213,7 +213,7 @@ static void face_nearest(const struct hull *s, int64_t k, const real *X, real *n
         segment_nearest(corner[0], corner[1], X, 2, nearest);
         return;
     }
-    hull_area(s, k, area);
+    hull_face_area(s, k, area);
     triangle_nearest(corner, area, X, nearest);
 }
 
@@ -252,11 +252,11 @@ static int32_t nearest_face(const struct hull *s, const real *X, real *nearest, 
 /* Returns true if X is outside the surface. */
 static bool hull_outside(const struct hull *s, const real *X)
 {
-    return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding(s, X) < 0.5;
+    return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
 /* If the surface is farther away than `most`, only the side has to be found. */
-bool hull_within(const struct hull *s, const real *X, real most)
+bool hull_is_within(const struct hull *s, const real *X, real most)
 {
     real size = 0, point[DIM_MAX];
     if (s->faces == 0) return most == INFINITY;
@@ -274,7 +274,7 @@ real hull_distance(const struct hull *s, const real *X, real *normal)
     if (s->faces == 0) return INFINITY;
     const int32_t face = nearest_face(s, X, point, &r2);
     const real distance = sqrt(r2), side = hull_outside(s, X) ? 1 : -1;
-    if (normal) hull_area(s, face, area);
+    if (normal) hull_face_area(s, face, area);
     const real size = sqrt(dot(area, area, s->dim));
     for (int d = 0; normal && d < s->dim; d++)
         normal[d] = distance > 1e-12 * size ? side * (X[d] - point[d]) / distance : size > 0 ? area[d] / size : 0;

@@ -85,7 +85,7 @@ real material_stress_at(const struct material *m, real strain)
     return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
 }
 
-void material_derive(struct material *m, enum space space)
+void material_compute_constants(struct material *m, enum space space)
 {
     real E = m->young, nu = m->poisson;
     m->yield_hardening = E * m->yield_tangent / (E - m->yield_tangent);

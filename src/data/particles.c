@@ -84,7 +84,7 @@ static void particles_put(struct particles *p, const struct particle_field *f, i
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
 }
 
-void *particle_array(const struct particles *p, const struct particle_field *f, int k)
+void *particle_field_array(const struct particles *p, const struct particle_field *f, int k)
 {
     INVARIANT(k >= 0 && k < f->count(DIM_MAX, WITH_EVERYTHING));
     return get(p, f, k);
@@ -100,7 +100,7 @@ void particles_make(struct particles *p, int dim, int64_t n, int optional)
             particles_put(p, f, k, memory_new(f->name, n + LANES, f->size));
     for (int kind = 0; kind < KINDS; kind++) p->list[kind] = NEW("particles.list", n, int32_t);
     p->list_free = NEW("particles.list_free", n, int32_t);
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 void particles_add_images(struct particles *p, int64_t images, int optional)
@@ -122,7 +122,7 @@ void particles_free(struct particles *p)
     *p = (struct particles){0};
 }
 
-void particles_take(struct particles *p, const struct particles *old, const int32_t *now, int optional)
+void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *now, int optional)
 {
     for (const struct particle_field *f = particle_fields; f < particle_fields + particle_fields_count; f++)
         for (int k = 0; k < f->count(p->dim, optional); k++) {
@@ -179,7 +179,7 @@ int64_t particles_nearest(const struct particles *p, const real *X)
     return nearest;
 }
 
-real particles_longest(const struct particles *p)
+real particles_longest_edge(const struct particles *p)
 {
     real low, high, longest = 0;
     for (int d = 0; d < p->dim; d++) {
@@ -227,7 +227,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
     find_places(p, spacing, place);
     if (in_order(place, p->n)) { /* a single lattice is created in this order */
         memory_free(place);
-        particles_list(p);
+        particles_update_lists(p);
         return;
     }
     char *scratch = NEW("particles.scratch", p->n * (int64_t)sizeof(real), char);
@@ -236,7 +236,7 @@ void particles_sort(struct particles *p, real spacing, int optional)
         for (int k = 0; k < f->count(p->dim, optional); k++) permute(get(p, f, k), f->size, place, p->n, scratch);
     memory_free(scratch);
     memory_free(place);
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 /* Returns true if the eight particles from i on have one kind and are all, or none, points of the mesh. */
@@ -253,7 +253,7 @@ static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
     *n += more;
 }
 
-void particles_list(struct particles *p)
+void particles_update_lists(struct particles *p)
 {
     for (int kind = 0; kind < KINDS; kind++) p->n_of[kind] = 0;
     p->n_free = 0;
@@ -267,7 +267,7 @@ void particles_list(struct particles *p)
 }
 
 /* Tests eight particles at a time; entries beyond the body are images, which never have these flags. */
-bool convert_due(const struct particles *p)
+bool conversion_is_due(const struct particles *p)
 {
     uint64_t any = 0;
 #pragma omp parallel for simd schedule(static) reduction(| : any)
@@ -282,7 +282,7 @@ status particles_archive(struct particles *p, int optional, struct archive *a)
         for (int k = 0; k < f->count(p->dim, optional) && (f->in_trials || a->scope == ARCHIVE_ALL); k++) {
             char name[64];
             snprintf(name, sizeof name, "particles/%s%d", f->name, k);
-            TRY(a->exchange(a, name, particle_array(p, f, k), (size_t)p->n_all * f->size));
+            TRY(a->exchange(a, name, particle_field_array(p, f, k), (size_t)p->n_all * f->size));
         }
     return OK;
 }

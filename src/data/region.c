@@ -54,7 +54,7 @@ real region_volume(const struct region *r, int dim, const real *from, const real
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
     int64_t inside = 0;
     real volume = 1, share[DIM_MAX] = {0}, effort = 0;
-    for (int k = 0; k < r->n; k++) effort += solid_effort(&r->solid[k]);
+    for (int k = 0; k < r->n; k++) effort += solid_query_cost(&r->solid[k]);
     const int points = effort < 100 ? 1 << 18 : 1 << 16;
     for (int d = 0; d < dim; d++) share[d] = pow(root[dim], -(d + 1)), volume *= to[d] - from[d];
 #pragma omp parallel for schedule(static) reduction(+ : inside)
@@ -98,7 +98,7 @@ static real table_at(const struct time_function *f, real t)
     return f->value[k - 1] + share * (f->value[k] - f->value[k - 1]);
 }
 
-real time_function_at(const struct time_function *f, real t)
+real time_function_value(const struct time_function *f, real t)
 {
     static const real pi = 3.14159265358979323846;
     bool inside = f->from <= t && t < f->until;
@@ -161,7 +161,7 @@ static real table_steepest(const struct time_function *f, real t)
     return most;
 }
 
-real time_function_steepest(const struct time_function *f, real t)
+real time_function_largest_slope(const struct time_function *f, real t)
 {
     static const real pi = 3.14159265358979323846;
     const bool meets = f->from < t && f->until > 0;
@@ -299,7 +299,7 @@ bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim)
     return dim == 2 ? segment_holds(c, &plane, P) : polygon_holds(c, &plane, P);
 }
 
-bool crack_near(const struct crack *c, const real *X, real reach, int dim)
+bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int dim)
 {
     real far = -INFINITY,
          size = 0; /* distance from the bounding box of its corners; all tolerances are below size/1e9 */

@@ -20,7 +20,7 @@ static int run_length(const struct region *r, int first)
     return end - first < RUN_LEAST ? 1 : end - first;
 }
 
-void region_index(struct region *r, int dim)
+void region_build_index(struct region *r, int dim)
 {
     int runs = 0;
     for (int k = 0; k < r->n; k += run_length(r, k)) runs++;
@@ -31,7 +31,7 @@ void region_index(struct region *r, int dim)
         *run = (struct region_run){.first = k, .count = run_length(r, k)};
         if (run->count == 1) continue;
         struct bounds *box = NEW("solids.box", run->count, struct bounds);
-        for (int j = 0; j < run->count; j++) solid_box(&r->solid[k + j], dim, &box[j]);
+        for (int j = 0; j < run->count; j++) solid_bounding_box(&r->solid[k + j], dim, &box[j]);
         box_tree_make(&run->tree, box, run->count, dim);
         memory_free(box);
     }
@@ -53,10 +53,10 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
 {
     struct box_search near;
     bool within = false;
-    if (run->count == 1) return solid_within(s, X, dim, most);
+    if (run->count == 1) return solid_is_within(s, X, dim, most);
     box_search_start(&near, &run->tree, X, dim);
     for (int k; !within && (k = box_search_next(&near, level_reach(most))) >= 0;)
-        within = solid_within(&s[k], X, dim, most);
+        within = solid_is_within(&s[k], X, dim, most);
     return within;
 }
 

@@ -347,7 +347,7 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
 static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
-    return s->radius == 0 ? hull_within(s->hull, X, most) : hull_distance(s->hull, X, NULL) - s->radius <= most;
+    return s->radius == 0 ? hull_is_within(s->hull, X, most) : hull_distance(s->hull, X, NULL) - s->radius <= most;
 }
 
 static real voxels_from(const struct solid *s, const real *X, int dim, real *normal)
@@ -412,7 +412,7 @@ real solid_radius(const struct solid *s, int dim)
     return is_round ? s->radius : least;
 }
 
-real solid_width(const struct solid *s, int dim)
+real solid_least_thickness(const struct solid *s, int dim)
 {
     switch (s->kind) {
     case SOLID_TUBE:

@@ -138,7 +138,7 @@ static void placement_box(const struct solid *s, const struct placement *i, int 
     }
 }
 
-void solid_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
+void solid_bounding_box(const struct solid *s, int dim, struct bounds *box) { placement_box(s, NULL, dim, box); }
 
 /* Rebuilds the tree over the boxes of all copies. */
 static void images_index(struct solid *s, int dim)
@@ -150,7 +150,7 @@ static void images_index(struct solid *s, int dim)
     memory_free(box);
 }
 
-bool solid_move(struct solid *s, const struct solid_motion *m, int dim)
+bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim)
 {
     const int before = s->images > 0 ? s->images : 1;
     const real count = motion_count(m, dim) * before;
@@ -220,7 +220,7 @@ static bool image_within(const struct solid *s, const real *X, int dim, real mos
     return type->within ? type->within(s, X, dim, most) : image_level(s, X, dim) <= most;
 }
 
-bool solid_within(const struct solid *s, const real *X, int dim, real most)
+bool solid_is_within(const struct solid *s, const real *X, int dim, real most)
 {
     real at[DIM_MAX];
     bool within = false;
@@ -242,10 +242,10 @@ real solid_support(const struct solid *s, const real *along, int dim)
     return most;
 }
 
-real solid_effort(const struct solid *s)
+real solid_query_cost(const struct solid *s)
 {
     real effort = s->region.n == 0 ? 1 : 0;
-    for (int k = 0; k < s->region.n; k++) effort += solid_effort(&s->region.solid[k]);
+    for (int k = 0; k < s->region.n; k++) effort += solid_query_cost(&s->region.solid[k]);
     if (s->polygon) effort = 1 + 0.1 * s->polygon->n;
     return effort * (s->images > 0 ? s->images : 1);
 }

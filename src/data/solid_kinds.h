@@ -10,7 +10,7 @@ struct solid_type {
     real (*level)(const struct solid *s, const real *X, int dim); /* as solid_level; NULL: the distance */
     real (*support)(const struct solid *s, const real *along,
                     int dim); /* as solid_support, for `along` of any length */
-    bool (*within)(const struct solid *s, const real *X, int dim, real most); /* as solid_within; NULL: by level */
+    bool (*within)(const struct solid *s, const real *X, int dim, real most); /* as solid_is_within; NULL: by level */
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
 

@@ -65,7 +65,7 @@ static void cells_room(struct transfer_order *o, int32_t cells)
     o->cell_start = NEW("transfer.cell_start", o->cells_room, int32_t);
 }
 
-void transfer_order_room(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells)
+void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells)
 {
     if (o->blocks_room < blocks + 1 || o->room < n) {
         memory_free(o->particle);
@@ -231,7 +231,7 @@ void transfer_order_sort(struct transfer_order *o, const struct particles *p, co
                          const struct grid *g)
 {
     struct sorting s = {.p = p, .g = g, .shape = block_shape_of(g), .list = list, .n = n};
-    transfer_order_room(o, n, s.shape.n, 0);
+    transfer_order_reserve(o, n, s.shape.n, 0);
     sorting_make(&s);
     rank_blocks(o, &s.shape, s.rank);
     o->n = n;

@@ -308,7 +308,7 @@ static void inertias_find(struct turning_groups *t, real spacing, int dim)
 
 #define EACH_GROUP(CALL) TEAM_LOOP(t->groups > 16, for (int32_t g = 0; g < t->groups; g++) CALL;)
 
-void turning_begin(struct turning_groups *t, struct particles *p, real spacing)
+void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing)
 {
     EACH_GROUP(sum_mass(t, &t->group[g], p));
     few_join(t);
@@ -319,7 +319,7 @@ void turning_begin(struct turning_groups *t, struct particles *p, real spacing)
     EACH_GROUP(spins_store(t, &t->group[g], p));
 }
 
-void turning_share(struct turning_groups *t, struct particles *p)
+void turning_restore_spins(struct turning_groups *t, struct particles *p)
 {
     EACH_GROUP(sum_lack(t, &t->group[g], p));
     spins_find(t, p->dim); /* gain of spin */

@@ -98,14 +98,14 @@ static void line_normal(const struct voids *v, int body, const struct void_line 
     }
 }
 
-bool voids_between(const struct voids *v, int body, const real *a, const real *b, bool *across)
+bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *across)
 {
     const int dim = v->dim;
     struct void_line there = {.from = a}, back = {.from = b};
     int first = 0;
     while (first < dim && a[first] == b[first]) first++;
     if (first == dim) return false;
-    if (a[first] > b[first]) return voids_between(v, body, b, a, across); /* equal bits in both directions */
+    if (a[first] > b[first]) return void_separates_points(v, body, b, a, across); /* equal bits in both directions */
     for (int d = 0; d < dim; d++) there.length += square(b[d] - a[d]);
     there.length = back.length = sqrt(there.length);
     for (int d = 0; d < dim; d++) there.along[d] = (b[d] - a[d]) / there.length, back.along[d] = -there.along[d];
@@ -121,16 +121,16 @@ bool voids_between(const struct voids *v, int body, const real *a, const real *b
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
-bool voids_part(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
+bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
     if (!voids_near(v, i) || !voids_near(v, j)) return false;
     particle_place(p, i, a);
     particle_place(p, j, b);
-    return voids_between(v, p->body[i], a, b, NULL);
+    return void_separates_points(v, p->body[i], a, b, NULL);
 }
 
-real voids_depth(const struct voids *v, const struct particles *p, int64_t i)
+real voids_particle_depth(const struct voids *v, const struct particles *p, int64_t i)
 {
     real X[DIM_MAX] = {0};
     particle_place(p, i, X);
@@ -152,7 +152,7 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
         if (p->body[j] != p->body[i]) continue;
         particle_place(p, j, b);
         for (int d = 0; d < p->dim; d++) length2 += square(b[d] - a[d]);
-        if (square(depth[i] + depth[j]) >= length2 || !voids_between(v, p->body[i], a, b, &across)) continue;
+        if (square(depth[i] + depth[j]) >= length2 || !void_separates_points(v, p->body[i], a, b, &across)) continue;
         bits |= VOID_NEAR | (across ? VOID_ACROSS : 0);
     }
     return bits;
@@ -164,7 +164,7 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
     real *depth = NEW("voids.depth", p->n_all, real);
     v->near = NEW("voids.near", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) depth[i] = voids_depth(v, p, i);
+    for (int64_t i = 0; i < p->n; i++) depth[i] = voids_particle_depth(v, p, i);
     for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_root(p, image, k)];
 #pragma omp parallel
     {
@@ -172,7 +172,7 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
 #pragma omp for schedule(dynamic, 256)
         for (int64_t i = 0; i < p->n; i++) {
             if (depth[i] >= reach) continue;
-            near_find(&near, cells, p, i, reach, false);
+            particles_find_near(&near, cells, p, i, reach, false);
             v->near[i] = void_search(v, p, depth, i, &near);
         }
         memory_free(near.at);

@@ -21,7 +21,7 @@ static int64_t voxel_along(const struct voxels *v, const real *X, int d)
     return at < -1 ? -1 : at > (real)v->n[d] ? v->n[d] : (int64_t)at;
 }
 
-int voxels_grey(const struct voxels *v, const real *X)
+int voxels_grey_value(const struct voxels *v, const real *X)
 {
     int64_t at = 0;
     for (int d = v->dim - 1; d >= 0; d--) {

@@ -39,7 +39,7 @@ static status particles_check(const struct scene *s, const struct particles *p)
 static status kernels_archive(struct warnings *to, struct archive *a)
 {
     char text[256];
-    const struct simd_set *now = simd_in_use();
+    const struct simd_set *now = simd_current_kernels();
     char then[16] = {0};
     snprintf(then, sizeof then, "%s", now->name);
     ARCHIVE_VALUE(a, "engine/kernels", then);
@@ -49,7 +49,7 @@ static status kernels_archive(struct warnings *to, struct archive *a)
              "the checkpoint was written with %s kernels, and the run continues with %s: results agree to round-off, "
              "not to the last bit; CLEAVE_SIMD=%s keeps the kernels where the processor has them",
              then, now->name, then);
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
     return OK;
 }
 
@@ -84,13 +84,13 @@ static status body_restore(struct run *e, struct archive *a)
 {
     TRY(particles_archive(&e->part, e->optional, a));
     TRY(particles_check(e->scene, &e->part));
-    particles_list(&e->part);
+    particles_update_lists(&e->part);
     bonds_free(&e->bonds);
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
     partial_stress_free(&e->coupling->partial);
     e->grid->sort_needed = true;
     TRY(bonds_archive(&e->bonds, &e->part, a));
-    state_weigh(&e->bonds, &e->part, &e->source);
+    state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     coupling_partial_make(e);
     levels_free(&e->frame->levels);
     mesh_free(&e->frame->mesh);

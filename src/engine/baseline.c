@@ -28,7 +28,7 @@ static void baseline_keep(struct probing *probing, const struct particles *p, re
     probing->has_baseline = true;
 }
 
-status engine_baseline(struct run *e)
+status engine_run_baseline(struct run *e)
 {
     if (!wanted(e->scene)) return OK;
     struct scene scene = *e->scene;

@@ -21,21 +21,21 @@ struct predecessor {
  * a body that coarse cells replace). before: if not NULL, particles, bonds and time are transferred from this run; the
  * caller sets all other state that its time steps have changed, and the refinement levels of cells. Returns as
  * engine_make does. */
-status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
-                         struct predecessor *before);
+status engine_remake(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+                     struct predecessor *before);
 
 /* Replaces a run by one whose particles are those that the given refinement levels of mesh cells require, with the
  * state of the present run. level: refinement level of each mesh cell. Returns FAILED if this fails or a frame in
  * progress cannot be written. */
-status engine_refill(struct run *e, const uint8_t *level);
+status engine_replace_particles(struct run *e, const uint8_t *level);
 
 /* Transfers the particles of before->run to a run that is being created, and stores the new indices of these particles
  * in before->now. Call it when the mirror images of the new particles exist. */
-void engine_take_particles(struct run *e, struct predecessor *before);
+void engine_transfer_particles(struct run *e, struct predecessor *before);
 
 /* Transfers the broken bonds of before->run to a run that is being created, and frees the bonds and particles of
- * before->run. Call it after engine_take_particles. */
-void engine_take_bonds(struct run *e, const struct predecessor *before);
+ * before->run. Call it after engine_transfer_particles. */
+void engine_transfer_bonds(struct run *e, const struct predecessor *before);
 
 /* Saves the state of loads and of all parts of a run to the archive if a->saving is set, else restores it from the
  * archive. Each part saves only state that a->scope includes. Returns FAILED if an entry is missing or has another
@@ -43,8 +43,8 @@ void engine_take_bonds(struct run *e, const struct predecessor *before);
 status parts_archive(struct run *e, struct archive *a);
 
 /* Adds warnings to *to about bodies with particles that have no neighbours. */
-void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                         const struct particles *p, struct warnings *to);
+void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                             const struct particles *p, struct warnings *to);
 
 /* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
  * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */

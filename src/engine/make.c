@@ -154,7 +154,7 @@ static status make_bonds(struct run *e, struct predecessor *before)
         voids_find(&e->tables.voids, &e->part, &e->cells, e->loads.image, voids_reach(s, e->source.family.cutoff));
         e->source.voids = &e->tables.voids;
     }
-    e->source.room = bonds_room(&e->source);
+    e->source.room = bonds_most_neighbours(&e->source);
     if (s->surface == SURFACE_VOLUME && has_peridynamics(s)) {
         e->tables.neighbour_volume = NEW("engine.neighbour_volume", e->part.n_all, real);
         bonds_neighbour_volume(e->tables.neighbour_volume, &e->part, &e->source);
@@ -162,10 +162,11 @@ static status make_bonds(struct run *e, struct predecessor *before)
     }
     if (s->surface == SURFACE_MOMENTS && has_peridynamics(s))
         TRY(run_surface_make(&e->tables.surface, &e->source, &e->part, &e->loads, s));
-    if (s->method == METHOD_ADAPTIVE) TRY(notch_convert(e));
-    if (before) engine_take_particles(e, before); /* after notch_convert, which makes slits from initial particles */
+    if (s->method == METHOD_ADAPTIVE) TRY(precracks_apply(e));
+    if (before)
+        engine_transfer_particles(e, before); /* after precracks_apply, which makes slits from initial particles */
     bonds_make(&e->bonds, NULL, &e->part, &e->source);
-    if (before) engine_take_bonds(e, before);
+    if (before) engine_transfer_bonds(e, before);
     e->coupling->conversion.first_time = NAN;
     e->coupling->conversion.start = e->coupling->conversion.peak = e->part.n_of[KIND_PD];
     e->coupling->conversion.peak_bonds = e->bonds.n;
@@ -238,14 +239,14 @@ static real memory_of(const struct scene *s, const struct bond_source *source, r
     return n * (BYTES_PER_PARTICLE + bonds * (follow ? BYTES_PER_BOND_LATTICE : BYTES_PER_BOND));
 }
 
-real run_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
+real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
     const real n = particles_now(s, p, &longest);
     return memory_of(s, source, n, longest, s->method == METHOD_PD);
 }
 
-real run_memory_peridynamic(const struct scene *s, const struct particles *p, const struct bond_source *source)
+real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
     particles_expected(s, &longest);
@@ -255,13 +256,13 @@ real run_memory_peridynamic(const struct scene *s, const struct particles *p, co
 /* Checks that the memory of a run is available. REFUSED, with the estimate, if not. */
 static status make_affordable(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
-    const real memory = (real)team_memory(), bytes = run_memory(s, p, source);
+    const real memory = (real)machine_memory_size(), bytes = run_estimate_memory(s, p, source);
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(
         REFUSED,
         "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
-        particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, team_memory_limit());
+        particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
 }
 
 static void tables_free(struct material_tables *t)
@@ -270,7 +271,7 @@ static void tables_free(struct material_tables *t)
     memory_free(t->elastic), memory_free(t->modulus), memory_free(t->impedance);
     memory_free(t->mirror_axis), memory_free(t->mirror), crack_list_free(&t->cracks);
     voids_free(&t->voids), memory_free(t->void_mirror);
-    memory_free(t->neighbour_volume), surface_free(&t->surface);
+    memory_free(t->neighbour_volume), surface_weights_free(&t->surface);
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
@@ -280,7 +281,7 @@ static status named(const struct scene *s, status made)
 {
     char place[PLACE_LENGTH];
     snprintf(place, sizeof place, "%.500s: ", s->path);
-    return status_at(place, made);
+    return status_prepend_location(place, made);
 }
 
 /* Returns the optional arrays of particles that the scene needs (bits WITH_...). */
@@ -334,10 +335,10 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(named(s, frame_hollow_plan(&e->frame->hollow, s, &e->source)));
+    TRY(named(s, frame_hollow_choose_cells(&e->frame->hollow, s, &e->source)));
     if (!e->frame->hollow.absent) TRY(named(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
-    strength_found(e->tables.elastic, &e->part);
+    conversion_stress_lower(e->tables.elastic, &e->part);
     return named(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
@@ -345,16 +346,16 @@ static status make_particles(struct run *e)
 static status make_probes(struct run *e)
 {
     const struct scene *s = e->scene;
-    e->probing->strain_stress = largest_stress(&e->part);
+    e->probing->strain_stress = particles_largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
-    if (e->coupling->notches.lost) tips_before(&e->fracture->tips, e->coupling->notches.lost);
+    if (e->coupling->notches.lost) tips_exclude_precracks(&e->fracture->tips, e->coupling->notches.lost);
     TRY(named(s, sif_check(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
     if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
     diagnostics_make(e->diagnostics);
-    make_pulses(e->scene, e->probing);
+    pulses_list(e->scene, e->probing);
     struct observed o = run_observed(e);
     return named(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
@@ -367,7 +368,7 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(named(s, frames_choose(e->frame, e->grid, &e->part, s)));
     if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_at_rest(s))
-        loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
+        loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
     TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
@@ -387,21 +388,21 @@ static status make_forces(struct run *e, struct predecessor *before)
     make_contact(e->contact, s, &e->source, e->rigid);
     coupling_partial_make(e);
     TRY(named(s, coupling_frame_make(e, before != NULL)));
-    TRY(driving_check(&e->loads, &e->part, s, before == NULL));
+    TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
     bonded_points_update(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_make(e->stability, &e->part);
     return make_time(e, before);
 }
 
-status engine_make_again(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
-                         struct predecessor *before)
+status engine_remake(struct run *e, const struct scene *s, struct output *out, struct hollow hollow,
+                     struct predecessor *before)
 {
     memset(e, 0, sizeof *e);
     run_parts_make(e);
     e->save = engine_archive;
     e->scene = s;
     e->report->out = out;
-    e->report->began = team_clock();
+    e->report->began = wall_clock();
     e->frame->hollow = hollow;
     TRY(make_particles(e));
     TRY(named(s, reversion_check(e->scene)));
@@ -412,7 +413,8 @@ status engine_make_again(struct run *e, const struct scene *s, struct output *ou
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
-                              s->contact_convert && body_apart(s, 1) + s->rigids >= 0 && !coupling_unified(s->coupling);
+                              s->contact_convert && unjoined_body_index(s, 1) + s->rigids >= 0 &&
+                              !coupling_unified(s->coupling);
     e->grid->transfer = (struct transfer_data){&e->grid->field[0].order,
                                                &e->coupling->partial,
                                                e->tables.elastic,
@@ -431,7 +433,7 @@ status engine_make(struct run *e, const struct scene *s, struct output *out)
 {
     struct hollow hollow = {0};
     for (;;) {
-        TRY(engine_make_again(e, s, out, hollow, NULL));
+        TRY(engine_remake(e, s, out, hollow, NULL));
         if (!e->frame->lacks) return OK;
         hollow = e->frame->hollow;
         e->frame->hollow = (struct hollow){0};
@@ -441,7 +443,7 @@ status engine_make(struct run *e, const struct scene *s, struct output *out)
 
 void engine_free(struct run *e)
 {
-    memory_reuse(false);
+    memory_set_reuse(false);
     if (e->report && e->report->out)
         (void)output_wait(e->report->out); /* the writer of frames still reads the particles */
     run_parts_free(e);

@@ -46,9 +46,9 @@ static void nodes_take(struct run *e, struct run *old)
     r->levels.fine = &r->mesh;
     was->levels = (struct mesh_levels){0};
     r->coarse = was->coarse, was->coarse = NULL;
-    levels_follow_fine(&r->levels, &e->part, &r->source);
-    frame_levels_found(r, &e->part, &e->bonds, &e->loads);
-    frame_sync_motion(r, &e->part, &e->loads);
+    levels_reconnect_finest(&r->levels, &e->part, &r->source);
+    frame_levels_find_nodes(r, &e->part, &e->bonds, &e->loads);
+    frame_update_point_motion(r, &e->part, &e->loads);
     bonded_points_update(&e->coupling->partial, r, &e->part, e->scene->material);
 }
 
@@ -75,9 +75,9 @@ static status run_replace(struct run *e)
     status s = parts_archive(e, &parts.archive);
     *old = *e;
     old->frame->hollow = (struct hollow){0};
-    memory_reuse(false);
+    memory_set_reuse(false);
     leave_derived(old);
-    if (s == OK) s = engine_make_again(e, old->scene, NULL, hollow, &before);
+    if (s == OK) s = engine_remake(e, old->scene, NULL, hollow, &before);
     if (s == OK) {
         rest_take(e, old);
         memory_archive_rewind(&parts);
@@ -88,18 +88,18 @@ static status run_replace(struct run *e)
     memory_free(before.now);
     engine_free(old);
     memory_free(old);
-    memory_reuse(true);
+    memory_set_reuse(true);
     return s;
 }
 
-status engine_refill(struct run *e, const uint8_t *level)
+status engine_replace_particles(struct run *e, const uint8_t *level)
 {
     if (e->report->out) {
         TRY(output_wait(e->report->out));
         output_particles_changed(e->report->out);
     }
-    frame_hollow_change(e->frame, level);
+    frame_hollow_update_cells(e->frame, level);
     TRY(run_replace(e));
-    if (e->report->out) contact_record(e->contact, &e->part);
+    if (e->report->out) contact_allocate_forces(e->contact, &e->part);
     return OK;
 }

@@ -17,7 +17,7 @@ static status remake(struct run *e, uint8_t *absent)
     e->frame->hollow = (struct hollow){0};
     e->report = NULL, e->warnings = (struct warnings){0};
     engine_free(e);
-    const status made = engine_make_again(e, s, NULL, hollow, NULL);
+    const status made = engine_remake(e, s, NULL, hollow, NULL);
     memory_free(e->report->record), memory_free(e->report);
     e->report = report, e->warnings = warnings, e->timers = timers;
     return made;

@@ -14,19 +14,19 @@ static void rings_find(struct reference_frame *f, struct probes *p, const struct
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);
     f->rings = 0;
     for (int k = 0; k < p->n; k++)
-        f->rings += probes_sif_ring(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
+        f->rings += probes_sif_contour(p, k, seen, f->ring[f->rings].place, &f->ring[f->rings].radius);
 }
 
 /* Adapts the levels of cells to cracks and stress. If refined cells lack particles, the run is first replaced by one
  * that has these. */
 static status refine(struct run *e)
 {
-    if (!frame_levels_due(&e->frame->levels, e->clock.step)) return OK;
+    if (!frame_levels_may_change(&e->frame->levels, e->clock.step)) return OK;
     const struct observed seen = run_observed(e);
     rings_find(e->frame, &e->probing->probes, &seen);
-    uint8_t *level = frame_levels_plan(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
+    uint8_t *level = frame_levels_choose_next(e->frame, &e->part, &e->loads, e->clock.step, e->mass);
     if (!level) return OK;
-    const status s = frame_hollow_lacks(&e->frame->mesh, level) ? engine_refill(e, level) : OK;
+    const status s = frame_hollow_lacks_particles(&e->frame->mesh, level) ? engine_replace_particles(e, level) : OK;
     if (s == OK) frame_levels_apply(e, level);
     memory_free(level);
     return s;
@@ -40,9 +40,9 @@ status engine_step(struct run *e)
 
 status engine_run(struct run *e)
 {
-    memory_reuse(true);
-    if (scene_at_rest(e->scene)) return engine_solve(e);
-    if (scene_in_steps(e->scene)) return engine_steps(e);
+    memory_set_reuse(true);
+    if (scene_at_rest(e->scene)) return engine_solve_static(e);
+    if (scene_in_steps(e->scene)) return engine_run_load_steps(e);
     TRY(report_start(e));
     timers_start(&e->timers);
     while (e->clock.step < e->clock.steps) {

@@ -90,7 +90,7 @@ static status fragments_write(const struct particles *part, const struct run_rep
     if (!file) return status_set(FAILED, "cannot write fragments.csv: out of memory");
     fragments_print(file, part, f);
     const bool whole = fclose(file) == 0;
-    const status written = whole ? output_text(report->out, "fragments.csv", text, length)
+    const status written = whole ? output_write_text(report->out, "fragments.csv", text, length)
                                  : status_set(FAILED, "cannot write fragments.csv: out of memory");
     free(text);
     return written;
@@ -104,7 +104,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     real updates = 0, ns = 1e9 * r->loop_seconds;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
     json_count(j, "threads", threads);
-    json_text(j, "kernels", simd_in_use()->name);
+    json_text(j, "kernels", simd_current_kernels()->name);
     json_number(j, "wall_seconds", wall_seconds, JSON_TIMING);
     json_number(j, "loop_seconds", r->loop_seconds, JSON_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
@@ -153,7 +153,7 @@ status summary_write(const struct run *e, status s, int threads, double wall_sec
     summary_print(file, e, &fragments, s, message, threads, wall_seconds);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
-    status written = whole ? output_text(e->report->out, "summary.json", text, length)
+    status written = whole ? output_write_text(e->report->out, "summary.json", text, length)
                            : status_set(FAILED, "cannot write summary.json: out of memory");
     free(text);
     /* the cause of a failed run has precedence over a failure to write its summary */

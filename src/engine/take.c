@@ -27,19 +27,19 @@ static int32_t *numbers_now(const struct particles *p, const struct loads *loads
     return now;
 }
 
-void engine_take_particles(struct run *e, struct predecessor *before)
+void engine_transfer_particles(struct run *e, struct predecessor *before)
 {
     before->now = numbers_now(&e->part, &e->loads, &before->run->part, &before->run->loads);
-    particles_take(&e->part, &before->run->part, before->now, e->optional);
-    particles_list(&e->part);
-    bonds_images_follow(&e->part, &e->source);
+    particles_copy_fields(&e->part, &before->run->part, before->now, e->optional);
+    particles_update_lists(&e->part);
+    bonds_update_image_kinds(&e->part, &e->source);
 }
 
-void engine_take_bonds(struct run *e, const struct predecessor *before)
+void engine_transfer_bonds(struct run *e, const struct predecessor *before)
 {
     struct run *old = before->run;
-    bonds_take(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
-    state_weigh(&e->bonds, &e->part, &e->source);
+    bonds_transfer_damage(&e->bonds, &e->part, &old->bonds, &old->part, before->now);
+    state_update_weighted_volumes(&e->bonds, &e->part, &e->source);
     bonds_free(&old->bonds);
     particles_free(&old->part);
 }

@@ -86,7 +86,7 @@ static void warn_of_idle_keys(const struct scene *s, const struct reference_fram
                       : !scene_moves(s)         ? "a static solver has no use for coarse cells"
                       : frame->mesh.points == 0 ? "no material points are in the reference frame"
                                                 : NULL;
-    const char *all = frame_hollow_obstacle(s);
+    const char *all = frame_hollow_why_not(s);
     if (s->levels != LEVELS_AUTO && s->levels > 0 && why)
         warnings_add(to, "mpm.levels: %d has no effect, as %s; use auto or 0", s->levels, why);
     if (s->fill == FILL_NEEDED && (why || all || frame->levels.n == 0))
@@ -173,7 +173,7 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, str
                          s->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
 }
 
-void engine_warn(struct run *e)
+void engine_warn_of_input(struct run *e)
 {
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
@@ -188,7 +188,7 @@ void engine_warn(struct run *e)
     warn_of_lists(s, to);
     warn_of_probes(s, to);
     engine_warn_of_units(s, &e->part, &e->loads, &e->clock, e->tables.wave_speed, to);
-    engine_warn_of_lone(s, &e->cells, &e->bonds, &e->part, to);
+    engine_warn_of_isolated(s, &e->cells, &e->bonds, &e->part, to);
     engine_warn_of_speed(s, &e->loads, &e->part, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);

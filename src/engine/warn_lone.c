@@ -52,7 +52,7 @@ static void lone_points_count(const struct scene *s, const struct cells *cells, 
     struct near near = {0};
     for (int64_t i = 0; i < p->n && s->method != METHOD_PD; i++) {
         if (p->kind[i] == KIND_PD || !from_file(s, p->body[i])) continue;
-        near_find(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
+        particles_find_near(&near, cells, p, i, real_max(1.5, s->cell) * s->spacing, false);
         if (near.n == 0) lone_add(&lone[p->body[i]], i);
     }
     memory_free(near.at);
@@ -111,7 +111,7 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
     for (int64_t i = 0; i < p->n; i++) own += p->body[i] == b->joined;
     for (int64_t i = 0, k = 0; i < p->n && n < SAMPLED; i++) {
         if (p->body[i] != b->joined || k++ % (own / SAMPLED + 1) != 0) continue;
-        near_find(&near, cells, p, i, NEAR * spacing, false);
+        particles_find_near(&near, cells, p, i, NEAR * spacing, false);
         surroundings(p, &near, i, &apart[n], &beside[n]), count[n++] = near.n + 1;
     }
     memory_free(near.at);
@@ -128,8 +128,8 @@ static void warn_of_list_spacing(const struct scene_body *b, real spacing, const
             b->file, spacing, distance, distance);
 }
 
-void engine_warn_of_lone(const struct scene *s, const struct cells *cells, const struct bonds *b,
-                         const struct particles *p, struct warnings *to)
+void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
+                             const struct particles *p, struct warnings *to)
 {
     struct lone *lone = NEW("warn.lone", s->bodies, struct lone);
     for (int64_t i = 0; i < p->n; i++) lone[p->body[i]].all++;

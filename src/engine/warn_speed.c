@@ -48,7 +48,7 @@ static bool moves_freely(const struct driver *d, const struct scene *s, const st
             break;
         case BOUNDARY_VELOCITY:
             freely = l == own || both == 0 || !load_meets(s, p, l, d->body) ||
-                     loads_velocity_apart(own, l, p, s->duration) <= d->limit;
+                     loads_velocity_difference(own, l, p, s->duration) <= d->limit;
             break;
         default:
             break;
@@ -104,7 +104,7 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
     for (int b = 0; b < loads->n && s->solver == SOLVER_EXPLICIT && s->method != METHOD_MPM; b++) {
         const struct load *l = &loads->load[b];
         const struct driver driver = {l, body, limit};
-        const real speed = load_displacing_speed(l, p, s->duration);
+        const real speed = load_displacement_speed(l, p, s->duration);
         const real jump = load_velocity_jump(l, p, s->duration);
         if (!(speed > limit || jump > limit)) continue;
         bodies_mark(s, p, l, body);

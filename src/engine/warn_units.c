@@ -82,7 +82,7 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
     if (l->boundary->kind == BOUNDARY_PRESSURE) return fabs(value[0]);
     if (l->boundary->kind == BOUNDARY_TRACTION) return sqrt(dot(value, value, s->dim));
     for (int m = 0; m < s->materials; m++) density = real_max(density, s->material[m].density);
-    return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest(p);
+    return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest_edge(p);
 }
 
 /* Adds a load at one place and time to the figures. */
@@ -92,7 +92,7 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     const enum boundary_kind kind = l->boundary->kind;
     if (kind == BOUNDARY_TRACTION || kind == BOUNDARY_PRESSURE || kind == BOUNDARY_BODY_FORCE)
         f->stress = real_max(f->stress, load_stress_at(s, p, l, k, t));
-    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || load_displacement_known(l->boundary) != OK) return;
+    if (kind != BOUNDARY_VELOCITY || l->boundary->rotates || load_check_displacement_known(l->boundary) != OK) return;
     real u[DIM_MAX];
     load_displacement_at(l, p, k, l->boundary->frozen ? INFINITY : t, u); /* frozen: in the pseudo-time of a solver */
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);

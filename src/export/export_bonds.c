@@ -48,7 +48,7 @@ static bool weight_alike(const struct exported *x, int64_t i, const struct bond 
 static status bond_refuse(const struct exported *x, int64_t i, const char *what)
 {
     const struct particles *p = &x->e->part;
-    return status_set(REFUSED, "%s: a bond of the particle at (%.6g, %.6g, %.6g) m %s", shown_name(x->s->path).text,
+    return status_set(REFUSED, "%s: a bond of the particle at (%.6g, %.6g, %.6g) m %s", printable_name(x->s->path).text,
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
@@ -78,7 +78,7 @@ static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int 
     real X[DIM_MAX];
     int kept = 0;
     particle_place(&e->part, i, X);
-    const int n = cells_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, room);
+    const int n = cells_find_near(&e->cells, &e->part, X, e->source.family.cutoff, (int32_t)i, found, room);
     for (int k = 0; k < n; k++)
         if (distance2(&e->part, i, found[k]) <= square(x->cutoff)) found[kept++] = found[k];
     return kept;
@@ -174,9 +174,9 @@ static void touched_near(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-status lammps_touched(struct touched *t, struct exported *x)
+status lammps_find_cut_bonds(struct touched *t, struct exported *x)
 {
-    struct search a = {.room = bonds_room(&x->e->source) + 1};
+    struct search a = {.room = bonds_most_neighbours(&x->e->source) + 1};
     a.found = NEW("touched.found", a.room, int32_t);
     a.bonded = NEW("touched.bonded", x->e->part.n_all, int64_t);
     a.number = NEW("touched.number", x->e->part.n_all, int32_t);

@@ -6,7 +6,7 @@
 
 static status lammps_refuse(const struct scene *s, const char *what)
 {
-    return status_set(REFUSED, "%s: %s", shown_name(s->path).text, what);
+    return status_set(REFUSED, "%s: %s", printable_name(s->path).text, what);
 }
 
 static bool stretches_differ(const struct scene *s)
@@ -107,7 +107,7 @@ static void pd_settings(struct lammps_settings *to, const struct scene *s, bool 
                  "paths of a crack are nearly alike");
 }
 
-status lammps_carries(struct lammps_settings *to, const struct scene *s, bool bond_style)
+status lammps_check_features(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     to->n = 0;
     TRY(carries_method(s));

@@ -36,7 +36,7 @@ void lammps_cost_write(FILE *to, const struct exported *x)
 {
     const struct bond_time t = bond_time_of(x->s);
     const real there = x->bond_style ? t.there_bonds : t.there, work = 2e-9 * (real)x->bonds * (real)x->e->clock.steps;
-    const int cores = team_cores();
+    const int cores = machine_cores();
     fprintf(to, "%lld particles, %lld bonds, %lld steps of %.4g s: about %s on a core there, %s here\n",
             (long long)x->e->part.n, (long long)x->bonds, (long long)x->e->clock.steps, x->e->clock.dt,
             duration_of(work * there).text, duration_of(work * t.here).text);

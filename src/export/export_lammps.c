@@ -40,27 +40,27 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
         return status_set(REFUSED,
                           "%s: once bonds break, particles of peri/lps keep the weight of their whole neighbourhood, "
                           "and results differ; model: bond, or --allow-different, is expected",
-                          shown_name(s->path).text);
+                          printable_name(s->path).text);
     return status_set(REFUSED,
                       "%s: LAMMPS runs it to the same result with%s; give these, or --allow-different, which "
                       "lays them over the scene",
-                      shown_name(s->path).text, list);
+                      printable_name(s->path).text, list);
 }
 
 static status scene_to_export(struct scene *s, struct lammps_settings *settings, const struct export_request *r)
 {
     const struct lammps_settings none = {0};
     TRY(scene_read(s, r->scene, r->override, r->overrides));
-    TRY(lammps_carries(settings, s, r->bond_style));
+    TRY(lammps_check_features(settings, s, r->bond_style));
     scene_free(s);
     TRY(scene_make(s, r, &none));
-    TRY(lammps_carries(settings, s, r->bond_style));
+    TRY(lammps_check_features(settings, s, r->bond_style));
     if (settings->n == 0 && !lammps_families_differ(s)) return OK;
     if (!r->allow_different) return settings_refuse(settings, s);
     struct lammps_settings left;
     scene_free(s);
     TRY(scene_make(s, r, settings));
-    TRY(lammps_carries(&left, s, r->bond_style));
+    TRY(lammps_check_features(&left, s, r->bond_style));
     if (left.n > 0) return settings_refuse(&left, s);
     return OK;
 }
@@ -164,7 +164,7 @@ static const struct export_file files[] = {{"plate.data", put_data},
  * completely. */
 static status file_export(const struct export_file *f, struct exported *x, const struct lammps_types *t)
 {
-    const struct path path = path_join(x->request->folder, f->name), aside = file_begin(path.text);
+    const struct path path = path_join(x->request->folder, f->name), aside = file_begin_temporary(path.text);
     unlink(aside.text); /* a link of this name is not followed */
     FILE *to = fopen(aside.text, "wx");
     if (!to) return file_fault(path.text, errno);
@@ -172,7 +172,7 @@ static status file_export(const struct export_file *f, struct exported *x, const
     const bool whole = !ferror(to);
     const bool closed = fclose(to) == 0;
     if (s == OK && !(whole && closed)) s = file_fault(path.text, errno);
-    if (s == OK) s = file_seal(path.text, NULL, 0);
+    if (s == OK) s = file_append_and_sync(path.text, NULL, 0);
     if (s != OK) file_discard(path.text);
     return s;
 }
@@ -186,7 +186,7 @@ static bool is_script_of_export(const char *path, const char *scene_text)
     (void)scene_text;
     char *text;
     size_t length;
-    if (file_get(path, &text, &length) != OK) return false;
+    if (file_read_whole(path, &text, &length) != OK) return false;
     text[strcspn(text, "\n")] = '\0';
     const bool is = strstr(text, SIGN_OF_EXPORT) != NULL;
     memory_free(text);
@@ -199,10 +199,10 @@ static status export_guard(const struct export_request *r)
 {
     static const struct folder_kind kind = {.what = "export", .sign = "in.lammps", .is_sign = is_script_of_export};
     bool there;
-    TRY(folder_guard(&kind, r->folder, NULL, &there));
+    TRY(folder_check_writable(&kind, r->folder, NULL, &there));
     if (there && !r->overwrite)
         return status_set(REFUSED, "%s holds an export; choose another -o, or replace it with --overwrite", r->folder);
-    for (size_t k = 0; k < COUNT_OF(files); k++) TRY(file_guard(path_join(r->folder, files[k].name).text));
+    for (size_t k = 0; k < COUNT_OF(files); k++) TRY(file_check_replaceable(path_join(r->folder, files[k].name).text));
     return OK;
 }
 
@@ -236,7 +236,7 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
-    printf("%s: run it there with: lmp -in in.lammps\n", shown_name(x->request->folder).text);
+    printf("%s: run it there with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
     if (x->cut > 0)
         printf("%lld bonds cut, by %lld exclusions among %d types of particles\n", (long long)x->cut,
                (long long)t->pairs, t->n);

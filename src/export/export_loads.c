@@ -63,7 +63,7 @@ status lammps_loads_make(struct exported *x)
     const struct loads *l = &x->e->loads;
     for (int k = 0; k < l->n; k++) TRY(load_carries(&l->load[k]));
     if (l->n > LOADS_MOST)
-        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", shown_name(x->s->path).text, l->n,
+        return status_set(REFUSED, "%s: %d loads; LAMMPS has groups for %d", printable_name(x->s->path).text, l->n,
                           LOADS_MOST);
     x->loads = NEW("export.loads", x->e->part.n, uint32_t);
     for (int k = 0; k < l->n; k++)
@@ -80,9 +80,9 @@ void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX])
     for (int k = 0; k < l->n; k++) {
         const struct boundary *b = l->load[k].boundary;
         if (is_force(&l->load[k]) || !(x->loads[i] >> k & 1)) continue;
-        const struct driving by = driving_make(b, dim, 0.5 * x->e->clock.dt, x->e->clock.dt);
+        const struct prescribed_motion by = prescribed_motion_make(b, dim, 0.5 * x->e->clock.dt, x->e->clock.dt);
         for (int d = 0; d < dim; d++)
-            if (b->components >> d & 1) v[d] = driving_at(&by, NULL, d, false);
+            if (b->components >> d & 1) v[d] = prescribed_velocity_at(&by, NULL, d, false);
     }
 }
 
@@ -206,7 +206,7 @@ static void put_table(FILE *to, const struct time_function *f, const char *t)
     put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
 }
 
-/* Writes a function of time (time_function_at) of the LAMMPS variable t. */
+/* Writes a function of time (time_function_value) of the LAMMPS variable t. */
 static void put_function(FILE *to, const struct time_function *f, const char *t)
 {
     const real a = f->from, b = f->until;

@@ -29,7 +29,7 @@ struct lammps_settings {
 /* Lists in *to the keys of the scene that must be changed for LAMMPS to give the same results, with their required
  * values. bond_style: export for bond_style bpm/peri instead of a pair_style. Returns REFUSED if LAMMPS lacks a
  * feature of the scene. */
-status lammps_carries(struct lammps_settings *to, const struct scene *s, bool bond_style);
+status lammps_check_features(struct lammps_settings *to, const struct scene *s, bool bond_style);
 
 /* Returns true if bonds of the scene can break and LAMMPS then keeps normalising by the intact families of particles,
  * a difference that no key of the scene removes. */
@@ -90,7 +90,7 @@ struct exported {
 /* Compares the bonds that LAMMPS would create with those of the scene, stores the numbers of bonds in x->bonds and
  * x->cut, and lists in *t the particles of the bonds that must be cut in LAMMPS. Returns REFUSED if LAMMPS would lack
  * a bond of the scene or give it another weight. Release *t with touched_free. */
-status lammps_touched(struct touched *t, struct exported *x);
+status lammps_find_cut_bonds(struct touched *t, struct exported *x);
 
 /* Types of particles: one for each combination of material and loads, and more where bonds are cut. */
 struct lammps_types {

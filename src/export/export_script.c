@@ -167,7 +167,7 @@ static void frames_write(FILE *to, const struct exported *x)
     static const char columns[] = "plate.dump id x y z vx vy vz c_damage\n"
                                   "dump_modify frames sort id format float %.17g";
     const struct run *e = x->e;
-    const int64_t frames = report_frames(e->scene, &e->clock), steps = e->clock.steps;
+    const int64_t frames = report_count_frames(e->scene, &e->clock), steps = e->clock.steps;
     int64_t every = frames > 0 ? frame_distance(e, frames) : steps;
     if (every == 0 && frames > FRAMES_MOST) {
         every = steps / frames;

@@ -66,7 +66,7 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
             return status_set(REFUSED,
                               "%s: particles of more than %d masses, materials or sets of loads, which are types "
                               "there",
-                              shown_name(x->s->path).text, CLASSES_MOST);
+                              printable_name(x->s->path).text, CLASSES_MOST);
     return OK;
 }
 
@@ -95,7 +95,7 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
 {
     struct touched touched;
     *t = (struct lammps_types){0};
-    status s = lammps_touched(&touched, x);
+    status s = lammps_find_cut_bonds(&touched, x);
     int32_t *colour = NEW("types.colour", touched.n, int32_t);
     uint8_t *pair = NULL;
     const int colours = s == OK && touched.n > 0 ? colours_make(colour, &touched) : 0;
@@ -103,7 +103,7 @@ status lammps_types_make(struct lammps_types *t, struct exported *x)
         s = status_set(REFUSED,
                        "%s: the cracks touch %lld particles, which would need more than %d types of LAMMPS, "
                        "whose tables grow with their square; straight cracks on a lattice need fewer",
-                       shown_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
+                       printable_name(x->s->path).text, (long long)touched.n, COLOURS_MOST);
     if (s == OK && colours > 0 && !(pair = colours_pairs(colour, colours, &touched)))
         s = status_set(FAILED, "export: types of particles do not say which bonds are cut");
     if (s == OK) s = types_give(t, x, &touched, colour, colours, pair);

@@ -71,7 +71,7 @@ static bool grows(const struct growth *g, real t)
 /* Turns the heading to the direction of the largest hoop stress. */
 static void growth_turn(struct growth *g, const struct control *control)
 {
-    const real angle = crack_direction(control->factors.K), c = cos(angle), s = sin(angle);
+    const real angle = crack_kink_angle(control->factors.K), c = cos(angle), s = sin(angle);
     const real x = control->along[0], y = control->along[1];
     g->heading[0] = c * x - s * y, g->heading[1] = s * x + c * y;
 }
@@ -128,9 +128,9 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
 {
     real X[DIM_MAX] = {from[0], from[1]};
     const real radius = s->family.cutoff + hypot(to[0] - from[0], to[1] - from[1]);
-    const int room = cells_near(s->cells, p, X, radius, -1, NULL, 0);
+    const int room = cells_find_near(s->cells, p, X, radius, -1, NULL, 0);
     *found = NEW("growth.found", room, int32_t);
-    return cells_near(s->cells, p, X, radius, -1, *found, room);
+    return cells_find_near(s->cells, p, X, radius, -1, *found, room);
 }
 
 /* Marks material points near the tip for conversion, since cracks need bonds. Returns their number. */
@@ -187,7 +187,7 @@ static void step_back(struct growth *g, struct bonds *b)
         const int64_t q = growth_entry_of(b, bond->i, bond->j, &row);
         if (q < 0 || (b->w[q] == 0 && bond->now > 0)) continue;
         b->w[q] = bond->before;
-        bonds_changed(b, row, q);
+        bonds_update_common_of_bond(b, row, q);
         g->fading[kept++] = *bond;
     }
     g->n = kept;
@@ -220,11 +220,11 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-int64_t growth_step(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
-                    const struct control *control, real t, real dt)
+int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
+                            const struct control *control, real t, real dt)
 {
     const real from[2] = {g->place[0], g->place[1]};
-    g->intensity = control ? crack_equivalent(control->factors.K) : NAN;
+    g->intensity = control ? crack_equivalent_sif(control->factors.K) : NAN;
     target_speed_update(g, control, source->family.horizon, t, dt);
     g->speed = 0;
     /* a crack that starts among material points waits one step for the bonds that it will cross */

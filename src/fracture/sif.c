@@ -55,8 +55,8 @@ static real disc_density(const struct crack_state *a, const struct crack_state *
     return density * sum;
 }
 
-real sif_density(const struct sif_tip *tip, const struct contour *c, const real x[2], const struct crack_state *actual,
-                 const struct crack_state *auxiliary, real inside)
+real sif_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
+                   const struct crack_state *actual, const struct crack_state *auxiliary, real inside)
 {
     const real r = hypot(x[0], x[1]), n[2] = {x[0] / r, x[1] / r};
     real q, slope, sum = 0;
@@ -126,7 +126,7 @@ static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion 
                              struct crack_state *state)
 {
     if (tip->stress == SIF_HOOKE) {
-        crack_hooke(&tip->medium, state->gradient, state->stress);
+        crack_hooke_stress(&tip->medium, state->gradient, state->stress);
         return;
     }
     real global[2][2] = {{m->stress[0][i], m->stress[2][i]}, {m->stress[2][i], m->stress[1][i]}};
@@ -145,7 +145,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     point->area = p->volume0[i] / tip->thickness;
     local_place(tip, p, i, point->x);
     if (fabs(point->x[1]) <= AT_THE_TIP * fabs(point->x[0])) point->x[1] = copysign(0, tip->face);
-    gradient_of(stencil, i, m->displacement, global);
+    gradient_evaluate(stencil, i, m->displacement, global);
     local_tensor(tip, global, point->state.gradient);
     sif_point_stress(tip, m, i, &point->state);
     if (m->body[0]) {
@@ -154,7 +154,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
         for (int d = 0; d < 2; d++) point->state.acceleration[d] = -given[d];
     }
     if (!m->velocity[0]) return;
-    gradient_of(stencil, i, m->velocity, global);
+    gradient_evaluate(stencil, i, m->velocity, global);
     local_tensor(tip, global, local);
     for (int d = 0; d < 2; d++) point->state.velocity_along[d] = local[d][0];
     local_vector(tip, (real[2]){m->velocity[0][i], m->velocity[1][i]}, point->state.velocity);
@@ -171,7 +171,7 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
         struct gradient_stencil stencil = {0};
 #pragma omp for schedule(static)
         for (int64_t k = 0; k < s->n; k++) {
-            gradient_stencil_at(&stencil, rule, p, c, s->particle[k]);
+            gradient_stencil_compute(&stencil, rule, p, c, s->particle[k]);
             point_make(s, k, m, &stencil, p);
         }
         gradient_stencil_free(&stencil);
@@ -203,9 +203,9 @@ static void points_block(const void *context, int64_t first, int64_t end, real *
         struct crack_field field;
         for (int mode = 0; mode < MODES; mode++) {
             crack_field(&tip->medium, mode, tip->speed, point->x, &field);
-            sum[mode] += point->area * sif_density(tip, s->contour, point->x, &point->state, &field.state, inside);
+            sum[mode] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &field.state, inside);
         }
-        sum[MODES] += point->area * sif_density(tip, s->contour, point->x, &point->state, &point->state, inside);
+        sum[MODES] += point->area * sif_integrand(tip, s->contour, point->x, &point->state, &point->state, inside);
     }
 }
 
@@ -219,9 +219,10 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
     for (int k = 0; k < n; k++) {
         real sum[MODES + 1];
         s.contour = &contour[k];
-        team_sums(s.n, MODES + 1, points_block, &s, sum);
+        reproducible_sums(s.n, MODES + 1, points_block, &s, sum);
         for (int mode = 0; mode < MODES; mode++)
-            found[k].K[mode] = tip->medium.modulus * sum[mode] / (2 * crack_universal(&tip->medium, mode, tip->speed));
+            found[k].K[mode] =
+                tip->medium.modulus * sum[mode] / (2 * crack_universal_function(&tip->medium, mode, tip->speed));
         found[k].J = 0.5 * sum[MODES];
     }
     memory_free(s.particle);
@@ -230,7 +231,7 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
-real sif_spread(const struct sif *found, int n)
+real sif_contour_spread(const struct sif *found, int n)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];
     for (int m = 0; m <= MODES; m++) {

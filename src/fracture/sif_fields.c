@@ -26,7 +26,7 @@ struct crack_medium crack_medium_of(const struct material *m, enum space space)
                                  .rayleigh = m->rayleigh_speed};
 }
 
-void crack_hooke(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
+void crack_hooke_stress(const struct crack_medium *m, real gradient[2][2], real stress[2][2])
 {
     const real dilatation = gradient[0][0] + gradient[1][1];
     for (int i = 0; i < 2; i++)
@@ -61,7 +61,7 @@ void crack_field_at_rest(const struct crack_medium *m, enum crack_mode mode, con
         f->state.gradient[i][0] = size / r * (0.5 * g[i] * c - slope[i] * s);
         f->state.gradient[i][1] = size / r * (0.5 * g[i] * s + slope[i] * c);
     }
-    crack_hooke(m, f->state.gradient, f->state.stress);
+    crack_hooke_stress(m, f->state.gradient, f->state.stress);
 }
 
 /* ---- a moving crack ---------------------------------------------------------------------------------------------- */
@@ -110,7 +110,7 @@ void crack_field_moving(const struct crack_medium *m, enum crack_mode mode, real
             twice_along[i] += creal(unit * bend);
         }
     }
-    crack_hooke(m, f->state.gradient, f->state.stress);
+    crack_hooke_stress(m, f->state.gradient, f->state.stress);
     for (int i = 0; i < 2; i++) { /* steady in the moving frame: d/dt = -v d/dx1 */
         f->state.velocity[i] = -v * f->state.gradient[i][0];
         f->state.velocity_along[i] = -v * twice_along[i];
@@ -126,7 +126,7 @@ void crack_field(const struct crack_medium *m, enum crack_mode mode, real v, con
         crack_field_moving(m, mode, v, x, f);
 }
 
-real crack_universal(const struct crack_medium *m, enum crack_mode mode, real v)
+real crack_universal_function(const struct crack_medium *m, enum crack_mode mode, real v)
 {
     real a[2];
     if (v < REST * m->shear_speed) return 1;
@@ -178,7 +178,7 @@ real crack_speed_of_factor(const struct crack_medium *m, real factor, real most)
     return 0.5 * (low + high);
 }
 
-real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)
+real crack_sif_after_wave(const struct crack_medium *m, real stress, real age)
 {
     const real nu = m->poisson;
     return age > 0 ? 2 * stress * sqrt(m->longitudinal * age * (1 - 2 * nu) / pi) / (1 - nu) : 0;
@@ -186,13 +186,13 @@ real crack_suddenly_loaded(const struct crack_medium *m, real stress, real age)
 
 /* ---- direction of growth ----------------------------------------------------------------------------------------- */
 
-real crack_direction(const real K[MODES])
+real crack_kink_angle(const real K[MODES])
 {
     return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));
 }
 
-real crack_equivalent(const real K[MODES])
+real crack_equivalent_sif(const real K[MODES])
 {
-    const real theta = crack_direction(K), c = cos(0.5 * theta);
+    const real theta = crack_kink_angle(K), c = cos(0.5 * theta);
     return c * c * c * K[MODE_I] - 1.5 * c * sin(theta) * K[MODE_II];
 }

@@ -22,7 +22,7 @@ static bool bond_broken(const struct bonds *b, int64_t i, int32_t j)
 /* Returns true if a crack or a broken bond is between particles i and j. */
 static bool hidden(const struct sight *s, const struct particles *p, int64_t i, int32_t j)
 {
-    return cracks_part(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
+    return cracks_separate_particles(s->crack, s->cracks, p, i, j) || bond_broken(s->bonds, i, j);
 }
 
 static real sif_gradient_between(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
@@ -163,16 +163,16 @@ static void stencil_room(struct gradient_stencil *s, int room)
     s->weight = memory_new("sif.weight", s->room, sizeof *s->weight);
 }
 
-void gradient_stencil_at(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
-                         const struct cells *c, int64_t i)
+void gradient_stencil_compute(struct gradient_stencil *s, const struct gradient_rule *rule, const struct particles *p,
+                              const struct cells *c, int64_t i)
 {
     const real support = 2 * rule->reach * (1 + 1e-9);
     real X[DIM_MAX];
     particle_place(p, i, X);
-    s->n = cells_near(c, p, X, support, -1, s->particle, s->room);
+    s->n = cells_find_near(c, p, X, support, -1, s->particle, s->room);
     if (s->n > s->room) {
         stencil_room(s, s->n);
-        s->n = cells_near(c, p, X, support, -1, s->particle, s->room);
+        s->n = cells_find_near(c, p, X, support, -1, s->particle, s->room);
     }
     if (rule->method == GRADIENT_MLS)
         stencil_mls(s, rule, p, i);
@@ -188,7 +188,7 @@ void gradient_stencil_free(struct gradient_stencil *s)
     *s = (struct gradient_stencil){0};
 }
 
-void gradient_of(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2])
+void gradient_evaluate(const struct gradient_stencil *s, int64_t i, const real *const field[2], real gradient[2][2])
 {
     for (int a = 0; a < 2; a++) {
         gradient[a][0] = gradient[a][1] = 0;

@@ -91,7 +91,7 @@ static bool seen(const struct tip_view *v, const real *X)
     return true;
 }
 
-bool tip_fit(const struct tip_view *v, const struct particles *p, real K[MODES])
+bool tip_fit_factors(const struct tip_view *v, const struct particles *p, real K[MODES])
 {
     struct fit f = {.particles = 0};
     K[MODE_I] = K[MODE_II] = 0;

@@ -316,7 +316,7 @@ static void record_grow(struct tips *t, int64_t samples)
     GROW("tips.growth", t->growth, samples * TIPS_MAX);
 }
 
-void tips_sample(struct tips *t, const struct particles *p, const struct cells *c, real time)
+void tips_update(struct tips *t, const struct particles *p, const struct cells *c, real time)
 {
     INVARIANT(t->count == p->n && t->dim == p->dim);
     INVARIANT(t->samples == 0 || time >= t->time[t->samples - 1]);
@@ -326,7 +326,7 @@ void tips_sample(struct tips *t, const struct particles *p, const struct cells *
     flood_free(&f);
 
     struct tip_reach reach[TIPS_MAX] = {{0}};
-    tip_reaches(t, p, reach);
+    tips_find_extents(t, p, reach);
     record_grow(t, t->samples + 1);
     int64_t s = t->samples++;
     t->time[s] = time;
@@ -362,7 +362,7 @@ const struct tip *tips_longest(const struct tips *t)
     return longest;
 }
 
-int64_t tips_tied(const struct tips *t)
+int64_t tips_count_tied(const struct tips *t)
 {
     const struct tip *longest = tips_longest(t);
     int64_t tied = 0;
@@ -386,5 +386,5 @@ status tips_archive(struct tips *t, struct archive *a)
         TRY(a->exchange(a, "tips/time", t->time, (size_t)samples * sizeof *t->time));
         TRY(a->exchange(a, "tips/growth", t->growth, (size_t)samples * TIPS_MAX * sizeof *t->growth));
     }
-    return archive_by_particle(a, "tips/label", t->label, t->count, sizeof *t->label);
+    return archive_particle_array(a, "tips/label", t->label, t->count, sizeof *t->label);
 }

@@ -33,7 +33,7 @@ struct tip_reach {
 
 /* Computes the extent of every crack from its start: farthest distance, position of its end, number of particles and
  * of equally far groups. reach: receives an element for each of TIPS_MAX tips; must be 0 on entry. */
-void tip_reaches(const struct tips *t, const struct particles *p, struct tip_reach *reach);
+void tips_find_extents(const struct tips *t, const struct particles *p, struct tip_reach *reach);
 
 struct tip_search {
     const struct particles *p;

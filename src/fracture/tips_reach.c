@@ -76,7 +76,7 @@ static void farthest_collect(struct ahead *a, int32_t i, int tip)
     a->n[tip]++;
 }
 
-void tip_reaches(const struct tips *t, const struct particles *p, struct tip_reach *reach)
+void tips_find_extents(const struct tips *t, const struct particles *p, struct tip_reach *reach)
 {
     struct ahead a = {.t = t, .p = p, .reach = reach};
     each_of_crack(&a, extent_find);
@@ -87,7 +87,7 @@ void tip_reaches(const struct tips *t, const struct particles *p, struct tip_rea
     for (int k = 0; k < t->n; k++) {
         const real touch = (TIP_TOUCH + TIP_EQUAL) * t->spacing;
         if (a.n[k] > 0)
-            reach[k].ends = places_middle(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge, reach[k].place);
+            reach[k].ends = positions_group_middle(a.place[k], a.n[k], t->dim, touch, t->tip[k].edge, reach[k].place);
         memory_free(a.place[k]);
     }
 }

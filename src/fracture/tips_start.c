@@ -12,12 +12,12 @@
 int tip_search_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);
-    int n = cells_near(s->c, s->p, X, radius, -1, s->found, s->room);
+    int n = cells_find_near(s->c, s->p, X, radius, -1, s->found, s->room);
     if (n <= s->room) return n;
     memory_free(s->found);
     s->room = 2 * n;
     s->found = NEW("tips.found", s->room, int32_t);
-    return cells_near(s->c, s->p, X, radius, -1, s->found, s->room);
+    return cells_find_near(s->c, s->p, X, radius, -1, s->found, s->room);
 }
 
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
@@ -153,7 +153,7 @@ void tips_make(struct tips *t, const struct particles *p, const struct cells *c,
     memory_free(s.found);
 }
 
-void tips_before(struct tips *t, const real *lost)
+void tips_exclude_precracks(struct tips *t, const real *lost)
 {
     for (int64_t i = 0; i < t->count; i++)
         if (lost[i] > TIP_DAMAGE) t->label[i] = TIP_BEFORE;

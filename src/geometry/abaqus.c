@@ -162,7 +162,7 @@ static const char *parameter(const struct deck *d, const char *name)
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
-    *set = given ? mesh_set(d->m, given, of_nodes) : -1;
+    *set = given ? element_mesh_find_set(d->m, given, of_nodes) : -1;
     return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
@@ -255,7 +255,7 @@ static status elements_read(struct deck *d)
     TRY(set_named(d, "ELSET", false, &set));
     if (!size) {
         snprintf(d->m->skipped, sizeof d->m->skipped, "%.40s", type);
-        text_harmless(d->m->skipped);
+        text_replace_controls(d->m->skipped);
         return OK;
     }
     for (; data_line(d->s); source_next_line(d->s)) {
@@ -289,7 +289,7 @@ static status generate_line(struct deck *d, int set)
 /* Adds the current members of another set. REFUSED: too many sets or members. */
 static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
 {
-    const int other = mesh_set(d->m, name, of_nodes);
+    const int other = element_mesh_find_set(d->m, name, of_nodes);
     if (other < 0) return source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX);
     d->generated += d->m->set[other].n;
     if (d->generated > GENERATED_MOST * d->s->length)
@@ -375,7 +375,8 @@ static status scope_end(struct deck *d)
     scope->node_end = m->nodes, scope->element_end = m->elements;
     label_map_make(&scope->node_of, m->node_label + scope->node, scope->node, m->nodes - scope->node);
     label_map_make(&scope->element_of, m->element_label + scope->element, scope->element, m->elements - scope->element);
-    if (label_twice(&scope->node_of, &twice)) return source_fault(d->s, "node %lld is given twice", (long long)twice);
+    if (label_find_duplicate(&scope->node_of, &twice))
+        return source_fault(d->s, "node %lld is given twice", (long long)twice);
     for (int64_t k = scope->element; k < m->elements; k++) {
         struct element *e = &m->element[k];
         for (int c = 0; c < element_corners[e->kind]; c++) TRY(node_resolve(d, scope, k, &e->node[c]));
@@ -481,10 +482,10 @@ status abaqus_read(struct element_mesh *m, struct source *s)
     struct deck d = {.s = s, .m = m};
     status result = OK;
     scope_begin(&d, "");
-    while (result == OK && source_more(s)) {
+    while (result == OK && source_skip_blanks(s)) {
         while (data_line(s)) source_next_line(s); /* data lines of a skipped keyword */
         if (s->at >= s->length) break;
-        source_more(s);
+        source_skip_blanks(s);
         keyword_read(&d);
         result = keyword_follow(&d);
     }

@@ -68,7 +68,7 @@ void mesh_middles_add(struct element_mesh *m, const int32_t *middle)
     for (int k = 0; k < n; k++) m->middle[m->middles++] = middle[k];
 }
 
-int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
+int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_nodes)
 {
     for (int k = 0; k < m->sets; k++)
         if (strcasecmp(m->set[k].name, name) == 0 && m->set[k].of_nodes == of_nodes) return k;
@@ -76,7 +76,7 @@ int mesh_set(struct element_mesh *m, const char *name, bool of_nodes)
     GROW("mesh.set", m->set, m->sets + 1);
     struct element_set *set = &m->set[m->sets];
     snprintf(set->name, sizeof set->name, "%s", name);
-    text_harmless(set->name);
+    text_replace_controls(set->name);
     set->of_nodes = of_nodes;
     return m->sets++;
 }
@@ -131,7 +131,7 @@ int64_t label_find(const struct label_map *map, int64_t label)
     return low < map->n && map->entry[low].label == label ? map->entry[low].index : -1;
 }
 
-bool label_twice(const struct label_map *map, int64_t *label)
+bool label_find_duplicate(const struct label_map *map, int64_t *label)
 {
     for (int64_t k = 1; k < map->n; k++)
         if (map->entry[k].label == map->entry[k - 1].label) {

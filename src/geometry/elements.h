@@ -95,7 +95,7 @@ void mesh_middles_add(struct element_mesh *m, const int32_t *middle);
 
 /* Returns the index in m->set of the set of nodes (of_nodes true) or elements (false) called `name`, ignoring case;
  * creates an empty set if there is none. Returns -1 if there would be more than ELEMENT_SETS_MAX sets. */
-int mesh_set(struct element_mesh *m, const char *name, bool of_nodes);
+int element_mesh_find_set(struct element_mesh *m, const char *name, bool of_nodes);
 
 /* Appends a node or element to set number `set` of m. member: index, or number of the file if indices are not known
  * yet. */
@@ -127,7 +127,7 @@ void label_map_free(struct label_map *map);
 int64_t label_find(const struct label_map *map, int64_t label);
 
 /* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
-bool label_twice(const struct label_map *map, int64_t *label);
+bool label_find_duplicate(const struct label_map *map, int64_t *label);
 
 /* Reads the Gmsh file s into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
  * malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
@@ -168,7 +168,7 @@ struct builder {
     int pieces;   /* pieces per curved edge in 3D */
     int64_t n;    /* number of faces; each face has `dim` node indices */
     int32_t (*face)[DIM_MAX];
-    int64_t patches; /* sides with middle nodes, until builder_curve turns them into faces */
+    int64_t patches; /* sides with middle nodes, until builder_divide_curved turns them into faces */
     struct patch *patch;
     int64_t file_nodes;   /* nodes from the file; later ones are on curved sides between the corners `parent` */
     int32_t (*parent)[4]; /* [node - file_nodes] corner nodes of the side, -1: unused */
@@ -182,17 +182,17 @@ void builder_add(struct builder *b, int32_t i, int32_t j, int32_t k);
  * as one or two triangles. */
 void builder_add_side(struct builder *b, const int32_t *node, int n);
 
-/* Appends a copy of *p, a side of an element with middle nodes, to surface b. builder_curve divides it into faces
- * later. */
+/* Appends a copy of *p, a side of an element with middle nodes, to surface b. builder_divide_curved divides it into
+ * faces later. */
 void builder_add_patch(struct builder *b, const struct patch *p);
 
 /* Computes for surface b the sagitta below which edges count as straight, and in how many pieces each curved edge is
  * divided, such that chords are at most `fine` [m] from the curve (NAN: 1/256 of the largest sagitta). path: file, for
  * the message. Returns REFUSED, with a message, if too many pieces were needed. */
-status builder_fineness(struct builder *b, const char *path, real fine);
+status builder_set_fineness(struct builder *b, const char *path, real fine);
 
 /* Divides all sides with middle nodes stored in b into faces, curved ones into several, which adds nodes to the mesh.
  * closed: true first removes sides shared by two elements, as inside a body. */
-void builder_curve(struct builder *b, bool closed);
+void builder_divide_curved(struct builder *b, bool closed);
 
 #endif

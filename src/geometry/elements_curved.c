@@ -36,7 +36,7 @@ static int pieces_for(real sagitta, real wanted, int most)
     return pieces > most ? most : pieces > 1 ? (int)pieces : 1;
 }
 
-status builder_fineness(struct builder *b, const char *path, real fine)
+status builder_set_fineness(struct builder *b, const char *path, real fine)
 {
     const struct element_mesh *m = b->m;
     const int most = b->dim == 3 ? PIECES_MOST_SPACE : PIECES_MOST_PLANE;
@@ -370,7 +370,7 @@ static void patch_add(struct builder *b, const struct curves *c, const struct pa
         patch_star(b, c, p);
 }
 
-void builder_curve(struct builder *b, bool closed)
+void builder_divide_curved(struct builder *b, bool closed)
 {
     struct curves c = {0};
     if (b->patches == 0) return;

@@ -34,7 +34,7 @@ static status check_closed(const struct hull *s, const char *path)
         if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
             return status_set(REFUSED, "%s: coordinates up to %.3g m; see whether the unit is right", path,
                               real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
-    const real doubt = s->open_edges > 0 ? hull_doubt(s) : 0;
+    const real doubt = s->open_edges > 0 ? hull_ambiguous_share(s) : 0;
     if (doubt > DOUBT_MOST)
         return status_set(
             REFUSED,
@@ -69,7 +69,7 @@ status geometry_read(struct geometry *g, const char *path, int dim, real scale, 
     return s;
 }
 
-const struct geometry_set *geometry_find(const struct geometry *g, const char *name)
+const struct geometry_set *geometry_find_set(const struct geometry *g, const char *name)
 {
     for (int k = 0; k < g->sets; k++)
         if (strcasecmp(g->set[k].name, name) == 0) return &g->set[k];

@@ -81,7 +81,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
         snprintf(name, sizeof name, "%lld", (long long)tag);
         for (int64_t k = 0; k < g->names; k++)
             if (g->name[k].dim == dim && g->name[k].tag == tag) memcpy(name, g->name[k].text, sizeof name);
-        g->last_dim = dim, g->last_tag = tag, g->last_set = mesh_set(g->m, name, false);
+        g->last_dim = dim, g->last_tag = tag, g->last_set = element_mesh_find_set(g->m, name, false);
     }
     if (g->last_set < 0) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     mesh_set_add(g->m, g->last_set, element);
@@ -92,7 +92,7 @@ static status group_add(struct gmsh *g, int64_t dim, int64_t tag, int64_t elemen
 static status node_next(struct gmsh *g, int32_t *index)
 {
     int64_t label;
-    TRY((g->old ? source_int : source_size)(g->s, "node of an element", &label));
+    TRY((g->old ? source_read_int32 : source_read_int64)(g->s, "node of an element", &label));
     const int64_t found = label_find(&g->node, label);
     if (found < 0)
         return source_fault(g->s, "an element has node %lld, which is not among the nodes", (long long)label);
@@ -141,7 +141,7 @@ static status nodes_known(struct gmsh *g)
 {
     int64_t twice;
     label_map_make(&g->node, g->m->node_label, 0, g->m->nodes);
-    if (!label_twice(&g->node, &twice)) return OK;
+    if (!label_find_duplicate(&g->node, &twice)) return OK;
     return source_fault(g->s, "node %lld is given twice", (long long)twice);
 }
 
@@ -151,7 +151,7 @@ static status nodes_known(struct gmsh *g)
 static status quoted_next(struct source *s, char *text, size_t room)
 {
     size_t n = 0;
-    if (!source_more(s) || s->text[s->at] != '"') return source_fault(s, "a name in quotes is expected");
+    if (!source_skip_blanks(s) || s->text[s->at] != '"') return source_fault(s, "a name in quotes is expected");
     for (s->at++; s->at < s->length && s->text[s->at] != '"' && s->text[s->at] != '\n'; s->at++)
         if (n + 1 < room) text[n++] = s->text[s->at];
     text[n] = '\0';
@@ -164,14 +164,14 @@ static status quoted_next(struct source *s, char *text, size_t room)
 static status names_read(struct gmsh *g)
 {
     int64_t n;
-    TRY(source_whole(g->s, "number of names", &n));
-    TRY(source_counted(g->s, "names", n, 4));
+    TRY(source_read_integer(g->s, "number of names", &n));
+    TRY(source_check_count(g->s, "names", n, 4));
     if (n > ELEMENT_SETS_MAX) return source_fault(g->s, "more than %d physical groups", ELEMENT_SETS_MAX);
     GROW("gmsh.names", g->name, n);
     for (g->names = 0; g->names < n; g->names++) {
         struct group_name *name = &g->name[g->names];
-        TRY(source_whole(g->s, "dimension of a group", &name->dim));
-        TRY(source_whole(g->s, "tag of a group", &name->tag));
+        TRY(source_read_integer(g->s, "dimension of a group", &name->dim));
+        TRY(source_read_integer(g->s, "tag of a group", &name->tag));
         TRY(quoted_next(g->s, name->text, sizeof name->text));
     }
     return OK;
@@ -190,18 +190,18 @@ static status entity_read(struct gmsh *g, int64_t dim)
 {
     int64_t tag, groups, group, bounds;
     real box;
-    TRY(source_int(g->s, "tag of an entity", &tag));
-    for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(source_real(g->s, "coordinate", &box));
-    TRY(source_size(g->s, "number of groups", &groups));
-    TRY(source_counted(g->s, "groups", groups, 2));
+    TRY(source_read_int32(g->s, "tag of an entity", &tag));
+    for (int k = 0; k < (dim == 0 ? 3 : 6); k++) TRY(source_read_real(g->s, "coordinate", &box));
+    TRY(source_read_int64(g->s, "number of groups", &groups));
+    TRY(source_check_count(g->s, "groups", groups, 2));
     for (int64_t k = 0; k < groups; k++) {
-        TRY(source_int(g->s, "tag of a group", &group));
+        TRY(source_read_int32(g->s, "tag of a group", &group));
         entity_group_add(g, entity_key(dim, tag), group < 0 ? -group : group);
     }
     if (dim == 0) return OK;
-    TRY(source_size(g->s, "number of bounding entities", &bounds));
-    TRY(source_counted(g->s, "bounding entities", bounds, 2));
-    for (int64_t k = 0; k < bounds; k++) TRY(source_int(g->s, "tag of an entity", &tag));
+    TRY(source_read_int64(g->s, "number of bounding entities", &bounds));
+    TRY(source_check_count(g->s, "bounding entities", bounds, 2));
+    for (int64_t k = 0; k < bounds; k++) TRY(source_read_int32(g->s, "tag of an entity", &tag));
     return OK;
 }
 
@@ -209,9 +209,9 @@ static status entity_read(struct gmsh *g, int64_t dim)
 static status entities_read(struct gmsh *g)
 {
     int64_t n[1 + DIM_MAX];
-    for (int d = 0; d <= DIM_MAX; d++) TRY(source_size(g->s, "number of entities", &n[d]));
+    for (int d = 0; d <= DIM_MAX; d++) TRY(source_read_int64(g->s, "number of entities", &n[d]));
     for (int d = 0; d <= DIM_MAX; d++) {
-        TRY(source_counted(g->s, "entities", n[d], 8));
+        TRY(source_check_count(g->s, "entities", n[d], 8));
         for (int64_t k = 0; k < n[d]; k++) TRY(entity_read(g, d));
     }
     label_map_free(&g->of_entity);
@@ -225,10 +225,10 @@ static status entities_read(struct gmsh *g)
 static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t *n)
 {
     g->s->binary = false;
-    TRY(source_whole(g->s, what, n));
+    TRY(source_read_integer(g->s, what, n));
     source_next_line(g->s);
     g->s->binary = g->bytes;
-    return source_counted(g->s, what, *n, bytes);
+    return source_check_count(g->s, what, *n, bytes);
 }
 
 /* Reads all nodes. */
@@ -238,8 +238,8 @@ static status old_nodes(struct gmsh *g)
     TRY(old_count(g, "nodes", 8, &n));
     for (int64_t k = 0; k < n; k++) {
         real X[DIM_MAX];
-        TRY(source_int(g->s, "number of a node", &label));
-        for (int d = 0; d < DIM_MAX; d++) TRY(source_real(g->s, "coordinate", &X[d]));
+        TRY(source_read_int32(g->s, "number of a node", &label));
+        for (int d = 0; d < DIM_MAX; d++) TRY(source_read_real(g->s, "coordinate", &X[d]));
         TRY(mesh_node_add(g->m, g->s, X, label));
     }
     return nodes_known(g);
@@ -249,8 +249,8 @@ static status old_nodes(struct gmsh *g)
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
-    TRY(source_counted(g->s, "tags", tags, 2));
-    for (int64_t k = 0; k < tags; k++) TRY(source_int(g->s, "tag", k == 0 ? &group : &tag));
+    TRY(source_check_count(g->s, "tags", tags, 2));
+    for (int64_t k = 0; k < tags; k++) TRY(source_read_int32(g->s, "tag", k == 0 ? &group : &tag));
     TRY(element_next(g, type, label));
     return group == 0 ? OK : group_add(g, element_dim[type->kind], group, g->m->elements - 1);
 }
@@ -263,15 +263,15 @@ static status old_elements(struct gmsh *g)
     const struct gmsh_type *type = NULL;
     TRY(old_count(g, "elements", 8, &n));
     for (int64_t k = 0; k < n; k += block) {
-        if (!g->bytes) TRY(source_int(g->s, "number of an element", &label));
-        TRY(source_int(g->s, "type of an element", &number));
-        if (g->bytes) TRY(source_int(g->s, "number of elements", &block));
-        TRY(source_int(g->s, "number of tags", &tags));
+        if (!g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
+        TRY(source_read_int32(g->s, "type of an element", &number));
+        if (g->bytes) TRY(source_read_int32(g->s, "number of elements", &block));
+        TRY(source_read_int32(g->s, "number of tags", &tags));
         TRY(type_of(g->s, number, &type));
         if (block < 1) return source_fault(g->s, "a block of %lld elements", (long long)block);
-        TRY(source_counted(g->s, "elements", block, g->bytes ? 8 : 2));
+        TRY(source_check_count(g->s, "elements", block, g->bytes ? 8 : 2));
         for (int64_t e = 0; e < block; e++) {
-            if (g->bytes) TRY(source_int(g->s, "number of an element", &label));
+            if (g->bytes) TRY(source_read_int32(g->s, "number of an element", &label));
             TRY(old_element(g, type, label, tags));
         }
     }
@@ -285,9 +285,9 @@ static status old_elements(struct gmsh *g)
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t skipped;
-    TRY(source_size(g->s, "number of blocks", blocks));
-    for (int k = 0; k < 3; k++) TRY(source_size(g->s, what, &skipped));
-    return source_counted(g->s, "blocks", *blocks, 8);
+    TRY(source_read_int64(g->s, "number of blocks", blocks));
+    for (int k = 0; k < 3; k++) TRY(source_read_int64(g->s, what, &skipped));
+    return source_check_count(g->s, "blocks", *blocks, 8);
 }
 
 /* Reads a block of nodes: their labels, then their coordinates, followed by parameters on the entity, which are
@@ -295,21 +295,21 @@ static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 static status new_node_block(struct gmsh *g)
 {
     int64_t dim, tag, parametric, n, label;
-    TRY(source_int(g->s, "dimension", &dim));
-    TRY(source_int(g->s, "tag of an entity", &tag));
-    TRY(source_int(g->s, "parametric", &parametric));
-    TRY(source_size(g->s, "number of nodes", &n));
-    TRY(source_counted(g->s, "nodes", n, 8));
+    TRY(source_read_int32(g->s, "dimension", &dim));
+    TRY(source_read_int32(g->s, "tag of an entity", &tag));
+    TRY(source_read_int32(g->s, "parametric", &parametric));
+    TRY(source_read_int64(g->s, "number of nodes", &n));
+    TRY(source_check_count(g->s, "nodes", n, 8));
     if (dim < 0 || dim > 3) return source_fault(g->s, "nodes of an entity of dimension %lld", (long long)dim);
     const int64_t first = g->m->nodes;
     for (int64_t k = 0; k < n; k++) {
-        TRY(source_size(g->s, "number of a node", &label));
+        TRY(source_read_int64(g->s, "number of a node", &label));
         TRY(mesh_node_add(g->m, g->s, (const real[DIM_MAX]){0}, label));
     }
     for (int64_t k = first; k < first + n; k++) {
         real own;
-        for (int d = 0; d < DIM_MAX; d++) TRY(source_real(g->s, "coordinate", &g->m->node[k][d]));
-        for (int d = 0; d < dim && parametric != 0; d++) TRY(source_real(g->s, "coordinate", &own));
+        for (int d = 0; d < DIM_MAX; d++) TRY(source_read_real(g->s, "coordinate", &g->m->node[k][d]));
+        for (int d = 0; d < dim && parametric != 0; d++) TRY(source_read_real(g->s, "coordinate", &own));
     }
     return OK;
 }
@@ -328,15 +328,15 @@ static status new_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
     const struct gmsh_type *type = NULL;
-    TRY(source_int(g->s, "dimension", &dim));
-    TRY(source_int(g->s, "tag of an entity", &tag));
-    TRY(source_int(g->s, "type of an element", &number));
-    TRY(source_size(g->s, "number of elements", &n));
+    TRY(source_read_int32(g->s, "dimension", &dim));
+    TRY(source_read_int32(g->s, "tag of an entity", &tag));
+    TRY(source_read_int32(g->s, "type of an element", &number));
+    TRY(source_read_int64(g->s, "number of elements", &n));
     TRY(type_of(g->s, number, &type));
-    TRY(source_counted(g->s, "elements", n, 4));
+    TRY(source_check_count(g->s, "elements", n, 4));
     const int64_t key = entity_key(dim, tag), link = label_find(&g->of_entity, key), first = g->m->elements;
     for (int64_t k = 0; k < n; k++) {
-        TRY(source_size(g->s, "number of an element", &label));
+        TRY(source_read_int64(g->s, "number of an element", &label));
         TRY(element_next(g, type, label));
     }
     for (int64_t l = link; l >= 0 && l < g->links && l < link + GROUPS_MAX && g->entity[l] == key; l++)
@@ -360,19 +360,19 @@ static status format_read(struct gmsh *g)
 {
     char version[16];
     int64_t bytes, size, one;
-    source_word(g->s, version, sizeof version);
+    source_read_word(g->s, version, sizeof version);
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
     if (!g->old && strcmp(version, "4.1") != 0)
         return source_fault(g->s, "format %s of Gmsh; 2.2 and 4.1 are read (gmsh -save -format msh41 writes it)",
                             version);
-    TRY(source_whole(g->s, "kind of file", &bytes));
-    TRY(source_whole(g->s, "size of numbers", &size));
+    TRY(source_read_integer(g->s, "kind of file", &bytes));
+    TRY(source_read_integer(g->s, "size of numbers", &size));
     if (size != 8) return source_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
     g->bytes = bytes != 0;
     if (!g->bytes) return OK;
     source_next_line(g->s);
     g->s->binary = true;
-    TRY(source_int(g->s, "the number 1", &one));
+    TRY(source_read_int32(g->s, "the number 1", &one));
     g->s->binary = false;
     return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
@@ -415,12 +415,12 @@ static status section_read(struct gmsh *g, const char *name)
 static status sections_read(struct gmsh *g)
 {
     char name[40];
-    source_word(g->s, name, sizeof name);
+    source_read_word(g->s, name, sizeof name);
     if (strcmp(name, "$MeshFormat") != 0) return source_fault(g->s, "no mesh of Gmsh: $MeshFormat is expected first");
     TRY(format_read(g));
     section_skip(g->s, name);
-    while (source_more(g->s)) {
-        source_word(g->s, name, sizeof name);
+    while (source_skip_blanks(g->s)) {
+        source_read_word(g->s, name, sizeof name);
         if (name[0] != '$') return source_fault(g->s, "%.30s: a section such as $Nodes is expected", name);
         TRY(section_read(g, name));
     }

@@ -12,7 +12,7 @@ int luminance(int red, int green, int blue) { return (int)(0.2126 * red + 0.7152
 
 status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **page)
 {
-    const int64_t memory = team_memory();
+    const int64_t memory = machine_memory_size();
     const real all = (real)width * (real)height * (real)(p->n + 1);
     if (width < 1 || height < 1) return status_set(REFUSED, "%s: an image without pixels", s->path);
     if (p->n > 0 && (width != p->width || height != p->height))

@@ -50,7 +50,7 @@ static status page_read(png_structp png, png_infop info, struct pages *p, const 
     const int64_t row = (int64_t)png_get_rowbytes(png, info);
     const bool wide = png_get_bit_depth(png, info) == 16;
     if (row != width * (wide ? 2 : 1)) return status_set(REFUSED, "%s: a kind of PNG that is not read", s->path);
-    *bytes = memory_bare("image.rows", row * height, 1);
+    *bytes = memory_new_uninitialised("image.rows", row * height, 1);
     *rows = BARE("image.rows", height, png_bytep);
     for (int64_t j = 0; j < height; j++) (*rows)[j] = *bytes + j * row;
     png_read_image(png, *rows);
@@ -77,7 +77,7 @@ status png_read_pages(struct pages *p, struct source *s)
         png_set_chunk_malloc_max(png, 1 << 24);
         result = page_read(png, info, p, s, &rows, &bytes);
     } else {
-        text_harmless(what);
+        text_replace_controls(what);
         result = status_set(REFUSED, "%s: no whole PNG: %s", s->path, what);
     }
     memory_free((void *)rows);

@@ -148,7 +148,7 @@ static bool planes_read(TIFF *tiff, struct planes *p, int stride, int first)
     const int64_t bytes = (int64_t)wide * stride * a->bits / 8;
     const int64_t size = a->tiled ? TIFFTileSize(tiff) : TIFFScanlineSize(tiff);
     if (wide == 0 || high == 0 || size < bytes * high) return false;
-    uint8_t *buffer = memory_bare("image.row", size, 1);
+    uint8_t *buffer = memory_new_uninitialised("image.row", size, 1);
     bool good = true;
     for (int64_t y = 0; y < a->height && good; y += high)
         for (int64_t x = 0; x < a->width && good; x += wide) {

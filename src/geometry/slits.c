@@ -250,7 +250,7 @@ static void cracks_of_group(struct crack **crack, int *n, const struct sheet *s,
     memory_free(corner);
 }
 
-void geometry_slits(const struct hull *h, struct crack **crack, int *n)
+void geometry_find_slits(const struct hull *h, struct crack **crack, int *n)
 {
     if (h->open) return;
     struct sheets s = sheets_doubled(h);

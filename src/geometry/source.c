@@ -18,11 +18,11 @@ status source_open(struct source *s, const char *path)
     *s = (struct source){.path = path};
     TRY(input_open(&file, path, NULL));
     const bool sized = fseeko(file, 0, SEEK_END) == 0;
-    const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = team_memory();
+    const int64_t length = sized ? (int64_t)ftello(file) : -1, memory = machine_memory_size();
     const bool fits = memory <= 0 || length <= memory / FILE_SHARE;
     if (length > 0 && fits && length < INT64_MAX) {
         rewind(file);
-        s->text = memory_bare("file", length + 1, 1);
+        s->text = memory_new_uninitialised("file", length + 1, 1);
         s->length = (int64_t)fread(s->text, 1, (size_t)length, file);
         s->text[s->length] = '\0';
     }
@@ -48,7 +48,7 @@ status source_fault(const struct source *s, const char *format, ...)
     va_start(more, format);
     vsnprintf(what, sizeof what, format, more);
     va_end(more);
-    text_harmless(what);
+    text_replace_controls(what);
     if (s->binary) return status_set(REFUSED, "%s: %s", s->path, what);
     for (int64_t k = 0; k < s->at && k < s->length; k++) line += s->text[k] == '\n';
     return status_set(REFUSED, "%s:%lld: %s", s->path, (long long)line, what);
@@ -56,16 +56,16 @@ status source_fault(const struct source *s, const char *format, ...)
 
 static bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-bool source_more(struct source *s)
+bool source_skip_blanks(struct source *s)
 {
     while (s->at < s->length && blank(s->text[s->at])) s->at++;
     return s->at < s->length;
 }
 
-void source_word(struct source *s, char *word, size_t room)
+void source_read_word(struct source *s, char *word, size_t room)
 {
     size_t n = 0;
-    source_more(s);
+    source_skip_blanks(s);
     for (; s->at < s->length && !blank(s->text[s->at]); s->at++)
         if (n + 1 < room) word[n++] = s->text[s->at];
     word[n] = '\0';
@@ -75,9 +75,9 @@ void source_word(struct source *s, char *word, size_t room)
 static status text_real(struct source *s, const char *what, real *value)
 {
     char word[64], *end;
-    if (!source_more(s)) return source_fault(s, "ends where %s is expected", what);
+    if (!source_skip_blanks(s)) return source_fault(s, "ends where %s is expected", what);
     const int64_t from = s->at;
-    source_word(s, word, sizeof word);
+    source_read_word(s, word, sizeof word);
     *value = strtod(word, &end);
     if (end != word && *end == '\0' && isfinite(*value)) return OK;
     s->at = from;
@@ -93,14 +93,14 @@ static status bytes_take(struct source *s, const char *what, void *value, int64_
     return OK;
 }
 
-status source_real(struct source *s, const char *what, real *value)
+status source_read_real(struct source *s, const char *what, real *value)
 {
     if (!s->binary) return text_real(s, what, value);
     TRY(bytes_take(s, what, value, sizeof *value));
     return isfinite(*value) ? OK : source_fault(s, "%s is not finite", what);
 }
 
-status source_whole(struct source *s, const char *what, int64_t *value)
+status source_read_integer(struct source *s, const char *what, int64_t *value)
 {
     real number = 0;
     TRY(text_real(s, what, &number));
@@ -110,21 +110,21 @@ status source_whole(struct source *s, const char *what, int64_t *value)
     return OK;
 }
 
-status source_int(struct source *s, const char *what, int64_t *value)
+status source_read_int32(struct source *s, const char *what, int64_t *value)
 {
     int32_t number = 0;
-    if (!s->binary) return source_whole(s, what, value);
+    if (!s->binary) return source_read_integer(s, what, value);
     TRY(bytes_take(s, what, &number, sizeof number));
     *value = number;
     return OK;
 }
 
-status source_size(struct source *s, const char *what, int64_t *value)
+status source_read_int64(struct source *s, const char *what, int64_t *value)
 {
-    return s->binary ? bytes_take(s, what, value, sizeof *value) : source_whole(s, what, value);
+    return s->binary ? bytes_take(s, what, value, sizeof *value) : source_read_integer(s, what, value);
 }
 
-status source_counted(const struct source *s, const char *what, int64_t count, int64_t bytes)
+status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
     return source_fault(s, "%lld %s are more than the rest of the file holds", (long long)count, what);

@@ -22,32 +22,32 @@ status source_open(struct source *s, const char *path);
 status source_fault(const struct source *s, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Moves the reading position of s over white space to the next word. Returns false at the end of the file. */
-bool source_more(struct source *s);
+bool source_skip_blanks(struct source *s);
 
 /* Copies the next word of the file s to `word`, which has `room` bytes, cut if necessary and ended by a zero byte; ""
  * at the end of the file. */
-void source_word(struct source *s, char *word, size_t room);
+void source_read_word(struct source *s, char *word, size_t room);
 
 /* Reads the next number of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not finite. */
-status source_real(struct source *s, const char *what, real *value);
+status source_read_real(struct source *s, const char *what, real *value);
 
 /* Reads the next word of the text file s as an integer into *value. what: name of the number, for the message. Returns
  * REFUSED, with a message, if it is missing or not an integer. */
-status source_whole(struct source *s, const char *what, int64_t *value);
+status source_read_integer(struct source *s, const char *what, int64_t *value);
 
 /* Reads the next integer of the file s into *value: a word of text, or 4 bytes of a binary file. what: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
-status source_int(struct source *s, const char *what, int64_t *value);
+status source_read_int32(struct source *s, const char *what, int64_t *value);
 
 /* Reads the next integer of the file s into *value: a word of text, or 8 bytes of a binary file. what: name of the
  * number, for the message. Returns REFUSED, with a message, if it is missing or not an integer. */
-status source_size(struct source *s, const char *what, int64_t *value);
+status source_read_int64(struct source *s, const char *what, int64_t *value);
 
 /* Checks that `count` items of at least `bytes` bytes each can follow in the file s, before memory is allocated for
  * them. what: name of the items, for the message. Returns REFUSED, with a message, if the rest of the file is
  * shorter. */
-status source_counted(const struct source *s, const char *what, int64_t count, int64_t bytes);
+status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes);
 
 /* Moves the reading position of s to the beginning of the next line. */
 void source_next_line(struct source *s);

@@ -62,11 +62,11 @@ static status words_read(struct element_mesh *m, struct source *s)
     char word[32];
     bool ended = false;
     source_next_line(s); /* solid NAME, possibly several words */
-    while (source_more(s)) {
-        source_word(s, word, sizeof word);
+    while (source_skip_blanks(s)) {
+        source_read_word(s, word, sizeof word);
         if (strcasecmp(word, "vertex") == 0) {
             real X[DIM_MAX];
-            for (int d = 0; d < 3; d++) TRY(source_real(s, "coordinate", &X[d]));
+            for (int d = 0; d < 3; d++) TRY(source_read_real(s, "coordinate", &X[d]));
             TRY(corner_add(m, s, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
             return source_fault(s, "a facet of %d corners; three are expected", (int)(m->nodes % 3));

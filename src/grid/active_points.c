@@ -84,7 +84,7 @@ static void active_points_take(struct active_points *r, const struct transfer_or
                                const struct grid *g)
 {
     struct transfer_order *a = &r->active;
-    transfer_order_room(a, all->n, all->blocks, all->cells);
+    transfer_order_reserve(a, all->n, all->blocks, all->cells);
     memcpy(a->blocks_of, all->blocks_of, sizeof a->blocks_of);
     a->blocks = all->blocks, a->cells = 0, a->n = 0;
     for (int block = 0; block < all->blocks; block++) {

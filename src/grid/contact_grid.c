@@ -172,7 +172,7 @@ void grid_side_make(struct grid_side *a, struct grid *g, const struct transfer_o
         }
 }
 
-void grid_contact_find(struct grid_contact *c, const struct grid_side *side, const struct particles *p)
+void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *side, const struct particles *p)
 {
     c->nodes = 0;
     for (int a = 0; a < c->sides; a++)
@@ -251,7 +251,7 @@ static real mass_against(const struct grid *g, int64_t I, const real *normal, re
     return held2 > 0.5 ? INFINITY : g->mass[I];
 }
 
-real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side)
+real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_side *side)
 {
     real lost = 0;
     c->touching = 0, c->begun = 0;
@@ -288,7 +288,7 @@ real grid_contact_exchange(struct grid_contact *c, const struct grid_side *side)
     return lost;
 }
 
-real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side)
+real grid_contact_remap_loss(struct grid_contact *c, const struct grid_side *side)
 {
     real lost = 0;
     for (int64_t k = 0; k < c->nodes; k++) {
@@ -303,7 +303,7 @@ real grid_contact_remapped(struct grid_contact *c, const struct grid_side *side)
     return lost;
 }
 
-void grid_contact_clock(struct grid_contact *c, real t)
+void grid_contact_update_times(struct grid_contact *c, real t)
 {
     if (c->touching == 0) return;
     c->ended = t;

@@ -47,7 +47,7 @@ static bool grid_coupled_meets_points(const struct grid_coupled *c, const struct
     return false;
 }
 
-void grid_coupled_none(struct grid_coupled *c, struct particles *p)
+void grid_coupled_clear(struct grid_coupled *c, struct particles *p)
 {
     for (int64_t k = 0; k < c->n; k++) p->flag[c->list[k]] &= (uint8_t)~FLAG_GRID_COUPLED;
     c->n = p->n_grid_coupled = 0;

@@ -23,7 +23,7 @@ static real between_particles(real anchor, real site, real spacing)
     return anchor + (steps - nearbyint(steps)) * spacing;
 }
 
-void grid_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor)
+void grid_choose_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor)
 {
     for (int d = 0; d < s->dim; d++) {
         anchor[d] = node_coordinate(s, d, from[d]);
@@ -31,7 +31,7 @@ void grid_anchor(const struct scene *s, const real *from, const real *site, bool
     }
 }
 
-int body_apart(const struct scene *s, int k)
+int unjoined_body_index(const struct scene *s, int k)
 {
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].joined == b && k-- == 0) return b;
@@ -44,7 +44,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
                       !coupling_moves_by_grid(s->coupling);
     grid->fields = 1;
-    while (meet && body_apart(s, grid->fields) >= 0) grid->fields++;
+    while (meet && unjoined_body_index(s, grid->fields) >= 0) grid->fields++;
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
@@ -74,7 +74,7 @@ void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct
         }
         site[d] = p->X[d][0];
     }
-    grid_anchor(s, from, site, meshed, g->anchor);
+    grid_choose_anchor(s, from, site, meshed, g->anchor);
     real section = scene_section(s), lightest = INFINITY;
     for (int m = 0; m < s->materials; m++) lightest = real_min(lightest, s->material[m].density);
     const real light = !scene_at_rest(s) ? GRID_MASS_LIGHT : GRID_MASS_STATIC;
@@ -83,7 +83,7 @@ void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct
     g->light_mass = s->transfer == TRANSFER_APIC ? light * full : 0;
     for (int k = 0; k < mpm->fields && mpm->fields > 1; k++) {
         mpm->field[k].grid = *g;
-        mpm->field[k].grid.body = 1 + body_apart(s, k);
+        mpm->field[k].grid.body = 1 + unjoined_body_index(s, k);
     }
     grid_contact_free(&mpm->contact);
     mpm->contact = (struct grid_contact){.friction = s->contact_friction,
@@ -97,7 +97,7 @@ void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct
     mpm->sort_needed = true;
 }
 
-bool grid_mirror_between(const struct grid *g, const struct scene *s)
+bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++) {
         const real nodes = (s->boundary[b].at - g->anchor[s->boundary[b].axis]) / g->h;

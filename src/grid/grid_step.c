@@ -48,7 +48,7 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
             return OK;
         }
     int64_t most = 64 * p->n + 1000000; /* more than any run in sound condition needs; node indices have 32 bits */
-    if (n > 0 || !f->list) TRY(grid_cover(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
+    if (n > 0 || !f->list) TRY(grid_extend_box(&f->grid, from, to, most < INT32_MAX ? most : INT32_MAX, &changed));
     transfer_order_sort(&f->order, p, list, n, &f->grid);
     return OK;
 }
@@ -75,11 +75,11 @@ static void update_active_points(struct run *e)
                              &e->grid->field[0].grid, &e->bonds, &e->loads, e->scene->shape, e->scene->transfer);
 }
 
-status grid_sort(struct run *e, bool *lost)
+status grid_sort_points(struct run *e, bool *lost)
 {
     *lost = false;
     if (e->part.n_free == 0 && !coupling_unified(e->coupling_kind)) {
-        grid_coupled_none(&e->grid->coupled, &e->part);
+        grid_coupled_clear(&e->grid->coupled, &e->part);
         return OK;
     }
     if (!e->grid->sort_needed && e->clock.step % ACTIVE_POINTS_STEPS == 0) update_active_points(e);
@@ -112,7 +112,7 @@ static bool grid_holds(const struct particles *part) { return part->n_free + par
 static void grid_receive(struct grid_method *mpm, struct particles *p, const struct kernels *kernels)
 {
     const struct transfer_data grid_coupled = grid_coupled_data(mpm);
-    if (mpm->turning.groups > 0) turning_begin(&mpm->turning, p, mpm->spacing);
+    if (mpm->turning.groups > 0) turning_compute_spins(&mpm->turning, p, mpm->spacing);
     for (int k = 0; k < mpm->fields; k++) {
         const struct transfer_data own = field_data(mpm, k);
         grid_clear(&mpm->field[k].grid);
@@ -128,7 +128,7 @@ static struct grid_side *meeting_find(struct grid_method *mpm, struct particles 
     if (mpm->fields < 2) return NULL;
     struct grid_side *side = NEW("engine.sides", mpm->fields, struct grid_side);
     for (int k = 0; k < mpm->fields; k++) grid_side_make(&side[k], &mpm->field[k].grid, &mpm->field[k].order, part);
-    grid_contact_find(&mpm->contact, side, part);
+    grid_contact_find_nodes(&mpm->contact, side, part);
     return side;
 }
 
@@ -140,11 +140,11 @@ static void grids_move(struct run *e, const struct grid_side *side, real middle,
     const enum transfer transfer = e->scene->transfer;
     for (int k = 0; k < mpm->fields; k++) {
         struct grid_field *f = &mpm->field[k];
-        loads_walls(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width, middle,
-                    e->clock.dt);
+        loads_set_grid_walls(&e->loads, &f->held, &f->grid, &e->part, &e->kernels, mpm->transfer.half_width, middle,
+                             e->clock.dt);
         grid_advance(&f->grid, transfer, dt, mpm->smallest_mass);
     }
-    if (side) e->damped += grid_contact_exchange(&mpm->contact, side);
+    if (side) e->damped += grid_contact_exchange_momentum(&mpm->contact, side);
     for (int k = 0; k < mpm->fields; k++)
         grid_constrain(&mpm->field[k].grid, transfer, mpm->smallest_mass, e->loads.impulse, &e->loads.constraint_work);
 }
@@ -160,26 +160,26 @@ static void grids_remap(struct run *e, const struct grid_side *side)
         else
             e->kernels.turn_gather(&e->grid->field[k].grid, &e->part, &own);
     }
-    if (e->grid->turning.groups > 0) turning_share(&e->grid->turning, &e->part);
+    if (e->grid->turning.groups > 0) turning_restore_spins(&e->grid->turning, &e->part);
     for (int k = 0; k < e->grid->fields && e->grid->turning.groups > 0; k++) {
         const struct transfer_data own = field_data(e->grid, k);
         e->kernels.turn_scatter(&e->grid->field[k].grid, &e->part, &own);
     }
     if (e->part.n_grid_coupled > 0) e->kernels.remap(&e->grid->field[0].grid, &e->part, &grid_coupled);
-    timer_book(&e->timers, TIMER_SCATTER);
+    timer_add_elapsed(&e->timers, TIMER_SCATTER);
     for (int k = 0; k < e->grid->fields; k++) grid_remapped(&e->grid->field[k].grid, e->grid->smallest_mass);
-    if (side) e->damped += grid_contact_remapped(&e->grid->contact, side);
-    timer_book(&e->timers, TIMER_GRID);
+    if (side) e->damped += grid_contact_remap_loss(&e->grid->contact, side);
+    timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
-void grid_map(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers)
+void grid_map_points(struct grid_method *mpm, struct particles *p, const struct kernels *kernels, struct timers *timers)
 {
     if (!grid_holds(p)) {
-        for (int k = 0; k < mpm->fields; k++) grid_idle(&mpm->field[k].grid);
+        for (int k = 0; k < mpm->fields; k++) grid_clear_constraints(&mpm->field[k].grid);
         return;
     }
     grid_receive(mpm, p, kernels);
-    timer_book(timers, TIMER_SCATTER);
+    timer_add_elapsed(timers, TIMER_SCATTER);
 }
 
 void grid_step(struct run *e, real middle)
@@ -190,9 +190,9 @@ void grid_step(struct run *e, real middle)
     if (!grid_holds(&e->part)) return;
     struct grid_side *side = meeting_find(e->grid, &e->part);
     grids_move(e, side, middle, e->grid->transfer.dt_velocity); /* 3: motion of nodes */
-    timer_book(&e->timers, TIMER_GRID);
+    timer_add_elapsed(&e->timers, TIMER_GRID);
     if (e->scene->transfer == TRANSFER_FLIP) grids_remap(e, side); /* 4, 6: velocities; momentum to the nodes */
-    if (side) grid_contact_clock(&e->grid->contact, e->clock.t);
+    if (side) grid_contact_update_times(&e->grid->contact, e->clock.t);
     for (int k = 0; k < e->grid->fields; k++) { /* 4, 7: positions, strain, stress */
         const struct transfer_data own = field_data(e->grid, k);
         moved += e->kernels.g2p(&e->grid->field[k].grid, p, &own);
@@ -207,7 +207,7 @@ real grid_power(struct run *e, real middle)
 {
     real power = 0;
     bool lost;
-    if (!grid_holds(&e->part) || grid_sort(e, &lost) != OK || lost) return 0;
+    if (!grid_holds(&e->part) || grid_sort_points(e, &lost) != OK || lost) return 0;
     grid_receive(e->grid, &e->part, &e->kernels);
     real **momentum = NEW("engine.momenta", e->grid->fields, real *);
     for (int k = 0; k < e->grid->fields; k++) {

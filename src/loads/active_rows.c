@@ -47,7 +47,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     b->active.level[row_block] = (uint8_t)level;
     for (int64_t k = 0; k < bonds_columns(b, row_block) && level > 1; k++) {
         struct column_copy column;
-        column_read(&column, b, row_block, k);
+        bond_column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
             const int64_t next = row_block_of(b, p, l, &column, lane);
             if (next >= 0) row_block_activate(b, p, l, next, level - 1);
@@ -61,7 +61,7 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
 {
     for (int64_t k = 0; k < bonds_columns(b, row_block); k++) {
         struct column_copy column;
-        column_read(&column, b, row_block, k);
+        bond_column_read(&column, b, row_block, k);
         for (int lane = 0; lane < LANES; lane++) {
             const int64_t next = row_block_of(b, p, l, &column, lane);
             if (next >= 0 && b->active.level[next] == level) return true;
@@ -104,7 +104,7 @@ static void active_set_follow(struct bonds *b, const struct particles *p, const 
     if (moved == 0 && !r->resumed) return;
     for (int64_t k = 0; k < r->active; k++)
         if (r->moved[r->list[k]]) row_block_activate(b, p, l, r->list[k], most);
-    active_set_list(r);
+    active_set_rebuild_list(r);
     r->resumed = false;
 }
 
@@ -115,11 +115,11 @@ void active_rows_update(struct bonds *b, const struct particles *p, const struct
         return;
     }
     row_levels_find(b, p, l);
-    active_set_list(&b->active);
+    active_set_rebuild_list(&b->active);
 }
 
-void active_rows_touch(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
-                       int64_t n)
+void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
+                          int64_t n)
 {
     bool any = false;
     if (!b->active.is_current) return;
@@ -131,5 +131,5 @@ void active_rows_touch(struct bonds *b, const struct particles *p, const struct 
     }
     if (!any) return;
     b->active.over = false;
-    active_set_list(&b->active);
+    active_set_rebuild_list(&b->active);
 }

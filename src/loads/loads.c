@@ -19,7 +19,7 @@ static void loads_list(struct loads *l, const struct particles *p)
     l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
     for (int b = 0; b < l->n; b++)
         for (int64_t k = 0; k < l->load[b].n; k++) l->loaded[l->load[b].particle[k]] = LOADED;
-    loads_mirrors_mark(l, p);
+    loads_flag_clamped_mirrors(l, p);
     l->list = NEW("loads.list", most < p->n ? most : p->n, int32_t);
     for (int64_t i = 0; i < p->n; i++)
         if (l->loaded[i]) l->list[l->listed++] = (int32_t)i;
@@ -33,19 +33,21 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     l->n = n;
     l->spacing = spacing;
     l->load = NEW("loads.load", n, struct load);
-    for (int b = 0; b < n; b++) TRY(status_at(boundary[b].place, load_select(&l->load[b], &boundary[b], p, spacing)));
     for (int b = 0; b < n; b++)
-        TRY(status_at(boundary[b].place, load_select_pressure(&l->load[b], boundary, n, b, p, spacing)));
-    for (int b = 0; b < n; b++) TRY(status_at(boundary[b].place, load_formula_make(&l->load[b], p)));
+        TRY(status_prepend_location(boundary[b].place, load_find_particles(&l->load[b], &boundary[b], p, spacing)));
+    for (int b = 0; b < n; b++)
+        TRY(status_prepend_location(boundary[b].place,
+                                    load_find_pressure_faces(&l->load[b], boundary, n, b, p, spacing)));
+    for (int b = 0; b < n; b++) TRY(status_prepend_location(boundary[b].place, load_prepare_shares(&l->load[b], p)));
     TRY(loads_absorbing_check(l, p));
-    loads_join(l, p->dim);
+    loads_merge_equal_lists(l, p->dim);
     TRY(loads_mirrors_make(l, p, reach, optional));
     loads_list(l, p);
     return OK;
 }
 
 /* Both lists ascend, and so does the new one; particles without marks are left out. */
-void loads_touch(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
+void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
     if (!l->loaded) l->loaded = NEW("loads.loaded", p->n + LANES, uint8_t);
@@ -68,7 +70,7 @@ void loads_free(struct loads *l)
 {
     loads_applied_free(l);
     loads_absorbing_free(l);
-    for (int b = 0; b < l->n; b++) load_moving_free(&l->load[b]), memory_free(l->load[b].particle);
+    for (int b = 0; b < l->n; b++) load_time_shares_free(&l->load[b]), memory_free(l->load[b].particle);
     memory_free(l->load);
     memory_free(l->loaded);
     memory_free(l->list);
@@ -82,7 +84,8 @@ void loads_free(struct loads *l)
 
 /* Replaces the force on driven peridynamic particles by the force that gives them their velocity; its difference from
  * the bond force is the reaction of the support. Books impulse and work. */
-static void drive(struct loads *l, struct load *load, struct particles *p, const struct driving *by, real dt_velocity)
+static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
+                  real dt_velocity)
 {
     const struct boundary *b = load->boundary;
     const uint8_t components = is_clamp(b, p->dim) ? UINT8_MAX : b->components;
@@ -94,7 +97,7 @@ static void drive(struct loads *l, struct load *load, struct particles *p, const
         particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(components >> d & 1)) continue;
-            const real target = driving_at(by, X, d, false), before = p->v[d][i];
+            const real target = prescribed_velocity_at(by, X, d, false), before = p->v[d][i];
             real needed = p->mass[i] * (target - before) / dt_velocity, reaction = needed - p->f[d][i];
             load->reaction[d] -= p->f[d][i]; /* without the driven particles' inertia: a load cell's reading */
             if (b->frozen && drives_by_place(b)) load->held_work -= p->f[d][i] * (p->x[d][i] - p->X[d][i]);
@@ -138,14 +141,14 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     for (int d = 0; d < p->dim; d++) {
         real sum;
         if (!held[d]) continue;
-        team_sums(p->n, 1, loads_force_block, &(struct force_sum){p, d}, &sum);
+        reproducible_sums(p->n, 1, loads_force_block, &(struct force_sum){p, d}, &sum);
         l->impulse[d] += dt_velocity * sum;
     }
 }
 
 /* Updates the displacement of a load: mean over its particles if they differ; prescribed displacements are taken as
  * they are, velocities are integrated over the step. */
-static void displacement_update(struct load *load, const struct particles *p, const struct driving *by)
+static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;
     const int64_t n = drives_by_place(load->boundary) ? load->n : 1;
@@ -155,13 +158,13 @@ static void displacement_update(struct load *load, const struct particles *p, co
         for (int64_t k = 0; k < n; k++) {
             real X[DIM_MAX] = {0};
             if (load->n > 0) particle_place(p, load->particle[k], X);
-            sum += displaces ? displacing_at(&by->to, X, d) : driving_at(by, X, d, false);
+            sum += displaces ? prescribed_displacement_at(&by->to, X, d) : prescribed_velocity_at(by, X, d, false);
         }
         if (n > 0) load->displacement[d] = displaces ? sum / (real)n : load->displacement[d] + sum / (real)n * by->dt;
     }
 }
 
-void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
+void loads_complete_forces(struct loads *l, struct particles *p, real t, real dt, real dt_velocity)
 {
     if (l->images > 0) mirror_impulse(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) {
@@ -169,12 +172,12 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
         memset(load->reaction, 0, sizeof load->reaction);
         load->held_work = 0;
     }
-    loads_push(l, p, t, dt_velocity);
-    loads_absorb(l, p, dt_velocity);
+    loads_add_forces(l, p, t, dt_velocity);
+    loads_add_dashpot_forces(l, p, dt_velocity);
     for (int c = 0; c < l->n; c++) { /* after all forces, which reactions include */
         struct load *load = &l->load[c];
         if (load->boundary->kind != BOUNDARY_VELOCITY && load->boundary->kind != BOUNDARY_MIRROR) continue;
-        const struct driving by = loads_driving(l, c, p->dim, t, dt);
+        const struct prescribed_motion by = loads_prescribed_motion(l, c, p->dim, t, dt);
         displacement_update(load, p, &by);
         drive(l, load, p, &by, dt_velocity);
     }
@@ -183,7 +186,8 @@ void loads_apply(struct loads *l, struct particles *p, real t, real dt, real dt_
 /* ---- after the gather -------------------------------------------------------------------------------------------- */
 
 /* Sets the velocity of driven material points on the grid exactly; books impulse and work. */
-static void velocities_set(struct loads *l, const struct load *load, struct particles *p, const struct driving *by)
+static void velocities_set(struct loads *l, const struct load *load, struct particles *p,
+                           const struct prescribed_motion *by)
 {
     const struct boundary *b = load->boundary;
     for (int64_t k = 0; k < load->n; k++) {
@@ -193,7 +197,7 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
         particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(b->components >> d & 1)) continue;
-            const real target = driving_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
+            const real target = prescribed_velocity_at(by, X, d, false), given = p->mass[i] * (target - p->v[d][i]);
             l->impulse[d] += given;
             l->constraint_work += given * 0.5 * (target + p->v[d][i]);
             p->v[d][i] = target;
@@ -207,7 +211,8 @@ static void velocities_set(struct loads *l, const struct load *load, struct part
 
 /* Moves displaced particles to their position at the end of the step, except points of a mesh. Returns true if points
  * on a grid were moved. */
-static bool positions_set(const struct load *load, struct particles *p, const struct driving *by, real spacing)
+static bool positions_set(const struct load *load, struct particles *p, const struct prescribed_motion *by,
+                          real spacing)
 {
     bool moved = false;
     for (int64_t k = 0; k < load->n; k++) {
@@ -218,7 +223,7 @@ static bool positions_set(const struct load *load, struct particles *p, const st
         particle_place(p, i, X);
         for (int d = 0; d < p->dim; d++) {
             if (!(load->boundary->components >> d & 1)) continue;
-            const real at = X[d] + displacing_at(&by->to, X, d), off = p->x[d][i] - at;
+            const real at = X[d] + prescribed_displacement_at(&by->to, X, d), off = p->x[d][i] - at;
             if (!on_grid && !(fabs(off) <= OFF_PLACE * spacing)) continue;
             moved = moved || (on_grid && off != 0);
             p->x[d][i] = at;
@@ -227,10 +232,10 @@ static bool positions_set(const struct load *load, struct particles *p, const st
     return moved;
 }
 
-void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
+void loads_add_reactions(struct loads *l, const struct grid *g, real dt_velocity)
 {
     const real inverse = 1 / dt_velocity;
-    loads_absorbed(l, &g->absorbed);
+    loads_add_absorbed(l, &g->absorbed);
     for (int64_t q = 0; q < g->walls;) { /* walls of one load and component are consecutive */
         const struct wall first = g->wall[q];
         real sum = 0;
@@ -243,17 +248,17 @@ void loads_react(struct loads *l, const struct grid *g, real dt_velocity)
             l->load[g->mirror_node[q].load].reaction[d] += g->mirror_node[q].reaction[d] / dt_velocity;
 }
 
-bool loads_hold(struct loads *l, struct particles *p, real t, real dt)
+bool loads_impose_motion(struct loads *l, struct particles *p, real t, real dt)
 {
     bool moved = false;
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
-        const struct driving by = driving_make(load->boundary, p->dim, t, dt);
+        const struct prescribed_motion by = prescribed_motion_make(load->boundary, p->dim, t, dt);
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
         velocities_set(l, load, p, &by);
         if (load->boundary->displaces) moved = positions_set(load, p, &by, l->spacing) || moved;
     }
-    loads_push_work(l, p, t, dt);
+    loads_add_work(l, p, t, dt);
     return moved;
 }
 

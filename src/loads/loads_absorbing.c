@@ -42,10 +42,11 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
         for (int m = 0; m < l->n; m++) {
             const struct boundary *one = l->load[b].boundary, *mirror = l->load[m].boundary;
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
-            return status_at(one->place, status_set(REFUSED,
-                                                    "boundary %s: the body continues behind mirror %s at this face; a "
-                                                    "face of the whole body is expected",
-                                                    one->name, mirror->name));
+            return status_prepend_location(
+                one->place, status_set(REFUSED,
+                                       "boundary %s: the body continues behind mirror %s at this face; a "
+                                       "face of the whole body is expected",
+                                       one->name, mirror->name));
         }
     return OK;
 }
@@ -58,7 +59,8 @@ status loads_absorbing_check(const struct loads *l, const struct particles *p)
             const struct boundary *one = l->load[a].boundary, *other = l->load[b].boundary;
             const bool both = is_absorbing(&l->load[a]) && is_absorbing(&l->load[b]);
             if (!both || !absorb_same(&l->load[a], &l->load[b])) continue;
-            return status_at(other->place, status_set(REFUSED,
+            return status_prepend_location(other->place,
+                                           status_set(REFUSED,
                                                       "boundary %s: boundary %s absorbs at this face already; "
                                                       "each part of a face is expected once",
                                                       other->name, one->name));
@@ -150,7 +152,7 @@ void loads_absorbing_free(struct loads *l)
 
 /* ---- particles that bonds move ----------------------------------------------------------------------------------- */
 
-void loads_absorb(struct loads *l, struct particles *p, real dt_velocity)
+void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity)
 {
     struct absorbing *a = &l->absorbing;
     struct absorbed sum = {0};
@@ -165,10 +167,10 @@ void loads_absorb(struct loads *l, struct particles *p, real dt_velocity)
             p->f[d][i] += dashpot_kick(&sum, d, dt_velocity * rate, p->mass[i], p->v[d][i], change) / dt_velocity;
         }
     }
-    loads_absorbed(l, &sum);
+    loads_add_absorbed(l, &sum);
 }
 
-void loads_absorbed(struct loads *l, const struct absorbed *by)
+void loads_add_absorbed(struct loads *l, const struct absorbed *by)
 {
     l->absorbing.energy += by->energy;
     l->absorbing.kick += by->kick;
@@ -226,8 +228,8 @@ static real *field_of(struct absorbing *a, int64_t n)
     return a->field;
 }
 
-void loads_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
-                    real half_width)
+void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+                             real half_width)
 {
     struct absorbing *a = &l->absorbing;
     int64_t n = 0;
@@ -278,7 +280,7 @@ static void mesh_face(const struct absorbing *a, const struct load *load, const 
     }
 }
 
-void loads_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p)
+void loads_add_mesh_dashpots(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     struct grid *g = &mesh->grid;
     g->dashpots = 0;

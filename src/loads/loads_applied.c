@@ -51,7 +51,7 @@ static void load_join(struct loads *l, int b, int dim)
             l->load[load->leader].before[d] = NEW("loads.before", load->n, real);
 }
 
-void loads_join(struct loads *l, int dim)
+void loads_merge_equal_lists(struct loads *l, int dim)
 {
     for (int b = 0; b < l->n; b++) {
         l->load[b].leader = -1;
@@ -176,16 +176,16 @@ static void work_block(const void *context, int64_t first, int64_t end, real *su
  * switches at a whole step then has its full impulse too: half of it in the kick that contains the switch. */
 static real kick_factor(const struct time_function *f, real t, real dt_velocity)
 {
-    return 0.5 * (time_function_at(f, t - dt_velocity) + time_function_at(f, t));
+    return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
 }
 
 /* The impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of
  * steps, not with steps times particles. */
-void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
+void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;
     struct push a;
-    loads_moving_push(l, p, t, dt_velocity);
+    loads_update_shares_for_kick(l, p, t, dt_velocity);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : kick_factor(&load->boundary->time, t, dt_velocity);
@@ -193,7 +193,7 @@ void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
     for (int b = 0; b < l->n; b++)
         for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
             if (!push_make(&a, l, b, p, d, factor)) continue;
-            team_sums(l->load[b].n, 1, push_block, &a, &given);
+            reproducible_sums(l->load[b].n, 1, push_block, &a, &given);
             l->impulse[d] += given * dt_velocity;
         }
 }
@@ -203,15 +203,15 @@ void loads_push(struct loads *l, struct particles *p, real t, real dt_velocity)
  * the last digit, however short a load is. */
 static real drift_factor(const struct time_function *f, real t, real dt)
 {
-    return 0.5 * time_function_at(f, t) +
-           0.25 * (time_function_at(f, real_max(0, t - dt)) + time_function_at(f, t + dt));
+    return 0.5 * time_function_value(f, t) +
+           0.25 * (time_function_value(f, real_max(0, t - dt)) + time_function_value(f, t + dt));
 }
 
-void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
+void loads_add_work(struct loads *l, struct particles *p, real t, real dt)
 {
     real factor[BOUNDARIES_MAX], done;
     struct push a;
-    loads_moving_work(l, p, t, dt);
+    loads_update_shares_for_work(l, p, t, dt);
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];
         factor[b] = load->moving ? 1 : drift_factor(&load->boundary->time, t, dt);
@@ -219,7 +219,7 @@ void loads_push_work(struct loads *l, struct particles *p, real t, real dt)
     for (int b = 0; b < l->n; b++)
         for (int d = 0; d < p->dim && l->load[b].leader == b; d++) {
             if (!push_make(&a, l, b, p, d, factor)) continue;
-            team_sums(l->load[b].n, 1, work_block, &a, &done);
+            reproducible_sums(l->load[b].n, 1, work_block, &a, &done);
             l->work += done;
         }
 }
@@ -235,7 +235,7 @@ static void clear_run(const struct load *load, struct particles *p, int64_t firs
             for (int64_t k = first; k < end; k++) p->f[d][load->particle[k]] = 0;
 }
 
-void loads_clear(struct loads *l, struct particles *p)
+void loads_clear_forces(struct loads *l, struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct load *load = &l->load[b];

@@ -329,8 +329,8 @@ static bool faced_next(struct faced *f, const struct boundary *b, const struct p
     return true;
 }
 
-void face_every(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                face_found_fn *found, void *context)
+void face_visit_columns(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                        face_found_fn *found, void *context)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;
@@ -351,8 +351,8 @@ void face_make(struct face *f, const struct boundary *b, const struct particles 
             face_add(f, &of.columns, k, b, p, selected, column_area(&of.columns, b, p->dim), two);
 }
 
-void face_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
-                uint8_t *taken)
+void face_mark_layer(const struct boundary *b, const struct particles *p, const uint8_t *selected, real spacing,
+                     uint8_t *taken)
 {
     for (struct faced f = {0}; faced_next(&f, b, p, selected, spacing);) {
         const struct columns *c = &f.columns;

@@ -2,7 +2,7 @@
  *
  * Rotating particles move on circles: their velocity in a step is the difference of their positions at both ends over
  * the step, so that no step leaves the circle, however long it is. Displaced particles likewise; their position at the
- * end is set exactly (loads_hold, walls of the mesh), so that round-off does not accumulate. */
+ * end is set exactly (loads_impose_motion, walls of the mesh), so that round-off does not accumulate. */
 #include <math.h>
 
 #include "loads/loads.h"
@@ -22,19 +22,20 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
 
 /* ---- displacements ----------------------------------------------------------------------------------------------- */
 
-struct displacing displacing_make(const struct boundary *b, int dim, real t)
+struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
 {
-    struct displacing s = {.boundary = b, .dim = dim, .t = boundary_time(b, t)};
-    s.factor = b->displaces ? time_function_at(&b->time, t) : time_function_integral(&b->time, t);
+    struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_time(b, t)};
+    s.factor = b->displaces ? time_function_value(&b->time, t) : time_function_integral(&b->time, t);
     if (b->rotates) rotation_matrix(b, dim, b->rate * s.factor, s.turned);
     return s;
 }
 
-real displacing_at(const struct displacing *s, const real *X, int d)
+real prescribed_displacement_at(const struct prescribed_displacement *s, const real *X, int d)
 {
     const struct boundary *b = s->boundary;
     const struct expression *formula = &b->formula[d];
-    if (!b->rotates) return s->factor * b->value[d] * (formula->n > 0 ? expression_at(formula, X, s->dim, s->t) : 1);
+    if (!b->rotates)
+        return s->factor * b->value[d] * (formula->n > 0 ? expression_evaluate(formula, X, s->dim, s->t) : 1);
     real sum = b->centre[d] - X[d];
     for (int k = 0; k < s->dim; k++) sum += s->turned[d * s->dim + k] * (X[k] - b->centre[k]);
     return sum;
@@ -42,13 +43,14 @@ real displacing_at(const struct displacing *s, const real *X, int d)
 
 void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u)
 {
-    const struct displacing by = displacing_make(l->boundary, p->dim, t);
+    const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, t);
     real X[DIM_MAX];
     particle_place(p, l->particle[k], X);
-    for (int d = 0; d < p->dim; d++) u[d] = l->boundary->components >> d & 1 ? displacing_at(&by, X, d) : 0;
+    for (int d = 0; d < p->dim; d++)
+        u[d] = l->boundary->components >> d & 1 ? prescribed_displacement_at(&by, X, d) : 0;
 }
 
-status load_displacement_known(const struct boundary *b)
+status load_check_displacement_known(const struct boundary *b)
 {
     if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_in_time(b)) return OK;
     return status_set(REFUSED,
@@ -59,23 +61,24 @@ status load_displacement_known(const struct boundary *b)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-struct driving driving_make(const struct boundary *b, int dim, real t, real dt)
+struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt)
 {
-    struct driving s = {.boundary = b, .dim = dim, .t = t, .dt = dt, .factor = time_function_at(&b->time, t)};
+    struct prescribed_motion s = {
+        .boundary = b, .dim = dim, .t = t, .dt = dt, .factor = time_function_value(&b->time, t)};
     if (!b->rotates && !b->displaces) return s;
-    s.from = displacing_make(b, dim, real_max(0, t - 0.5 * dt));
-    s.to = displacing_make(b, dim, t + 0.5 * dt);
+    s.from = prescribed_displacement_make(b, dim, real_max(0, t - 0.5 * dt));
+    s.to = prescribed_displacement_make(b, dim, t + 0.5 * dt);
     return s;
 }
 
-struct driving loads_driving(const struct loads *l, int which, int dim, real t, real dt)
+struct prescribed_motion loads_prescribed_motion(const struct loads *l, int which, int dim, real t, real dt)
 {
     const struct boundary *b = l->load[which].boundary;
-    return driving_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
+    return prescribed_motion_make(b, dim, l->ended && b->displaces && t > dt ? t - dt : t, dt);
 }
 
 /* Returns component d of the change of an arm by the rotation from the start of the step to its end. */
-static real rotation_increment(const struct driving *s, const real *arm, int d)
+static real rotation_increment(const struct prescribed_motion *s, const real *arm, int d)
 {
     real own[DIM_MAX] = {0}, sum = -arm[d];
     for (int k = 0; k < s->dim; k++) /* back to the reference, then on */
@@ -84,14 +87,15 @@ static real rotation_increment(const struct driving *s, const real *arm, int d)
     return sum;
 }
 
-real driving_at(const struct driving *s, const real *X, int d, bool placed)
+real prescribed_velocity_at(const struct prescribed_motion *s, const real *X, int d, bool placed)
 {
     const struct boundary *b = s->boundary;
     real arm[DIM_MAX] = {0}, increment = 0;
-    if (b->displaces) return (displacing_at(&s->to, X, d) - displacing_at(&s->from, X, d)) / s->dt;
+    if (b->displaces)
+        return (prescribed_displacement_at(&s->to, X, d) - prescribed_displacement_at(&s->from, X, d)) / s->dt;
     if (!b->rotates)
         return s->factor * b->value[d] *
-               (b->formula[d].n > 0 ? expression_at(&b->formula[d], X, s->dim, boundary_time(b, s->t)) : 1);
+               (b->formula[d].n > 0 ? expression_evaluate(&b->formula[d], X, s->dim, boundary_time(b, s->t)) : 1);
     for (int k = 0; k < s->dim; k++) arm[k] = X[k] - b->centre[k];
     if (placed) return rotation_increment(s, arm, d) / s->dt;
     for (int k = 0; k < s->dim; k++)
@@ -117,11 +121,11 @@ static real formula_speed(const struct load *l, const struct particles *p, int64
     return most;
 }
 
-real load_displacing_speed(const struct load *l, const struct particles *p, real t)
+real load_displacement_speed(const struct load *l, const struct particles *p, real t)
 {
     const struct boundary *b = l->boundary;
     const bool formula = b->formula[0].n + b->formula[1].n + b->formula[2].n > 0;
-    const real slope = time_function_steepest(&b->time, t), size = sqrt(dot(b->value, b->value, p->dim));
+    const real slope = time_function_largest_slope(&b->time, t), size = sqrt(dot(b->value, b->value, p->dim));
     real most = 0;
     if (!b->displaces || size == 0) return 0;
     if (!formula || isinf(slope)) return slope * size;
@@ -130,14 +134,15 @@ real load_displacing_speed(const struct load *l, const struct particles *p, real
 }
 
 /* Returns the difference between the prescribed velocity of the k-th particle of a load and its own [m/s]. */
-static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k, const struct driving *by)
+static real velocity_jump_at(const struct load *l, const struct particles *p, int64_t k,
+                             const struct prescribed_motion *by)
 {
     const int32_t i = l->particle[k];
     real X[DIM_MAX], jump2 = 0, driven2 = 0, own2 = 0;
     particle_place(p, i, X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
-        const real v = driving_at(by, X, d, false);
+        const real v = prescribed_velocity_at(by, X, d, false);
         jump2 += square(v - p->v[d][i]), driven2 += square(v), own2 += square(p->v[d][i]);
     }
     return l->boundary->rotates ? fabs(sqrt(driven2) - sqrt(own2)) : sqrt(jump2);
@@ -151,7 +156,7 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t)
     for (int m = 0; m < MOMENTS + b->time.n; m++) {
         const real at = m < MOMENTS ? t * m / (MOMENTS - 1) : b->time.t[m - MOMENTS];
         if (!(at >= 0 && at <= t)) continue;
-        const struct driving by = driving_make(b, p->dim, at, t / MOMENTS);
+        const struct prescribed_motion by = prescribed_motion_make(b, p->dim, at, t / MOMENTS);
         for (int64_t k = 0; k < l->n; k += 1 + l->n / PLACES) most = real_max(most, velocity_jump_at(l, p, k, &by));
     }
     return most;
@@ -159,22 +164,23 @@ real load_velocity_jump(const struct load *l, const struct particles *p, real t)
 
 real load_driven_speed(const struct load *l, const struct particles *p, real t)
 {
-    return l->boundary->displaces ? load_displacing_speed(l, p, t) : load_velocity_jump(l, p, t);
+    return l->boundary->displaces ? load_displacement_speed(l, p, t) : load_velocity_jump(l, p, t);
 }
 
 enum { LAGS = 9 }; /* number of time spans, each 0.6 of the previous one, so that no period is missed */
 
 /* Returns the change of the velocity of the k-th particle of a load between two times; before 0 it has its own velocity
  * [m/s]. */
-static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k, const struct driving by[2])
+static real velocity_change_at(const struct load *l, const struct particles *p, int64_t k,
+                               const struct prescribed_motion by[2])
 {
     const bool own = by[0].t <= 0;
     real X[DIM_MAX], change2 = 0, now2 = 0, then2 = 0;
     particle_place(p, l->particle[k], X);
     for (int d = 0; d < p->dim; d++) {
         if (!(l->boundary->components >> d & 1)) continue;
-        const real now = driving_at(&by[1], X, d, false);
-        const real then = own ? p->v[d][l->particle[k]] : driving_at(&by[0], X, d, false);
+        const real now = prescribed_velocity_at(&by[1], X, d, false);
+        const real then = own ? p->v[d][l->particle[k]] : prescribed_velocity_at(&by[0], X, d, false);
         change2 += square(now - then), now2 += square(now), then2 += square(then);
     }
     return l->boundary->rotates ? fabs(sqrt(now2) - sqrt(then2)) : sqrt(change2);
@@ -191,7 +197,8 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
         if (!(moment >= 0 && moment <= t)) continue;
         real lag = real_max(within, step);
         for (int n = 0; n < LAGS; n++, lag *= 0.6) {
-            const struct driving by[] = {driving_make(b, p->dim, at - lag, dt), driving_make(b, p->dim, at, dt)};
+            const struct prescribed_motion by[] = {prescribed_motion_make(b, p->dim, at - lag, dt),
+                                                   prescribed_motion_make(b, p->dim, at, dt)};
             for (int64_t k = 0; k < l->n; k += drives_by_place(b) ? 1 + l->n / PLACES : l->n)
                 most = real_max(most, velocity_change_at(l, p, k, by));
         }
@@ -199,7 +206,7 @@ real load_velocity_change(const struct load *l, const struct particles *p, real 
     return most;
 }
 
-real loads_velocity_apart(const struct load *a, const struct load *b, const struct particles *p, real t)
+real loads_velocity_difference(const struct load *a, const struct load *b, const struct particles *p, real t)
 {
     const unsigned both = a->boundary->components & b->boundary->components;
     real most = 0;
@@ -207,14 +214,14 @@ real loads_velocity_apart(const struct load *a, const struct load *b, const stru
     if (drives_by_place(a->boundary) || drives_by_place(b->boundary)) return INFINITY;
     for (int m = 0; m < MOMENTS; m++) {
         const real at = t * m / (MOMENTS - 1), dt = t / MOMENTS;
-        const struct driving by[] = {driving_make(a->boundary, p->dim, at, dt),
-                                     driving_make(b->boundary, p->dim, at, dt)};
+        const struct prescribed_motion by[] = {prescribed_motion_make(a->boundary, p->dim, at, dt),
+                                               prescribed_motion_make(b->boundary, p->dim, at, dt)};
         real X[2][DIM_MAX], apart2 = 0;
         particle_place(p, a->particle[0], X[0]), particle_place(p, b->particle[0], X[1]);
         for (int d = 0; d < p->dim; d++)
             if (both >> d & 1)
-                apart2 += square(driving_at(&by[0], X[0], d, false) - p->v[d][a->particle[0]] -
-                                 driving_at(&by[1], X[1], d, false) + p->v[d][b->particle[0]]);
+                apart2 += square(prescribed_velocity_at(&by[0], X[0], d, false) - p->v[d][a->particle[0]] -
+                                 prescribed_velocity_at(&by[1], X[1], d, false) + p->v[d][b->particle[0]]);
         most = real_max(most, sqrt(apart2));
     }
     return most;

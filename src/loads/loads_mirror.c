@@ -60,7 +60,7 @@ static void mirror_make(struct loads *l, int which, struct particles *p, real re
     }
 }
 
-void loads_mirror(const struct loads *l, struct particles *p)
+void loads_update_images(const struct loads *l, struct particles *p)
 {
     for (int64_t k = 0; k < l->images; k++) { /* all sources first: corners have images of images */
         const int axis = l->load[l->image[k].load].boundary->axis;
@@ -115,14 +115,15 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             if (b[k].body >= 0 && b[m].body >= 0 && b[k].body != b[m].body) continue;
             const real apart = fabs(b[k].at - b[m].at);
             if (apart <= 1e-6 * spacing)
-                return status_at(b[k].place,
-                                 status_set(REFUSED, "boundary %s: its mirror plane is that of %s; one is enough",
-                                            b[k].name, b[m].name));
+                return status_prepend_location(
+                    b[k].place, status_set(REFUSED, "boundary %s: its mirror plane is that of %s; one is enough",
+                                           b[k].name, b[m].name));
             if (apart + spacing <= reach)
-                return status_at(b[k].place, status_set(REFUSED,
-                                                        "boundary %s: the mirror is %.6g m from that of %s; with bonds "
-                                                        "of %.6g m they must be farther apart than %.6g m",
-                                                        b[k].name, apart, b[m].name, reach, reach - spacing));
+                return status_prepend_location(
+                    b[k].place, status_set(REFUSED,
+                                           "boundary %s: the mirror is %.6g m from that of %s; with bonds "
+                                           "of %.6g m they must be farther apart than %.6g m",
+                                           b[k].name, apart, b[m].name, reach, reach - spacing));
         }
     return OK;
 }
@@ -134,16 +135,16 @@ status loads_mirrors_make(struct loads *l, struct particles *p, real reach, int 
     for (int d = 0; d < p->dim; d++) l->place_step[d] = place_step(boundary, l->n, p, reach, d);
     for (int b = 0; b < l->n; b++) {
         if (boundary[b].kind != BOUNDARY_MIRROR) continue;
-        TRY(status_at(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
+        TRY(status_prepend_location(boundary[b].place, mirror_checked(&boundary[b], p, l->spacing)));
         l->load[b].outside = mirror_outside(&boundary[b], p);
         mirror_make(l, b, p, reach, optional);
     }
     l->reach = reach;
-    loads_mirror(l, p);
+    loads_update_images(l, p);
     return OK;
 }
 
-void loads_mirrors_mark(struct loads *l, const struct particles *p)
+void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *clamp = l->load[b].boundary;

@@ -20,7 +20,7 @@ static real formula_at(const struct boundary *b, int d, const struct particles *
     real X[DIM_MAX];
     if (formula_of(b, d)->n == 0) return 1;
     particle_place(p, i, X);
-    return expression_at(formula_of(b, d), X, p->dim, boundary_time(b, t));
+    return expression_evaluate(formula_of(b, d), X, p->dim, boundary_time(b, t));
 }
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
@@ -40,11 +40,11 @@ static status formula_finite(const struct load *l, const struct particles *p, re
     return OK;
 }
 
-status loads_finite(const struct loads *l, const struct particles *p, real t)
+status loads_check_finite(const struct loads *l, const struct particles *p, real t)
 {
     for (int b = 0; b < l->n; b++) {
         const struct boundary *by = l->load[b].boundary;
-        if (boundary_in_time(by)) TRY(status_at(by->place, formula_finite(&l->load[b], p, t, FAILED)));
+        if (boundary_in_time(by)) TRY(status_prepend_location(by->place, formula_finite(&l->load[b], p, t, FAILED)));
     }
     return OK;
 }
@@ -61,7 +61,7 @@ static void shares_part(struct load *l, const struct particles *p, bool with, re
     }
 }
 
-status load_formula_make(struct load *l, const struct particles *p)
+status load_prepare_shares(struct load *l, const struct particles *p)
 {
     const struct boundary *b = l->boundary;
     bool any = false;
@@ -77,7 +77,7 @@ status load_formula_make(struct load *l, const struct particles *p)
     return OK;
 }
 
-void load_moving_free(struct load *l)
+void load_time_shares_free(struct load *l)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(l->base[d]);
     load_surface_free(l->surface);
@@ -90,7 +90,7 @@ void load_moving_free(struct load *l)
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
-    const real from = time_function_at(&b->time, t - dt), to = time_function_at(&b->time, t);
+    const real from = time_function_value(&b->time, t - dt), to = time_function_value(&b->time, t);
     TEAM_LOOP(
         l->n > SUM_BLOCK, for (int64_t k = 0; k < l->n; k++) {
             const int32_t i = l->particle[k];
@@ -105,19 +105,19 @@ static void moving_update(struct loads *l, const struct particles *p, real t, re
     for (int b = 0; b < l->n; b++) {
         struct load *load = &l->load[b];
         if (!load->moving) continue;
-        if (load->surface) surface_areas(load->surface, p, load->base);
+        if (load->surface) surface_compute_areas(load->surface, p, load->base);
         for (int d = 0; d < p->dim; d++)
             if (load->boundary->value[d] != 0) moving_shares(load, p, d, t, dt, half);
     }
 }
 
-void loads_moving_push(struct loads *l, const struct particles *p, real t, real dt_velocity)
+void loads_update_shares_for_kick(struct loads *l, const struct particles *p, real t, real dt_velocity)
 {
     moving_update(l, p, t, dt_velocity, 1);
 }
 
 /* Mean of the kicks before and after a drift, at the positions before and after it. */
-void loads_moving_work(struct loads *l, const struct particles *p, real t, real dt)
+void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
 }
@@ -127,14 +127,14 @@ void loads_moving_work(struct loads *l, const struct particles *p, real t, real 
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {
     const struct boundary *b = l->boundary;
-    const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
+    const real factor = b->frozen ? 1 : time_function_value(&b->time, t);
     for (int d = 0; d < p->dim; d++) {
         const real share = l->moving ? l->base[d][k] * formula_at(b, d, p, l->particle[k], t) : l->share[d][k];
         force[d] = factor * b->value[d] * share;
     }
 }
 
-void load_applied_sum(struct load *l, const struct particles *p, real t)
+void load_sum_applied(struct load *l, const struct particles *p, real t)
 {
     real force[DIM_MAX], *const *share = l->moving ? l->base : l->share;
     memset(l->reaction, 0, sizeof l->reaction);
@@ -155,6 +155,6 @@ void load_applied_sum(struct load *l, const struct particles *p, real t)
 void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value)
 {
     const struct boundary *b = l->boundary;
-    const real factor = b->frozen ? 1 : time_function_at(&b->time, t);
+    const real factor = b->frozen ? 1 : time_function_value(&b->time, t);
     for (int d = 0; d < p->dim; d++) value[d] = factor * b->value[d] * formula_at(b, d, p, l->particle[k], t);
 }

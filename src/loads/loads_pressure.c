@@ -42,14 +42,14 @@ static void end_found(void *context, int32_t i, real area)
     if (!is_mirrored(e, i)) e->found(e->context, i, e->boundary->face, e->boundary->side, area);
 }
 
-void pressure_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
-                    const uint8_t *selected, pressure_face_fn *found, void *context)
+void pressure_visit_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
+                          const uint8_t *selected, pressure_face_fn *found, void *context)
 {
     struct boundary one = all[which];
     for (one.face = 0; one.face < p->dim; one.face++)
         for (one.side = -1; one.side <= 1; one.side += 2) {
             struct ends e = {&one, all, n, p, spacing, found, context};
-            face_every(&one, p, selected, spacing, end_found, &e);
+            face_visit_columns(&one, p, selected, spacing, end_found, &e);
         }
 }
 
@@ -87,15 +87,15 @@ static bool pressure_shares(struct load *l, struct particles *p, real *const *ar
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) chosen[i] |= area[d][i] != 0;
-    load_take(l, chosen, p);
+    load_set_particles(l, chosen, p);
     for (int d = 0; d < p->dim; d++)
         for (int64_t k = 0; k < l->n; k++) l->share[d][k] = -area[d][l->particle[k]];
     memory_free(chosen);
     return l->n > 0;
 }
 
-status load_select_pressure(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
-                            real spacing)
+status load_find_pressure_faces(struct load *l, const struct boundary *boundary, int n, int which, struct particles *p,
+                                real spacing)
 {
     const struct boundary *b = &boundary[which];
     const bool follows = b->follow && p->dim > 1; /* in 1D there is nothing to follow */
@@ -104,10 +104,10 @@ status load_select_pressure(struct load *l, const struct boundary *boundary, int
     status s = OK;
     if (b->kind != BOUNDARY_PRESSURE) return OK;
     uint8_t *selected = NEW("loads.selected", p->n, uint8_t);
-    const bool any = load_region(b, p, spacing, selected);
+    const bool any = load_mark_region(b, p, spacing, selected);
     for (int d = 0; d < p->dim; d++) area[d] = NEW("loads.area", p->n, real);
     struct pressed pressed = {area, follows ? &faces : NULL};
-    if (any) pressure_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
+    if (any) pressure_visit_faces(boundary, n, which, p, spacing, selected, face_pressed, &pressed);
     if (!any)
         s = status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     else if (follows)

@@ -6,14 +6,14 @@
 
 #define ROUND_OFF 1e-12 /* share of the largest possible moment below which a moment counts as 0 */
 
-void loads_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
+void loads_make_static_boundaries(struct boundary *to, const struct boundary *from, int n, real duration, real ramp)
 {
     for (int b = 0; b < n; b++) {
         real factor = 1;
         to[b] = from[b];
         to[b].frozen = true, to[b].frozen_at = duration;
         if (boundary_is_force(&from[b]) || from[b].displaces) {
-            factor = time_function_at(&from[b].time, duration);
+            factor = time_function_value(&from[b].time, duration);
             to[b].time = (struct time_function){.kind = TIME_RAMP, .until = ramp};
         } else if (from[b].kind == BOUNDARY_VELOCITY) {
             factor = time_function_integral(&from[b].time, duration) / ramp;
@@ -28,22 +28,22 @@ static bool works_by_place(const struct boundary *b) { return b->frozen && drive
 
 /* Returns the final displacement of component d of the k-th particle of a load; k < 0: of a load without particles
  * [m]. */
-static real static_displacement(const struct displacing *by, const struct load *l, const struct particles *p, int64_t k,
-                                int d)
+static real static_displacement(const struct prescribed_displacement *by, const struct load *l,
+                                const struct particles *p, int64_t k, int d)
 {
     real X[DIM_MAX] = {0};
     if (k >= 0) particle_place(p, l->particle[k], X);
-    return displacing_at(by, X, d);
+    return prescribed_displacement_at(by, X, d);
 }
 
-void loads_static_driven(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
-                         uint8_t *held)
+void loads_static_displacements(struct loads *l, const struct particles *p, real ramp, real *const *displacement,
+                                uint8_t *held)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         const struct boundary *b = load->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(b, p->dim, ramp);
+        const struct prescribed_displacement by = prescribed_displacement_make(b, p->dim, ramp);
         for (int d = 0; d < p->dim; d++) {
             real sum = 0;
             if (!(b->components >> d & 1)) continue;
@@ -76,7 +76,7 @@ static void moment(const struct loads *l, const struct particles *p, real *turni
     }
 }
 
-real loads_static_balance(struct loads *l, const struct particles *p)
+real loads_add_inertia_relief(struct loads *l, const struct particles *p)
 {
     real mass = 0, inertia = 0, turning, most;
     memset(l->centre, 0, sizeof l->centre);
@@ -92,7 +92,7 @@ real loads_static_balance(struct loads *l, const struct particles *p)
     return most > 0 ? fabs(turning) / most : 0;
 }
 
-void loads_static_force(const struct loads *l, struct particles *p)
+void loads_add_static_forces(const struct loads *l, struct particles *p)
 {
     for (int64_t i = 0; i < p->n && l->turn != 0; i++) {
         p->f[0][i] += l->turn * p->mass[i] * (p->X[1][i] - l->centre[1]);
@@ -106,14 +106,14 @@ void loads_static_force(const struct loads *l, struct particles *p)
     }
 }
 
-void loads_static_hold(struct loads *l, struct particles *p)
+void loads_collect_static_reactions(struct loads *l, struct particles *p)
 {
     for (int c = 0; c < l->n; c++) {
         struct load *load = &l->load[c];
         memset(load->reaction, 0, sizeof load->reaction);
         load->held_work = 0;
         if (load->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(load->boundary, p->dim, INFINITY);
+        const struct prescribed_displacement by = prescribed_displacement_make(load->boundary, p->dim, INFINITY);
         const bool by_place = works_by_place(load->boundary);
         for (int64_t k = 0; k < load->n; k++)
             for (int d = 0; d < p->dim; d++) {
@@ -126,7 +126,7 @@ void loads_static_hold(struct loads *l, struct particles *p)
     }
 }
 
-void loads_static_work(struct loads *l, const struct particles *p)
+void loads_compute_static_work(struct loads *l, const struct particles *p)
 {
     l->work = l->constraint_work = 0;
     for (int c = 0; c < l->n; c++) {

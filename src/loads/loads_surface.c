@@ -144,11 +144,12 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
             const real twice = mirror_steps(s, &s->all[m], s->p->body[i]);
             if (fabs(s->p->X[s->all[m].axis][i] - s->all[m].at) > BESIDE * s->spacing) continue;
             if (fabs(remainder(twice - 1, 2)) < 2 * OFF_LATTICE) continue;
-            return status_at(s->all[m].place,
-                             status_set(REFUSED,
-                                        "boundary %s: follow: true needs mirror planes midway between particles; a "
-                                        "plane half a spacing from the first particles, or follow: false, is expected",
-                                        s->all[m].name));
+            return status_prepend_location(
+                s->all[m].place,
+                status_set(REFUSED,
+                           "boundary %s: follow: true needs mirror planes midway between particles; a "
+                           "plane half a spacing from the first particles, or follow: false, is expected",
+                           s->all[m].name));
         }
     return OK;
 }
@@ -368,13 +369,13 @@ static void surface_fill(struct surface *a, struct load *l, const struct sites *
     corners_make(a, s, all, f);
     uint8_t *chosen = NEW("loads.chosen", p->n, uint8_t);
     for (int64_t q = 0; q < a->first[a->corners]; q++) chosen[a->particle[q]] = 1;
-    load_take(l, chosen, p);
+    load_set_particles(l, chosen, p);
     a->particles = l->n;
     shares_transpose(a, l, p->n);
     a->x = NEW("loads.corner_x", a->corners * a->dim, real);
     a->area = NEW("loads.corner_area", a->corners * a->dim, real);
     a->face_area = NEW("loads.face_area", a->faces * FACE_CORNERS * a->dim, real);
-    surface_areas(a, p, l->share);
+    surface_compute_areas(a, p, l->share);
     memory_free(chosen);
     memory_free(all);
 }
@@ -507,7 +508,7 @@ static real surface_share(const struct surface *s, int64_t k, int d)
 }
 
 /* Each pass gathers: equal bits on any number of threads. */
-void surface_areas(struct surface *s, const struct particles *p, real *const *area)
+void surface_compute_areas(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;
     TEAM_LOOP(many, for (int64_t c = 0; c < s->corners; c++) surface_corner_place(s, p, c););

@@ -26,7 +26,7 @@ status load_surface_make(struct load *l, const struct surface_faces *faces, cons
 
 /* Computes the area vectors, pointing into the body, that belong to the particles of the load, from the present
  * particle positions. area: [dim][number of particles of the load] [m^2]. */
-void surface_areas(struct surface *s, const struct particles *p, real *const *area);
+void surface_compute_areas(struct surface *s, const struct particles *p, real *const *area);
 
 /* Releases all arrays of the surface and the surface itself. */
 void load_surface_free(struct surface *s);

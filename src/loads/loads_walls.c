@@ -29,7 +29,7 @@ static bool node_constrained(const struct load *load, const struct grid *g, cons
            load->outside * (x[b->axis] - b->at) >= -tolerance;
 }
 
-bool mirror_on_nodes(const struct boundary *b, const struct grid *g, real spacing)
+bool mirror_fits_grid(const struct boundary *b, const struct grid *g, real spacing)
 {
     const real steps = 2 * (b->at - g->anchor[b->axis]) / g->h;
     return fabs(steps - nearbyint(steps)) * g->h <= 2 * LOADS_TOLERANCE * spacing;
@@ -44,7 +44,7 @@ static bool node_reflect(const struct load *load, const struct grid *g, real spa
     const real away = b->at - grid_position(g, b->axis, k[b->axis]);
     if (-load->outside * away <= LOADS_TOLERANCE * spacing) return true;
     const int64_t whole = llround(2 * away / g->h);
-    if (!mirror_on_nodes(b, g, spacing) || whole < -4 || whole > 4) return false;
+    if (!mirror_fits_grid(b, g, spacing) || whole < -4 || whole > 4) return false;
     k[b->axis] += whole;
     for (int d = 0; d < DIM_MAX; d++)
         if (d == b->axis || b->hold_tangential) f->sign[d] = (int8_t)-f->sign[d];
@@ -174,7 +174,7 @@ static int64_t driven_share(struct loads *l, const struct load *load, const stru
 
 /* Motion that a load prescribes in this step and in the previous one. */
 struct driven_by {
-    struct driving now, before;
+    struct prescribed_motion now, before;
 };
 
 /* Adds a wall for component d of node I at x. Its change of velocity is that of the material at the node, which a
@@ -184,11 +184,11 @@ static void wall_add(struct grid *g, const struct driven_by *by, int64_t I, cons
 {
     const struct boundary *b = by->now.boundary;
     const bool drives = b->kind == BOUNDARY_VELOCITY, first = by->now.t <= by->now.dt;
-    const real velocity = drives ? driving_at(&by->now, x, d, !reference) : 0;
-    const real place = b->displaces && reference ? displacing_at(&by->now.to, x, d) : NAN;
+    const real velocity = drives ? prescribed_velocity_at(&by->now, x, d, !reference) : 0;
+    const real place = b->displaces && reference ? prescribed_displacement_at(&by->now.to, x, d) : NAN;
     real change = 0;
     if (drives && !first && (b->rotates || b->displaces || b->formula[d].n > 0))
-        change = velocity - driving_at(&by->before, x, d, !reference);
+        change = velocity - prescribed_velocity_at(&by->before, x, d, !reference);
     else if (drives && !first)
         change = (by->now.factor - by->before.factor) * b->value[d];
     grid_add_wall(g, &(struct wall){(int32_t)I, (int16_t)d, (int16_t)which, velocity, change, place, 0});
@@ -216,8 +216,8 @@ static void driven_walls(struct loads *l, int which, struct grid *g, const struc
 static void driven_by_all(const struct loads *l, int dim, real t, real dt, struct driven_by *by)
 {
     for (int b = 0; b < l->n; b++) {
-        by[b].now = loads_driving(l, b, dim, t, dt);
-        by[b].before = t > dt ? driving_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
+        by[b].now = loads_prescribed_motion(l, b, dim, t, dt);
+        by[b].before = t > dt ? prescribed_motion_make(l->load[b].boundary, dim, t - dt, dt) : by[b].now;
     }
 }
 
@@ -234,8 +234,8 @@ static void constrained_walls(const struct constrained_set *s, struct grid *g, c
     }
 }
 
-void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
-                 const struct kernels *k, real half_width, real t, real dt)
+void loads_set_grid_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
+                          const struct kernels *k, real half_width, real t, real dt)
 {
     struct driven_by by[BOUNDARIES_MAX];
     g->walls = 0;
@@ -246,7 +246,7 @@ void loads_walls(struct loads *l, struct constrained_set *held, struct grid *g, 
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY && driven_share(l, &l->load[b], g, p, k, half_width) > 0)
             driven_walls(l, b, g, &by[b], p);
-    loads_dashpots(l, g, p, k, half_width);
+    loads_add_grid_dashpots(l, g, p, k, half_width);
 }
 
 /* ---- walls of the mesh ------------------------------------------------------------------------------------------- */
@@ -282,7 +282,7 @@ static void mesh_driven(struct loads *l, int which, const struct mesh *mesh, con
     memory_free(mark);
 }
 
-void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles *p)
+void loads_find_mesh_nodes(struct loads *l, struct mesh *mesh, const struct particles *p)
 {
     if (mesh->points == 0) return;
     /* regions and mirrors are constant; driven nodes depend on masses */
@@ -293,10 +293,11 @@ void loads_mesh_find(struct loads *l, struct mesh *mesh, const struct particles 
     l->constrained_mesh.n = l->constrained_mesh.lasting;
     for (int b = 0; b < l->n; b++)
         if (l->load[b].boundary->kind == BOUNDARY_VELOCITY) mesh_driven(l, b, mesh, p);
-    loads_mesh_dashpots(l, mesh, p);
+    loads_add_mesh_dashpots(l, mesh, p);
 }
 
-void loads_level_find(const struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p)
+void loads_find_level_nodes(const struct loads *l, struct constrained_set *held, struct grid *g,
+                            const struct particles *p)
 {
     if (!constrained_is_current(held, g)) constrained_find(l, held, g, NULL, p, true);
 }
@@ -311,12 +312,12 @@ static void reference_walls(const struct loads *l, const struct constrained_set 
     constrained_walls(held, g, mesh, by, true);
 }
 
-void loads_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)
+void loads_set_level_walls(const struct loads *l, const struct constrained_set *held, struct grid *g, real t, real dt)
 {
     reference_walls(l, held, g, NULL, t, dt);
 }
 
-void loads_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
+void loads_set_mesh_walls(const struct loads *l, struct mesh *mesh, real t, real dt)
 {
     reference_walls(l, &l->constrained_mesh, &mesh->grid, mesh, t, dt);
 }

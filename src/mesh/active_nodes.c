@@ -89,10 +89,10 @@ void active_nodes_add_exposed(struct mesh *mesh)
     for (int64_t k = 0; k < mesh->exposed && mesh->active.is_current; k++)
         for (int c = 0; c < 1 << dim; c++)
             mesh_activate(mesh, mesh_block(mesh, mesh_node(mesh, mesh->exposed_list[k].cell, c)));
-    active_set_list(&mesh->active);
+    active_set_rebuild_list(&mesh->active);
 }
 
-void active_nodes_all(struct mesh *mesh)
+void active_nodes_activate_all(struct mesh *mesh)
 {
     mesh->active.is_current = false;
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
@@ -130,6 +130,6 @@ void active_nodes_update(struct mesh *mesh, const struct loads *l)
     }
     for (int64_t k = 0; k < r->active && moved; k++)
         if (r->moved[r->list[k]]) mesh_activate(mesh, r->list[k]);
-    if (moved || r->resumed) active_set_list(r);
+    if (moved || r->resumed) active_set_rebuild_list(r);
     r->resumed = false;
 }

@@ -14,7 +14,7 @@
  * piece on one lattice, with particles at the quarter points of cells. */
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
 {
-    const int64_t pieces = mesh_pieces(p, &mpm->field[0].grid, hollow);
+    const int64_t pieces = mesh_count_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
         return "its particles do not lie two a cell and direction; mpm.origin or a mirror puts the nodes elsewhere";
     return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
@@ -48,11 +48,11 @@ status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct 
         take_frame(&r->choice[b], said != FRAME_CURRENT,
                    said == FRAME_REFERENCE ? "the scene says so" : s->body[b].frame_reason);
     }
-    grid_part_make(mpm, s, p, frame_any(r));
+    grid_part_make(mpm, s, p, frame_in_use(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, mpm, &r->hollow);
         take_frame(&r->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
-        if (why) grid_part_make(mpm, s, p, frame_any(r));
+        if (why) grid_part_make(mpm, s, p, frame_in_use(r));
     }
     frames_mark(p, r);
     return OK;
@@ -60,10 +60,10 @@ status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct 
 
 bool frame_allowed(const struct reference_frame *r, const struct particles *p, const struct grid_method *mpm)
 {
-    return mesh_pieces(p, &mpm->field[0].grid, &r->hollow) == 1;
+    return mesh_count_parts(p, &mpm->field[0].grid, &r->hollow) == 1;
 }
 
-bool frame_any(const struct reference_frame *r)
+bool frame_in_use(const struct reference_frame *r)
 {
     for (int b = 0; b < r->bodies; b++)
         if (r->choice[b].reference) return true;
@@ -81,17 +81,17 @@ static struct elastic *cell_constants(const struct scene *s, const struct elasti
         real c12;
         cell[m] = own[m];
         if (!s->lattice_constants) continue;
-        family_constants(family, &s->material[m], &cell[m].c11, &c12);
+        family_elastic_constants(family, &s->material[m], &cell[m].c11, &c12);
         if (s->dim > 1) cell[m].c12 = cell[m].shear = c12;
     }
     return cell;
 }
 
-void frame_follow_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                         struct loads *loads)
+void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                               struct loads *loads)
 {
     mesh_find_exposed(&r->mesh, p, bonds, loads);
-    loads_mesh_find(loads, &r->mesh, p);
+    loads_find_mesh_nodes(loads, &r->mesh, p);
 }
 
 status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
@@ -106,15 +106,15 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
                                      .hollow = &r->hollow,
                                      .slit = cuts->slit,
                                      .slits = cuts->slits,
-                                     .voids = grid_mirror_between(g, e->scene) ? NULL : e->source.voids,
+                                     .voids = grid_mirror_off_nodes(g, e->scene) ? NULL : e->source.voids,
                                      .mirror = e->source.mirror,
                                      .mirrors = e->source.mirrors,
                                      .still = still};
     TRY(mesh_make(&r->mesh, &e->part, g, &r->source));
     /* a mesh rebuilt after a restart has no mirrors, though its box is unchanged */
     e->loads.constrained_mesh.count[0] = 0;
-    frame_levels_room(r, e->scene, e->part.n_body);
-    frame_follow_points(r, &e->part, &e->bonds, &e->loads);
+    frame_levels_find_limits(r, e->scene, e->part.n_body);
+    frame_find_exposed_points(r, &e->part, &e->bonds, &e->loads);
     return OK;
 }
 
@@ -131,43 +131,43 @@ real frame_critical_step(const struct reference_frame *r, const struct scene *s,
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
-void frame_exposed_follow(struct reference_frame *r, struct particles *p)
+void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
     mesh_ends_update(&r->mesh, p, r->finite);
 }
 
-void frame_force(struct reference_frame *r, struct particles *p, int64_t step)
+void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step)
 {
     mesh_clear(&r->mesh);
     mesh_exposed_force(&r->mesh, p);
     mesh_force(&r->mesh, p, r->elastic, r->finite);
-    levels_force(&r->levels, p, r->coarse, r->finite, levels_due(&r->levels, step));
+    levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due(&r->levels, step));
 }
 
 /* Sets the walls of the mesh and of the coarse cells that move in this step, with their longer steps. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
-    loads_mesh_walls(loads, &r->mesh, middle, dt);
+    loads_set_mesh_walls(loads, &r->mesh, middle, dt);
     for (int k = 1; k <= due; k++) {
         struct mesh_level *level = &r->levels.at[k];
         const real longer = (real)(1 << k) * dt;
-        loads_level_walls(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
+        loads_set_level_walls(loads, &level->held, &level->mesh.grid, middle + 0.5 * (longer - dt), longer);
     }
 }
 
 /* Books the reactions of the walls of the mesh and of coarse levels up to `due`. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
-    loads_react(loads, &frame->mesh.grid, dt_velocity);
+    loads_add_reactions(loads, &frame->mesh.grid, dt_velocity);
     for (int level = 1; level <= due; level++)
-        loads_react(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
+        loads_add_reactions(loads, &frame->levels.at[level].mesh.grid, dt_velocity * (real)(1 << level));
 }
 
-void frame_move(struct reference_frame *r, struct particles *p, struct loads *loads, const struct run_clock *clock,
-                real middle, real dt_velocity)
+void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
+                      const struct run_clock *clock, real middle, real dt_velocity)
 {
-    const int due = levels_due(&r->levels, clock->step);
+    const int due = levels_highest_due(&r->levels, clock->step);
     if (r->mesh.points == 0) return;
     if (r->converts) mesh_points_mark(&r->mesh, p, r->elastic, r->finite);
     nodes_walls(r, loads, middle, clock->dt, due);
@@ -175,52 +175,53 @@ void frame_move(struct reference_frame *r, struct particles *p, struct loads *lo
                    ? levels_move(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
                    : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
-    frame_exposed_follow(r, p);
+    frame_update_exposed_points(r, p);
     if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
 }
 
-void frame_sync_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void frame_update_point_motion(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
     levels_prolong_points(&r->levels);
     mesh_points_move(&r->mesh, p);
-    loads_mirror(loads, p);
+    loads_update_images(loads, p);
 }
 
-void frame_sync(struct reference_frame *r, struct particles *p, const struct loads *loads)
+void frame_update_points(struct reference_frame *r, struct particles *p, const struct loads *loads)
 {
     if (r->mesh.points == 0) return;
-    frame_sync_motion(r, p, loads);
+    frame_update_point_motion(r, p, loads);
     mesh_points_stress(&r->mesh, p, r->elastic, r->finite);
 }
 
-void frame_sync_listed(struct reference_frame *r, struct particles *p, const struct loads *loads, const int32_t *list,
-                       int64_t n)
+void frame_update_listed_points(struct reference_frame *r, struct particles *p, const struct loads *loads,
+                                const int32_t *list, int64_t n)
 {
     if (r->mesh.points == 0) return;
     mesh_listed_move(&r->mesh, p, list, n);
-    loads_mirror(loads, p);
+    loads_update_images(loads, p);
 }
 
-bool frame_follow(struct reference_frame *r, struct particles *p, int64_t converted,
-                  const struct partial_stress *partial, real *damped)
+bool frame_update_after_conversion(struct reference_frame *r, struct particles *p, int64_t converted,
+                                   const struct partial_stress *partial, real *damped)
 {
     if (r->mesh.points == 0) return false;
     /* if bonds break without conversion, the same cells stay partial: their stiffness is recomputed in place */
-    if (converted == 0 && mesh_refresh(&r->mesh, p, &r->source, partial->touched, partial->touches)) return false;
-    *damped += mesh_follow(&r->mesh, p, &r->source, partial->touched, partial->touches);
+    if (converted == 0 && mesh_update_partial_stiffness(&r->mesh, p, &r->source, partial->touched, partial->touches))
+        return false;
+    *damped += mesh_remove_converted(&r->mesh, p, &r->source, partial->touched, partial->touches);
     return true;
 }
 
-void frame_insert(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped)
+void frame_insert_points(struct reference_frame *r, struct particles *p, const int32_t *list, int64_t n, real *damped)
 {
     int32_t *own = NEW("engine.own", n, int32_t);
     int64_t m = 0;
     for (int64_t k = 0; k < n; k++)
         if (r->mesh.place && r->choice[p->body[list[k]]].reference) own[m++] = list[k];
     if (m > 0) {
-        *damped += mesh_insert(&r->mesh, p, own, m);
-        active_nodes_all(&r->mesh);
+        *damped += mesh_insert_points(&r->mesh, p, own, m);
+        active_nodes_activate_all(&r->mesh);
     }
     memory_free(own);
 }

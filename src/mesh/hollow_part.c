@@ -15,7 +15,7 @@ enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
-const char *frame_hollow_obstacle(const struct scene *s)
+const char *frame_hollow_why_not(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
     if (s->method == METHOD_PD || scene_at_rest(s) || s->levels == 0) return "there are no coarse cells";
@@ -46,11 +46,11 @@ const char *frame_hollow_obstacle(const struct scene *s)
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
-    TRY(fill_place(s, 0, site));
+    TRY(fill_lattice_site(s, 0, site));
     region_bounds(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
-    grid_anchor(s, from, site, true, box->anchor);
-    return grid_box(box, from, to, INT32_MAX) ? OK : status_set(REFUSED, "too large for the spacing");
+    grid_choose_anchor(s, from, site, true, box->anchor);
+    return grid_compute_box(box, from, to, INT32_MAX) ? OK : status_set(REFUSED, "too large for the spacing");
 }
 
 /* Returns true if a particle at X is needed because of pre-cracks. h: size of a cell [m]. */
@@ -61,7 +61,7 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
         flank + source->family.cutoff + real_max(s->conversion.tips * source->family.horizon, NOTCH_ZONE * s->spacing);
     for (int k = 0; k < s->cracks; k++) {
         const struct crack *c = &s->crack[k];
-        if (crack_near(c, X, flank, s->dim)) return true;
+        if (crack_may_cut_near(c, X, flank, s->dim)) return true;
         for (int a = 0; a < c->n; a++) {
             const real *from = c->corner[a], *to = s->dim == 3 ? c->corner[(a + 1) % c->n] : from;
             if (segment_distance(from, to, X, s->dim) <= end) return true;
@@ -137,14 +137,14 @@ static bool cell_needed(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct bond_source *source)
+status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const struct bond_source *source)
 {
     int64_t absent = 0;
-    if (h->whole || frame_hollow_obstacle(s)) return OK;
+    if (h->whole || frame_hollow_why_not(s)) return OK;
     TRY(box_find(&h->box, s));
     const int64_t least = s->fill == FILL_NEEDED ? 0 : PAYS >> h->box.dim;
     if (h->box.n <= least) return OK;
-    fill_whole(h, s, 0);
+    fill_mark_whole_cells(h, s, 0);
     h->absent = NEW("hollow.absent", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096) reduction(+ : absent)
     for (int64_t I = 0; I < h->box.n; I++) {
@@ -161,7 +161,7 @@ status frame_hollow_plan(struct hollow *h, const struct scene *s, const struct b
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-bool frame_hollow_lacks(const struct mesh *mesh, const uint8_t *level)
+bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
         if (mesh->absent[I] && level[I] == 0) return true;
@@ -177,7 +177,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     uint8_t *absent = NEW("hollow.absent", h->box.n, uint8_t), *keep = NEW("hollow.keep", g->n, uint8_t);
     for (int64_t I = 0; I < g->n; I++) { /* also where bonds have taken all points of a cell */
         const int64_t J = grid_same_cell(g, I, &h->box);
-        keep[I] = level[I] == 0 && (mesh_cell_holds(&r->mesh, I) || (J >= 0 && h->whole[J]));
+        keep[I] = level[I] == 0 && (mesh_cell_has_body(&r->mesh, I) || (J >= 0 && h->whole[J]));
     }
     levels_dilate(&r->levels, keep, ahead);
     for (int64_t I = 0; I < g->n; I++) {
@@ -191,7 +191,7 @@ static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *leve
     return absent;
 }
 
-bool frame_hollow_start(struct reference_frame *r, const uint8_t *level)
+bool frame_hollow_check_start(struct reference_frame *r, const uint8_t *level)
 {
     if (!r->hollow.absent) return true;
     if (r->hollow.restored) return false; /* the checkpoint contains the levels */
@@ -200,7 +200,7 @@ bool frame_hollow_start(struct reference_frame *r, const uint8_t *level)
         r->hollow.absent = NULL, r->lacks = true;
         return false;
     }
-    r->lacks = frame_hollow_lacks(&r->mesh, level);
+    r->lacks = frame_hollow_lacks_particles(&r->mesh, level);
     if (!r->lacks) return true;
     uint8_t *absent = absent_with(r, level, 0);
     for (int64_t J = 0; J < r->hollow.box.n; J++) r->hollow.absent[J] &= absent[J];
@@ -208,7 +208,7 @@ bool frame_hollow_start(struct reference_frame *r, const uint8_t *level)
     return false;
 }
 
-void frame_hollow_change(struct reference_frame *r, const uint8_t *level)
+void frame_hollow_update_cells(struct reference_frame *r, const uint8_t *level)
 {
     uint8_t *absent = absent_with(r, level, AHEAD);
     memory_free(r->hollow.absent);

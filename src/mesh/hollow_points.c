@@ -53,22 +53,23 @@ void frame_hollow_points_free(struct hollow_points *h)
     }
 }
 
-bool frame_hollow_points(struct reference_frame *r, const struct particles *body, const struct material *m,
-                         bool gradients)
+bool frame_hollow_make_points(struct reference_frame *r, const struct particles *body, const struct material *m,
+                              bool gradients)
 {
     struct mesh_levels *l = &r->levels;
     const int dim = body->dim;
     int64_t cells[LEVELS_MAX + 1] = {0}, points = 0;
     frame_hollow_points_free(&r->shown);
     if (!r->hollow.absent) return false;
-    for (int level = 1; level <= l->n; level++) points += (cells[level] = levels_hollow(l, level, NULL)) << dim;
+    for (int level = 1; level <= l->n; level++)
+        points += (cells[level] = levels_list_hollow_cells(l, level, NULL)) << dim;
     particles_make(&r->shown.part, dim, points, 0);
     r->shown.part.plane_strain = body->plane_strain;
     r->shown.spacing = NEW("report.spacing", points, real);
     for (int k = 0; k < dim * dim && gradients; k++) r->shown.gradient[k] = NEW("report.gradient", points, real);
     for (int level = 1, first = 0; level <= l->n; first += (int)cells[level] << dim, level++) {
         int64_t *cell = BARE("report.cell", cells[level], int64_t);
-        levels_hollow(l, level, cell);
+        levels_list_hollow_cells(l, level, cell);
         level_points(r, body, m, level, cell, cells[level], first);
         memory_free(cell);
     }

@@ -47,13 +47,13 @@ status levels_make(struct mesh_levels *l, int n, struct mesh *fine, const struct
     if (n == 0 || fine->points == 0) return OK;
     l->n = n, l->fine = fine;
     corner_find(l, p);
-    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_cells_again */
+    l->level = NEW("levels.level", fine->grid.n + LANES, uint8_t); /* with room for marks: mesh_cells_update */
     l->calm = NEW("levels.calm", fine->grid.n, uint8_t);
     l->wanted = NEW("levels.wanted", fine->grid.n, uint8_t);
     l->safe = NEW("levels.safe", fine->grid.n, uint8_t);
     fine->level = l->level;
     for (int level = 1; level <= n; level++) TRY(level_make(l, level, source, density));
-    levels_find_safe(l);
+    levels_classify_cells(l);
     return OK;
 }
 
@@ -75,24 +75,24 @@ void levels_free(struct mesh_levels *l)
 
 /* ---- points of coarse cells -------------------------------------------------------------------------------------- */
 
-void levels_sync(struct mesh_levels *l)
+void levels_copy_to_ghosts(struct mesh_levels *l)
 {
-    for (int level = 1; level <= l->n; level++) levels_ghosts_follow(l, level);
+    for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
 }
 
 void levels_prolong(struct mesh_levels *l)
 {
-    levels_sync(l);
+    levels_copy_to_ghosts(l);
     if (l->n > 0) levels_interpolate(l, true);
 }
 
 void levels_prolong_points(struct mesh_levels *l)
 {
-    levels_sync(l);
+    levels_copy_to_ghosts(l);
     if (l->n > 0) levels_interpolate(l, false);
 }
 
-bool levels_inverted(const struct mesh_levels *l, real *X)
+bool levels_find_inverted_cell(const struct mesh_levels *l, real *X)
 {
     for (int level = 1; level <= l->n; level++) {
         const struct mesh *mesh = &l->at[level].mesh;
@@ -105,7 +105,7 @@ bool levels_inverted(const struct mesh_levels *l, real *X)
     return false;
 }
 
-int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell)
+int64_t levels_list_hollow_cells(const struct mesh_levels *l, int level, int64_t *cell)
 {
     const struct mesh *mesh = &l->at[level].mesh;
     int64_t n = 0, k[DIM_MAX] = {0};
@@ -120,7 +120,7 @@ int64_t levels_hollow(const struct mesh_levels *l, int level, int64_t *cell)
     return n;
 }
 
-int64_t levels_cells(const struct mesh_levels *l, int level)
+int64_t levels_count_cells(const struct mesh_levels *l, int level)
 {
     int64_t cells = 0;
     if (level > 0) return l->at[level].cells;
@@ -130,22 +130,22 @@ int64_t levels_cells(const struct mesh_levels *l, int level)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
-real levels_kinetic(const struct mesh_levels *l)
+real levels_kinetic_energy(const struct mesh_levels *l)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kinetic(&l->at[level].mesh);
     return sum;
 }
 
-real levels_strain(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite)
+real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite)
 {
     real sum = 0;
-    levels_sync(l);
+    levels_copy_to_ghosts(l);
     for (int level = 1; level <= l->n; level++) sum += mesh_strain(&l->at[level].mesh, p, m, finite);
     return sum;
 }
 
-real levels_kick(const struct mesh_levels *l, real dt)
+real levels_kick_energy(const struct mesh_levels *l, real dt)
 {
     real sum = 0;
     for (int level = 1; level <= l->n; level++) sum += mesh_kick(&l->at[level].mesh, dt * (real)(1 << level));
@@ -191,15 +191,15 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 /* Makes all data that follow from the levels of cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
-    mesh_cells_again(l->fine, p, source, l->level);
+    mesh_cells_update(l->fine, p, source, l->level);
     levels_cells_make(l, p);
-    levels_link(l);
-    levels_fold(l, false);
+    levels_find_interfaces(l);
+    levels_fold_masses(l, false);
     levels_runs_make(l);
-    levels_find_safe(l);
+    levels_classify_cells(l);
 }
 
-void levels_follow_fine(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
+void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     uint8_t *stressed[LEVELS_MAX + 1];
     l->fine->level = l->level;
@@ -238,7 +238,8 @@ status levels_archive(struct mesh_levels *l, const struct particles *p, const st
     ARCHIVE_VALUE(a, "levels/any_wanted", l->any_wanted);
     ARCHIVE_VALUE(a, "levels/changes", l->changes);
     if (!a->saving) {
-        if (!levels_sound(l)) return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
+        if (!levels_are_consistent(l))
+            return status_set(FAILED, "cannot resume: the levels of the checkpoint are no mesh");
         cells_from_levels(l, p, source);
     }
     for (int level = 1; level <= l->n; level++) TRY(level_archive(&l->at[level].mesh, level, a));

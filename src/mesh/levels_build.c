@@ -125,7 +125,7 @@ static void matched_find(struct mesh *mesh)
     }
 }
 
-void levels_link(struct mesh_levels *l)
+void levels_find_interfaces(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         interface_find(l, level);
@@ -147,7 +147,7 @@ static void hanging_give(struct grid *g, const struct mesh_hanging *h, int d)
     g->momentum[d][h->node] = 0;
 }
 
-void levels_fold(struct mesh_levels *l, bool momenta)
+void levels_fold_masses(struct mesh_levels *l, bool momenta)
 {
     for (int level = 1; level <= l->n; level++) {
         struct mesh_level *m = &l->at[level];
@@ -182,7 +182,7 @@ void levels_runs_make(struct mesh_levels *l)
     mesh_blocks_activate(l->fine);
 }
 
-void levels_match(struct mesh_levels *l, real edge, real wave_speed, real dt)
+void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt)
 {
     l->wave_speed = wave_speed;
     for (int level = 1; level <= l->n; level++) {

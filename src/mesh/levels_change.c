@@ -169,7 +169,7 @@ static void velocities_make(struct mesh_levels *l)
                 mesh->grid.momentum[d][I] = mesh->grid.force[d][I] = 0;
             }
     }
-    levels_momenta_find(l);
+    levels_compute_momenta(l);
 }
 
 /* Iterations of w <- w + v - B w for B w = v (kernels/mesh/mesh_inertia.h), to round-off: eigenvalues of B - 1 are
@@ -178,7 +178,7 @@ static void velocities_make(struct mesh_levels *l)
 enum { MOMENTA_ROUNDS = 52 };
 #define MOMENTA_TOLERANCE 3e-16 /* tolerance of the residual [largest velocity] */
 
-void levels_momenta_find(struct mesh_levels *l)
+void levels_compute_momenta(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) {
         struct grid *g = &l->at[level].mesh.grid;
@@ -205,11 +205,12 @@ void levels_momenta_find(struct mesh_levels *l)
     }
 }
 
-void levels_half_kick(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, real dt)
+void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
+                             real dt)
 {
     mesh_clear(l->fine);
     mesh_force(l->fine, p, m, finite);
-    levels_force(l, p, m, finite, l->n);
+    levels_compute_forces(l, p, m, finite, l->n);
     for (int level = 0; level <= l->n; level++) {
         struct mesh *mesh = level_mesh(l, level);
         const real half = 0.5 * dt * (real)(1 << level);
@@ -220,8 +221,8 @@ void levels_half_kick(struct mesh_levels *l, const struct particles *p, const st
         }
         if (level > 0) mesh_velocity(mesh, mesh->grid.momentum, mesh->grid.velocity);
     }
-    for (int level = 1; level <= l->n; level++) levels_hanging_follow(l, level);
-    levels_sync(l);
+    for (int level = 1; level <= l->n; level++) levels_update_hanging(l, level);
+    levels_copy_to_ghosts(l);
 }
 
 void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
@@ -229,22 +230,22 @@ void levels_change(struct mesh_levels *l, const struct particles *p, const struc
 {
     const int64_t cells = l->fine->grid.n;
     uint8_t *before = NEW("levels.before", 2 * cells + LANES, uint8_t), *dirty = before + cells;
-    levels_sync(l);
+    levels_copy_to_ghosts(l);
     levels_interpolate(l, true);
     array_copy(before, l->level, cells, 1);
     for (int64_t I = 0; I < cells; I++) dirty[I] = before[I] != level[I];
     array_copy(l->level, level, cells, 1);
-    mesh_cells_again(l->fine, p, source, dirty);
+    mesh_cells_update(l->fine, p, source, dirty);
     levels_cells_make(l, p);
-    levels_link(l);
+    levels_find_interfaces(l);
     nodes_sample(l);
     merged_cells_correct(l, before);
-    levels_fold(l, true);
+    levels_fold_masses(l, true);
     levels_runs_make(l);
     velocities_make(l);
-    for (int k = 1; k <= l->n; k++) levels_hanging_follow(l, k);
-    levels_sync(l);
-    levels_find_safe(l);
+    for (int k = 1; k <= l->n; k++) levels_update_hanging(l, k);
+    levels_copy_to_ghosts(l);
+    levels_classify_cells(l);
     l->changes++;
     memory_free(before);
 }

@@ -100,12 +100,12 @@ static real spacings_across(const struct scene *s, const struct particles *p, co
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-void frame_levels_room(struct reference_frame *r, const struct scene *s, int64_t particles)
+void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
     if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
     if (s->levels == LEVELS_AUTO && particles < PAYS) return;
     r->room = NEW("engine.room", r->mesh.grid.n, uint8_t);
-    r->room_most = mesh_room(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
+    r->room_most = mesh_level_limits(&r->mesh, r->source.mirror, r->source.mirrors, r->room);
 }
 
 struct levels_choice frame_levels_choice(const struct reference_frame *r, const struct particles *p,
@@ -208,7 +208,7 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
                  edge, load, c->across, ACROSS);
 }
 
-void frame_levels_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
+void frame_levels_describe(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
 {
     char why[600];
     automatic_text(c, s, why, sizeof why);
@@ -242,8 +242,8 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
     return true;
 }
 
-bool frame_levels_coarse(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                         char *text, size_t room)
+bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
+                               char *text, size_t room)
 {
     char load[256], want[160];
     int levels = c->rise.pulse ? 0 : CARRIED_BY_ANY;

@@ -118,8 +118,8 @@ static void level_map_find(struct level_map *map, const struct mesh_levels *l, i
     memory_free(inside);
 }
 
-void levels_map(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand, const uint8_t *limit,
-                uint8_t *to)
+void levels_coarsest_admissible(const struct mesh_levels *l, const struct particles *p, const uint8_t *demand,
+                                const uint8_t *limit, uint8_t *to)
 {
     struct level_map map[LEVELS_MAX + 1];
     int64_t k[DIM_MAX] = {0};
@@ -133,7 +133,7 @@ void levels_map(const struct mesh_levels *l, const struct particles *p, const ui
     for (int level = 0; level <= l->n; level++) memory_free(map[level].ok);
 }
 
-bool levels_sound(const struct mesh_levels *l)
+bool levels_are_consistent(const struct mesh_levels *l)
 {
     const struct grid *g = &l->fine->grid;
     int64_t k[DIM_MAX] = {0}, covered = 0, coarse = 0;
@@ -167,7 +167,7 @@ static void line_dilate(uint8_t *mark, int64_t n, int64_t stride, int reach)
     }
 }
 
-void cells_dilate(const struct grid *g, uint8_t *mark, int reach)
+void grid_dilate_marks(const struct grid *g, uint8_t *mark, int reach)
 {
     for (int d = 0; d < g->dim; d++) { /* lines start in blocks of one stride, separated by the length of a line */
         const int64_t stride = g->stride[d], lines = g->n / g->count[d];
@@ -177,7 +177,10 @@ void cells_dilate(const struct grid *g, uint8_t *mark, int reach)
     }
 }
 
-void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach) { cells_dilate(&l->fine->grid, mark, reach); }
+void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach)
+{
+    grid_dilate_marks(&l->fine->grid, mark, reach);
+}
 
 void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_t *mark)
 {
@@ -191,13 +194,13 @@ void levels_mark_cells(const struct mesh_levels *l, const uint8_t *level, uint8_
     }
 }
 
-void levels_distances(struct mesh_levels *l, int safe, int roomy)
+void levels_set_distances(struct mesh_levels *l, int safe, int roomy)
 {
     l->safe_cells = safe, l->roomy_cells = roomy;
-    levels_find_safe(l);
+    levels_classify_cells(l);
 }
 
-void levels_find_safe(struct mesh_levels *l)
+void levels_classify_cells(struct mesh_levels *l)
 {
     const int64_t n = l->fine->grid.n;
     uint8_t *near = NEW("levels.near", n, uint8_t);

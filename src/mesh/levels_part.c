@@ -199,19 +199,19 @@ static void next_levels(struct reference_frame *r, const struct particles *p, re
                         uint8_t *limit, uint8_t *level)
 {
     struct mesh_levels *l = &r->levels;
-    levels_map(l, p, demand, limit, level);
+    levels_coarsest_admissible(l, p, demand, limit, level);
     if (!any_merges(l, level)) return;
-    const real most = ROUGH * (frame_kinetic(r) + frame_strain(r, p)) / mass;
+    const real most = ROUGH * (frame_kinetic_energy(r) + frame_strain_energy(r, p)) / mass;
     levels_prolong(l);
-    while (levels_limit_rough(l, level, most, limit)) levels_map(l, p, demand, limit, level);
+    while (levels_limit_rough(l, level, most, limit)) levels_coarsest_admissible(l, p, demand, limit, level);
 }
 
-void frame_levels_found(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
-                        struct loads *loads)
+void frame_levels_find_nodes(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
+                             struct loads *loads)
 {
     struct mesh_levels *l = &r->levels;
-    for (int k = 1; k <= l->n; k++) loads_level_find(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
-    frame_follow_points(r, p, bonds, loads);
+    for (int k = 1; k <= l->n; k++) loads_find_level_nodes(loads, &l->at[k].held, &l->at[k].mesh.grid, p);
+    frame_find_exposed_points(r, p, bonds, loads);
 }
 
 /* Changes the levels; the change of energy is booked as damped. */
@@ -220,12 +220,12 @@ static void change(struct run *e, const uint8_t *level)
     struct reference_frame *r = e->frame;
     /* before the first step velocities and displacements are at the same time */
     const real dt = e->clock.step > 0 ? e->clock.dt : 0;
-    levels_half_kick(&r->levels, &e->part, r->elastic, r->finite, dt);
-    const real before = frame_kinetic(r) + frame_strain(r, &e->part);
+    levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, dt);
+    const real before = frame_kinetic_energy(r) + frame_strain_energy(r, &e->part);
     levels_change(&r->levels, &e->part, &r->source, level);
-    frame_levels_found(r, &e->part, &e->bonds, &e->loads);
-    e->damped += before - frame_kinetic(r) - frame_strain(r, &e->part);
-    levels_half_kick(&r->levels, &e->part, r->elastic, r->finite, -dt);
+    frame_levels_find_nodes(r, &e->part, &e->bonds, &e->loads);
+    e->damped += before - frame_kinetic_energy(r) - frame_strain_energy(r, &e->part);
+    levels_shift_velocities(&r->levels, &e->part, r->elastic, r->finite, -dt);
 }
 
 status frame_levels_make(struct run *e, bool restored)
@@ -244,17 +244,17 @@ status frame_levels_make(struct run *e, bool restored)
         fastest = real_max(fastest, s->material[m].wave_speed);
     }
     if (r->levels.n == 0) {
-        frame_hollow_start(r, NULL);
+        frame_hollow_check_start(r, NULL);
         return OK;
     }
-    levels_match(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
+    levels_match_dispersion(&r->levels, dispersion_edge(s), fastest, e->clock.dt);
     /* a point converts with its neighbours, these get bonds, and the families at their other ends extend one horizon
      * more */
     const real reach = (s->model == MODEL_BOND ? 1.0 : 1.5) * s->horizon;
     const int safe = (int)ceil(reach) + 1;
-    levels_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
+    levels_set_distances(&r->levels, safe, safe + (int)ceil(0.5 * s->horizon));
     for (int k = 1; k <= r->levels.n; k++)
-        loads_level_find(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
+        loads_find_level_nodes(&e->loads, &r->levels.at[k].held, &r->levels.at[k].mesh.grid, &e->part);
     if (restored) return OK;
     uint8_t *demand = demand_make(r, &e->part, &e->loads, ZONE_MORE);
     uint8_t *stressed = stressed_cells(r, SPLITS, true), *level = NEW("levels.next", r->mesh.grid.n, uint8_t);
@@ -263,7 +263,7 @@ status frame_levels_make(struct run *e, bool restored)
     array_fill_bytes(limit, r->levels.n, r->mesh.grid.n, 1);
     limit_by_room(r, limit);
     next_levels(r, &e->part, e->mass, demand, limit, level);
-    if (frame_hollow_start(r, level)) change(e, level);
+    if (frame_hollow_check_start(r, level)) change(e, level);
     memory_free(limit);
     e->damped = 0; /* the run starts with the energy of the coarse cells */
     memory_free(demand);
@@ -315,17 +315,17 @@ static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
     array_fill_bytes(l->wanted, WANTED_NOT, l->fine->grid.n, 1);
 }
 
-bool frame_levels_due(const struct mesh_levels *l, int64_t step)
+bool frame_levels_may_change(const struct mesh_levels *l, int64_t step)
 {
     return l->n > 0 && step > 0 && step % levels_stride(l) == 0;
 }
 
-uint8_t *frame_levels_plan(struct reference_frame *r, const struct particles *p, const struct loads *loads,
-                           int64_t step, real mass)
+uint8_t *frame_levels_choose_next(struct reference_frame *r, const struct particles *p, const struct loads *loads,
+                                  int64_t step, real mass)
 {
     struct mesh_levels *l = &r->levels;
     const bool checks = step % CHECK_STEPS == 0;
-    levels_sync(l);
+    levels_copy_to_ghosts(l);
     uint8_t *stressed = any_stressed(l) ? stressed_cells(r, SPLITS, false) : NULL;
     if (!checks && !stressed && !l->any_wanted && !rings_cells(r, NULL)) return NULL;
     const int64_t n = l->fine->grid.n;
@@ -361,10 +361,10 @@ static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
     if (waits) p->flag[i] &= (uint8_t)~marks;
 }
 
-void frame_levels_guard(struct mesh_levels *l, struct particles *p)
+void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p)
 {
     l->returned = false;
-    if (l->n == 0 || !convert_due(p)) return;
+    if (l->n == 0 || !conversion_is_due(p)) return;
     for (int64_t first = 0; first < p->n; first += LANES) {
         if (!(eight_bytes(p->flag + first) & EIGHT_TIMES(FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND))) continue;
         for (int64_t i = first; i < first + LANES && i < p->n; i++) point_guard(l, p, i);
@@ -373,12 +373,12 @@ void frame_levels_guard(struct mesh_levels *l, struct particles *p)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-real frame_kinetic(const struct reference_frame *reference)
+real frame_kinetic_energy(const struct reference_frame *reference)
 {
-    return mesh_kinetic(&reference->mesh) + levels_kinetic(&reference->levels);
+    return mesh_kinetic(&reference->mesh) + levels_kinetic_energy(&reference->levels);
 }
 
-real frame_strain(struct reference_frame *r, const struct particles *p)
+real frame_strain_energy(struct reference_frame *r, const struct particles *p)
 {
-    return mesh_strain(&r->mesh, p, r->elastic, r->finite) + levels_strain(&r->levels, p, r->elastic, r->finite);
+    return mesh_strain(&r->mesh, p, r->elastic, r->finite) + levels_strain_energy(&r->levels, p, r->elastic, r->finite);
 }

@@ -89,26 +89,26 @@ static inline bool cell_acts(const struct mesh *mesh, int64_t I)
 
 /* Copies displacement and velocity to the ghosts of a refinement level, the nodes at positions of nodes of the next
  * finer level, from these nodes. */
-void levels_ghosts_follow(struct mesh_levels *l, int level);
+void levels_update_ghosts(struct mesh_levels *l, int level);
 
 /* Sets displacement and velocity of the hanging nodes of level - 1, the nodes in the middle of edges or faces of cells
  * of `level`, to the mean of the nodes at the ends or corners. */
-void levels_hanging_follow(struct mesh_levels *l, int level);
+void levels_update_hanging(struct mesh_levels *l, int level);
 
 /* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
- * between levels (levels_fold). */
+ * between levels (levels_fold_masses). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p);
 
 /* Finds, for all refinement levels, the ghosts and hanging nodes at interfaces of levels, and the coarse cells whose
- * inertia is matched to the bonds (levels_match). */
-void levels_link(struct mesh_levels *l);
+ * inertia is matched to the bonds (levels_match_dispersion). */
+void levels_find_interfaces(struct mesh_levels *l);
 
 /* Adds the masses of ghosts and hanging nodes to the nodes that determine their motion. momenta: true to transfer
  * their momentum in grid.momentum [kg m/s], too. */
-void levels_fold(struct mesh_levels *l, bool momenta);
+void levels_fold_masses(struct mesh_levels *l, bool momenta);
 
 /* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
- * nodes, for all refinement levels. To be called after levels_fold. */
+ * nodes, for all refinement levels. To be called after levels_fold_masses. */
 void levels_runs_make(struct mesh_levels *l);
 
 /* Interpolates displacement and velocity of coarse cells to nodes of level 0 (the finest) inside them that belong to no
@@ -117,13 +117,13 @@ void levels_interpolate(struct mesh_levels *l, bool all);
 
 /* Computes the momentum of the nodes of coarse cells, divided by their mass, from their velocities [m/s], the inverse
  * of the relation in kernels/mesh/mesh_inertia.h, up to round-off. */
-void levels_momenta_find(struct mesh_levels *l);
+void levels_compute_momenta(struct mesh_levels *l);
 
 /* Returns true if the refinement levels are consistent: all cells of level 0 in a coarse cell have its level, and
  * coarse cells are completely filled. */
-bool levels_sound(const struct mesh_levels *l);
+bool levels_are_consistent(const struct mesh_levels *l);
 
 /* Classifies the cells of level 0 (the finest) by their distance from coarse cells (l->safe, enum levels_distance). */
-void levels_find_safe(struct mesh_levels *l);
+void levels_classify_cells(struct mesh_levels *l);
 
 #endif

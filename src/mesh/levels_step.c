@@ -3,7 +3,7 @@
 
 #include "levels_parts.h"
 
-int levels_due(const struct mesh_levels *l, int64_t step)
+int levels_highest_due(const struct mesh_levels *l, int64_t step)
 {
     int due = 0;
     while (due < l->n && step % ((int64_t)2 << due) == 0) due++;
@@ -20,7 +20,7 @@ static void ghosts_displace(struct mesh_levels *l, int level)
             m->mesh.displacement[d][m->ghost[k].coarse] = fine->displacement[d][m->ghost[k].fine];
 }
 
-void levels_ghosts_follow(struct mesh_levels *l, int level)
+void levels_update_ghosts(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
     const struct mesh *fine = level_mesh(l, level - 1);
@@ -37,7 +37,7 @@ static real mean_of(const struct mesh_hanging *h, const real *field)
     return sum / h->masters;
 }
 
-void levels_hanging_follow(struct mesh_levels *l, int level)
+void levels_update_hanging(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
     struct mesh *fine = level_mesh(l, level - 1);
@@ -76,7 +76,8 @@ static void ghosts_fold(struct mesh_levels *l, int level)
         }
 }
 
-void levels_force(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite, int due)
+void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
+                           int due)
 {
     for (int level = 1; level <= due; level++) {
         struct mesh *mesh = &l->at[level].mesh;
@@ -97,7 +98,7 @@ real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real
         const real longer = (real)(1 << level);
         if (mesh->points == 0) continue;
         most = real_max(most, mesh_move(mesh, longer * dt, longer * dt_velocity, impulse, work));
-        if (level < l->n) levels_hanging_follow(l, level + 1);
+        if (level < l->n) levels_update_hanging(l, level + 1);
     }
     return most;
 }

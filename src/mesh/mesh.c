@@ -24,7 +24,7 @@ static status meshed_body(const struct particles *p, int64_t i, const char *what
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
-int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i)
+int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int64_t i)
 {
     const struct grid *g = &mesh->grid;
     int64_t cell = 0;
@@ -48,7 +48,7 @@ static status points_place(struct mesh *mesh, const struct particles *p)
     for (int64_t i = 0; i < p->n; i++) {
         mesh->place[i] = -1;
         if (!(p->flag[i] & FLAG_MESHED)) continue;
-        const int64_t place = mesh_place_of(mesh, p, i);
+        const int64_t place = mesh_point_slot(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
                                "is not one of two a cell and direction (a lattice, mpm.cell 2, "
@@ -78,7 +78,7 @@ static real node_mass(const struct mesh *mesh, const struct particles *p, int64_
     return mass;
 }
 
-void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I)
+void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t I)
 {
     mesh->grid.mass[I] = node_mass(mesh, p, I);
     mesh->inverse_mass[I] = mesh->grid.mass[I] > 0 ? 1 / mesh->grid.mass[I] : 0;
@@ -179,7 +179,7 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
-    struct mesh_partial old = mesh_partial_keep(mesh);
+    struct mesh_partial old = mesh_partial_detach(mesh);
     if (!dirty) {
 #pragma omp parallel for schedule(static)
         for (int64_t I = 0; I < mesh->grid.n; I++) mesh->kind[I] = (uint8_t)cell_kind(mesh, p, s, I);
@@ -199,7 +199,7 @@ void mesh_blocks_activate(struct mesh *mesh)
     for (int64_t I = 0; I < mesh->grid.n; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && (mesh->kind[I] == CELL_WHOLE || mesh->kind[I] == CELL_PARTIAL); c++)
             r->level[mesh_block(mesh, mesh_node(mesh, I, c))] = 1;
-    active_set_list(r);
+    active_set_rebuild_list(r);
     r->empty = r->blocks - r->active;
 }
 
@@ -210,10 +210,10 @@ void mesh_runs_make(struct mesh *mesh)
     mesh_blocks_activate(mesh);
 }
 
-void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
 {
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
+    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_update_mass(mesh, p, I);
     cells_sort_out(mesh, p, s, dirty);
 }
 
@@ -229,7 +229,7 @@ status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *fro
     g->dim = dim, g->h = like->h;
     for (int d = 0; d < dim; d++) g->anchor[d] = like->anchor[d], high[d] = to[d];
     high[0] += LANES * g->h; /* whole vectors are read and written beyond the last cell of a row */
-    TRY(grid_cover(g, from, high, INT32_MAX >> dim, &changed));
+    TRY(grid_extend_box(g, from, high, INT32_MAX >> dim, &changed));
     for (int c = 0; c < 1 << dim; c++)
         for (int d = 0; d < dim; d++) mesh->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     if (p) TRY(mesh_slits_make(mesh, p, source, from, high));
@@ -309,13 +309,13 @@ status mesh_make(struct mesh *mesh, struct particles *p, const struct grid *like
         if (p->flag[i] & FLAG_MESHED && p->kind[i] != KIND_MPM) p->flag[i] &= (uint8_t)~FLAG_MESHED;
         meshed += (p->flag[i] & FLAG_MESHED) != 0;
     }
-    particles_list(p);
+    particles_update_lists(p);
     if (meshed == 0) return OK;
     TRY(nodes_make(mesh, p, like, source));
     TRY(points_place(mesh, p));
     TRY(bodies_apart(mesh, p));
 #pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_weigh(mesh, p, I);
+    for (int64_t I = 0; I < mesh->grid.n; I++) mesh_node_update_mass(mesh, p, I);
     cells_sort_out(mesh, p, source, NULL);
     if (!source->still) mesh_nodes_start(mesh, p);
     return OK;
@@ -373,22 +373,22 @@ static void nodes_lighten(struct mesh *mesh, const struct particles *p, const ui
             const int64_t I = mesh_node(mesh, cell, c);
             if (done[I]) continue;
             done[I] = 1;
-            mesh_node_weigh(mesh, p, I);
+            mesh_node_update_mass(mesh, p, I);
             for (int d = 0; d < p->dim && mesh->grid.mass[I] == 0; d++)
                 mesh->grid.velocity[d][I] = mesh->displacement[d][I] = 0;
         }
     memory_free(done);
 }
 
-real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_source *source, const int32_t *changed,
-                 int64_t n)
+real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
+                           const int32_t *changed, int64_t n)
 {
     real energy = 0;
     if (!mesh->place) return 0;
     uint8_t *left = cells_mark("mesh.left", mesh), *dirty = changed ? cells_mark("mesh.dirty", mesh) : NULL;
     for (int64_t k = 0; k < n && changed; k++)
         if (mesh->place[changed[k]] >= 0) dirty[mesh->place[changed[k]] >> p->dim] = 1;
-    particles_list(p);
+    particles_update_lists(p);
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {
         const int32_t i = p->list[KIND_PD][k];
         if (mesh->place[i] < 0) continue;
@@ -403,8 +403,8 @@ real mesh_follow(struct mesh *mesh, struct particles *p, const struct mesh_sourc
     return energy;
 }
 
-bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
-                  const int32_t *changed, int64_t n)
+bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                                   const int32_t *changed, int64_t n)
 {
     uint8_t *dirty = NEW("mesh.dirty", mesh->grid.n, uint8_t);
     bool same = true;
@@ -414,7 +414,7 @@ bool mesh_refresh(struct mesh *mesh, const struct particles *p, const struct mes
         dirty[cell] = 1;
         same = mesh->kind[cell] == CELL_PARTIAL && cell_kind(mesh, p, source, cell) == CELL_PARTIAL;
     }
-    if (same) mesh_partial_again(mesh, p, source, dirty);
+    if (same) mesh_partial_recompute(mesh, p, source, dirty);
     memory_free(dirty);
     return same;
 }

@@ -59,7 +59,7 @@ static void row_block_expose(struct exposure *e, const struct mesh *mesh, const 
         if (intact >> lane & 1) point_expose(e, mesh, b->particle[g * LANES + lane]);
     for (int64_t k = 0; k < bonds_columns(b, g) && p->n_all > p->n; k++) {
         if (!meets_images(b, p, g, k)) continue;
-        column_read(&column, b, g, k);
+        bond_column_read(&column, b, g, k);
         images_expose(e, mesh, p, l->image, column.nbr);
     }
 }

@@ -52,7 +52,7 @@ bool mesh_cell_inverted(const struct mesh *mesh, int64_t cell)
     return inverted;
 }
 
-int64_t mesh_inverted(const struct mesh *mesh, const struct particles *p)
+int64_t mesh_find_inverted_point(const struct mesh *mesh, const struct particles *p)
 {
     int64_t first = p->n;
 #pragma omp parallel for schedule(static) reduction(min : first)

@@ -214,7 +214,7 @@ void mesh_partial_add(struct mesh *mesh, int64_t I)
     mesh->partial_cell[mesh->partial_cells++] = (int32_t)I;
 }
 
-struct mesh_partial mesh_partial_keep(struct mesh *mesh)
+struct mesh_partial mesh_partial_detach(struct mesh *mesh)
 {
     const struct mesh_partial old = {mesh->partial_cells, mesh->partial_cell, mesh->stiffness};
     mesh->partial_cell = NULL, mesh->stiffness = NULL;
@@ -302,7 +302,7 @@ static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old,
 static real *numbers_make(const char *label, const struct mesh *mesh, int64_t each)
 {
     const int64_t groups = mesh_groups(mesh), size = each * LANES;
-    real *numbers = memory_bare(label, groups * size, sizeof *numbers);
+    real *numbers = memory_new_uninitialised(label, groups * size, sizeof *numbers);
     if (groups > 0) array_fill_bytes(numbers + (groups - 1) * size, 0, size, sizeof *numbers);
     return numbers;
 }
@@ -365,7 +365,8 @@ static void alike_part(struct mesh *mesh, const uint8_t *changed)
         if (changed[g] || changed[mesh->alike[g]]) mesh->alike[g] = (int32_t)g;
 }
 
-void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty)
+void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                            const uint8_t *dirty)
 {
     struct cell_maker c = maker_of(mesh, p, s);
     const int half = c.modes * (c.modes + 1) / 2;

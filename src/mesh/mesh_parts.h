@@ -7,9 +7,9 @@
 
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells with their stiffness (mesh_partial.c). mesh_partial_keep moves them from the mesh to *old before cells
- * are classified anew; mesh_partial_make reuses the stiffness of unchanged cells, computes that of all others (dirty:
- * by cell, NULL: all), and frees *old. */
+/* Partial cells with their stiffness (mesh_partial.c). mesh_partial_detach moves them from the mesh to *old before
+ * cells are classified anew; mesh_partial_make reuses the stiffness of unchanged cells, computes that of all others
+ * (dirty: by cell, NULL: all), and frees *old. */
 struct mesh_partial {
     int64_t partial_cells;
     int32_t *partial_cell;
@@ -18,7 +18,7 @@ struct mesh_partial {
 
 /* Moves the list of partial cells (cells with missing points, partial stresses, several materials or doubled nodes)
  * with their stiffness out of the mesh into the result. The mesh has no partial cells afterwards. */
-struct mesh_partial mesh_partial_keep(struct mesh *mesh);
+struct mesh_partial mesh_partial_detach(struct mesh *mesh);
 
 /* Appends cell I to the list of partial cells of the mesh, cells with missing points, partial stresses, several
  * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
@@ -26,7 +26,7 @@ void mesh_partial_add(struct mesh *mesh, int64_t I);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
  * materials or doubled nodes). s: material constants and partial stresses; dirty: a byte for each cell, not 0 where the
- * stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_keep, from which the stiffness of
+ * stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach, from which the stiffness of
  * all other cells is copied, and which is freed. */
 void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
                        struct mesh_partial *old);
@@ -34,8 +34,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
 /* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
  * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. s: material constants
  * and partial stresses. */
-void mesh_partial_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
-                        const uint8_t *dirty);
+void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+                            const uint8_t *dirty);
 
 /* Frees the list of partial cells of the mesh and their stiffness. */
 void mesh_partial_free(struct mesh *mesh);
@@ -69,15 +69,15 @@ void mesh_project_near(const struct mesh *mesh, const struct particles *p, real 
 
 /* Returns the cell of particle i and its number in this cell as (cell << dim) + number, from its reference position,
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
-int64_t mesh_place_of(const struct mesh *mesh, const struct particles *p, int64_t i);
+int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int64_t i);
 
 /* Recomputes mass and inverse mass of node I from the points around it; points in coarse cells are left out. */
-void mesh_node_weigh(struct mesh *mesh, const struct particles *p, int64_t I);
+void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t I);
 
 /* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed
  * in some cells. s: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these cells.
  */
-void mesh_cells_again(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
+void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 
 /* Groups the cells of a mesh without points (a coarse level) into runs of equal material, and finds spans of nodes
  * with mass and active blocks, from kinds and materials of the cells and masses of the nodes. */

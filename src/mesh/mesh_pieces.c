@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-bool mesh_cell_holds(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
+bool mesh_cell_has_body(const struct mesh *mesh, int64_t I) { return mesh->kind[I] != CELL_EMPTY; }
 
 /* Makes a box of nodes around the particles, aligned with the nodes of `like`, without nodal arrays. Returns false if
  * the number of nodes is too large. */
@@ -19,7 +19,7 @@ static bool box_make(struct mesh *box, const struct particles *p, const struct g
         particles_extent(p, p->n, d, &from[d], &to[d]);
         g->anchor[d] = like->anchor[d];
     }
-    if (!grid_box(g, from, to, INT32_MAX >> p->dim)) return false;
+    if (!grid_compute_box(g, from, to, INT32_MAX >> p->dim)) return false;
     for (int c = 0; c < 1 << p->dim; c++)
         for (int d = 0; d < p->dim; d++) box->corner[c] += (int32_t)((c >> d & 1) * g->stride[d]);
     return true;
@@ -55,7 +55,7 @@ static void hollow_join(int32_t *above, const struct mesh *box, const struct hol
     }
 }
 
-int64_t mesh_pieces(const struct particles *p, const struct grid *like, const struct hollow *hollow)
+int64_t mesh_count_parts(const struct particles *p, const struct grid *like, const struct hollow *hollow)
 {
     struct mesh box;
     int64_t pieces = 0, last = -1;
@@ -63,7 +63,7 @@ int64_t mesh_pieces(const struct particles *p, const struct grid *like, const st
     if (!fits) return 0;
     int32_t *above = NEW("mesh.above", box.grid.n, int32_t);
     for (int64_t i = 0; i < p->n && fits; i++) {
-        const int64_t place = mesh_place_of(&box, p, i), cell = place >> p->dim;
+        const int64_t place = mesh_point_slot(&box, p, i), cell = place >> p->dim;
         fits = place >= 0;
         for (int c = 0; c < 1 << p->dim && fits && cell != last; c++)
             join(above, (int32_t)cell, (int32_t)cell + box.corner[c]);

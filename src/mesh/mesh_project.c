@@ -213,7 +213,7 @@ static void product_block(const void *context, int64_t first, int64_t end, real 
 static real product(const real *a, const real *b, const real *weight, int64_t n)
 {
     real sum;
-    team_sums(n, 1, product_block, &(struct pair){a, b, weight}, &sum);
+    reproducible_sums(n, 1, product_block, &(struct pair){a, b, weight}, &sum);
     return sum;
 }
 

@@ -50,7 +50,7 @@ static void extra_add(struct extras *to, struct extra one)
 static bool positions_parted(const struct slit_maker *m, int32_t i, const real *a, const real *b)
 {
     const struct voids *v = m->source->voids;
-    if (voids_near(v, i) && voids_between(v, m->p->body[i], a, b, NULL)) return true;
+    if (voids_near(v, i) && void_separates_points(v, m->p->body[i], a, b, NULL)) return true;
     for (int k = 0; k < m->source->slits; k++)
         if (crack_cuts(&m->source->slit[k], a, b, m->p->dim)) return true;
     return false;
@@ -85,7 +85,7 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     if (m->voids[I]) return true;
     for (int d = 0; d < g->dim; d++) X[d] = grid_position(g, d, I / g->stride[d] % g->count[d]);
     for (int k = 0; k < m->source->slits; k++)
-        if (crack_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
+        if (crack_may_cut_near(&m->source->slit[k], X, 2 * sqrt(g->dim) * g->h, g->dim)) return true;
     return false;
 }
 
@@ -234,7 +234,7 @@ static void slits_divide(struct slit_maker *m)
     const int dim = m->p->dim;
     for (int64_t k = 0; k < n << dim; k++) m->point[k] = -1;
     for (int64_t i = 0; i < m->p->n; i++) {
-        const int64_t place = mesh_place_of(m->mesh, m->p, i);
+        const int64_t place = mesh_point_slot(m->mesh, m->p, i);
         if (place < 0) continue;
         m->point[place] = (int32_t)i;
         if (voids_near(m->source->voids, i)) void_mark(&m->mesh->grid, place >> dim, m->voids);
@@ -352,8 +352,8 @@ static status box_extend(struct grid *g, const real *from, const real *to, int64
     real far[DIM_MAX];
     bool changed;
     for (int d = 0; d < g->dim; d++) far[d] = to[d];
-    far[last] += g->h * (real)(layers + 4); /* a box grows in steps of four nodes (grid_cover) */
-    return grid_cover(g, from, far, INT32_MAX >> g->dim, &changed);
+    far[last] += g->h * (real)(layers + 4); /* a box grows in steps of four nodes (grid_extend_box) */
+    return grid_extend_box(g, from, far, INT32_MAX >> g->dim, &changed);
 }
 
 status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source, const real *from,

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/last_words.h"
+#include "base/crash_message.h"
 #include "base/memory.h"
 #include "output/output.h"
 #include "output/output_files.h"
@@ -38,7 +38,7 @@ static status entry_save(struct archive *a, const char *name, void *data, size_t
     struct hdf *f = a->file;
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    hdf_rows(f, path, HDF_U8, (int64_t)size, 1, data);
+    hdf_write_rows(f, path, HDF_U8, (int64_t)size, 1, data);
     return f->failed ? FAILED : OK;
 }
 
@@ -48,7 +48,7 @@ static status entry_restore(struct archive *a, const char *name, void *data, siz
     struct hdf *f = a->file;
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    int64_t stored = hdf_count(f, path);
+    int64_t stored = hdf_dataset_size(f, path);
     if (stored != (int64_t)size)
         return status_set(FAILED, "the checkpoint's entry %s has %lld bytes where this program needs %zu", name,
                           (long long)stored, size);
@@ -60,7 +60,7 @@ static int64_t checkpoint_entry_size(struct archive *a, const char *name)
 {
     char path[PATH_NAME_ROOM];
     entry_path(path, sizeof path, name);
-    return hdf_count(a->file, path);
+    return hdf_dataset_size(a->file, path);
 }
 
 static struct archive archive_of(struct hdf *f, bool saving)
@@ -79,11 +79,11 @@ static status state_write(struct output *o, const char *path, const char *scene_
 {
     static const int32_t version = CHECKPOINT_VERSION;
     struct hdf f;
-    hdf_create(&f, file_begin(path).text, false);
-    hdf_group(&f, "/Cleave");
-    hdf_mark_one(&f, "/Cleave", "version", HDF_I32, &version);
-    hdf_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);
-    hdf_group(&f, "/state");
+    hdf_create(&f, file_begin_temporary(path).text, false);
+    hdf_create_group(&f, "/Cleave");
+    hdf_write_scalar_attribute(&f, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_rows(&f, "/Cleave/scene", HDF_U8, (int64_t)strlen(scene_text), 1, scene_text);
+    hdf_create_group(&f, "/state");
     struct archive a = archive_of(&f, true);
     status s = f.failed ? FAILED : archive_all(context, &a);
     if (!f.failed) hdf_close(&f);
@@ -105,12 +105,12 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
     TRY(output_wait(o)); /* frames before a checkpoint must be on the disk; HDF5 serves one thread */
     if (o->broken) return FAILED;
-    TRY(folder_held(&o->lock, o->folder));
+    TRY(folder_check_lock(&o->lock, o->folder));
     TRY(history_sync(o));
     TRY(state_write(o, newest.text, scene_text, archive_all, context));
     /* The new file is whole and on the disk before the older one is renamed; a kill between the two renames leaves the
      * older one as checkpoint.previous.h5. */
-    TRY(file_seal_whole(newest.text));
+    TRY(file_append_footer(newest.text));
     if (path_exists(newest.text) && rename(newest.text, previous.text) != 0) {
         int cause = errno;
         file_discard(newest.text);
@@ -124,7 +124,7 @@ status checkpoint_write(struct output *o, const char *scene_text, archive_all_fn
 /* Returns true if the open checkpoint belongs to this scene. */
 static bool same_scene(struct hdf *f, const char *scene_text)
 {
-    int64_t length = hdf_count(f, "/Cleave/scene");
+    int64_t length = hdf_dataset_size(f, "/Cleave/scene");
     if (length < 0 || length > SCENE_LONGEST) return false;
     char *stored = NEW("checkpoint.scene", length + 1, char);
     hdf_read_rows(f, "/Cleave/scene", HDF_U8, length, stored);
@@ -138,9 +138,9 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
 {
     struct hdf f;
     int32_t version = 0;
-    last_words_reading(path);
+    crash_message_set_file(path);
     hdf_open(&f, path);
-    if (!f.failed) hdf_read_mark(&f, "/Cleave", "version", HDF_I32, &version);
+    if (!f.failed) hdf_read_attribute(&f, "/Cleave", "version", HDF_I32, &version);
     struct archive a = archive_of(&f, false);
     status s;
     if (f.failed)
@@ -153,7 +153,7 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
     else
         s = archive_all(context, &a);
     hdf_close(&f);
-    last_words_reading(NULL);
+    crash_message_set_file(NULL);
     if (f.failed && f.cause) return status_set(FAILED, "cannot resume: cannot read %s: %s", path, strerror(f.cause));
     return s;
 }
@@ -161,13 +161,13 @@ static status state_read(const char *path, const char *scene_text, archive_all_f
 status checkpoint_read(const struct output *o, const char *scene_text, archive_all_fn *archive_all, void *context)
 {
     struct path newest = path_join(o->folder, newest_name), previous = path_join(o->folder, previous_name);
-    const char *fault = whole_fault(newest.text);
+    const char *fault = file_damage(newest.text);
     if (!fault) return state_read(newest.text, scene_text, archive_all, context);
-    const char *older_fault = whole_fault(previous.text);
+    const char *older_fault = file_damage(previous.text);
     if (older_fault)
         return status_set(FAILED, "cannot resume: in %s %s %s and %s %s", o->folder, newest_name, fault, previous_name,
                           older_fault);
-    fprintf(stderr, "%s %s: resuming from %s\n", shown_name(newest.text).text, fault, previous_name);
+    fprintf(stderr, "%s %s: resuming from %s\n", printable_name(newest.text).text, fault, previous_name);
     TRY(state_read(previous.text, scene_text, archive_all, context));
     /* Rename the damaged file: the next checkpoint would otherwise replace the whole one by it. */
     if (path_exists(newest.text) && rename(newest.text, path_join(o->folder, damaged_name).text) != 0)

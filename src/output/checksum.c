@@ -120,7 +120,7 @@ static const char *open_fault(int fd)
     return hash == end.hash ? NULL : "is damaged (its bytes are not those that were written)";
 }
 
-const char *whole_fault(const char *path)
+const char *file_damage(const char *path)
 {
     if (!path_exists(path)) return "is missing";
     /* Open without blocking: a FIFO of this name would otherwise stop the program. */
@@ -131,27 +131,27 @@ const char *whole_fault(const char *path)
     return fault;
 }
 
-const char *whole_fault_certain(const char *path)
+const char *file_certain_damage(const char *path)
 {
-    const char *fault = whole_fault(path);
+    const char *fault = file_damage(path);
     return fault == unread ? NULL : fault;
 }
 
-status file_seal_whole(const char *path)
+status file_append_footer(const char *path)
 {
     struct stat s;
     struct footer end = {{0}, 0, 0};
-    const int fd = open(path_aside(path).text, O_RDONLY | O_CLOEXEC);
+    const int fd = open(path_temporary(path).text, O_RDONLY | O_CLOEXEC);
     int fault = fd < 0 || fstat(fd, &s) != 0 ? errno : 0;
     memcpy(end.magic, footer_magic, sizeof end.magic);
     if (!fault) fault = hash_file(fd, end.length = (uint64_t)s.st_size, &end.hash);
     if (fd >= 0) close(fd);
-    if (!fault) return file_seal(path, &end, sizeof end);
+    if (!fault) return file_append_and_sync(path, &end, sizeof end);
     file_discard(path);
     return file_fault(path, fault);
 }
 
-status file_contents(const char *path, uint64_t *hash)
+status file_contents_hash(const char *path, uint64_t *hash)
 {
     struct stat s;
     const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);

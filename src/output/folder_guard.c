@@ -8,7 +8,7 @@
 
 #include "output/output_files.h"
 
-bool entry_is_ignored(const char *name)
+bool file_name_is_ignored(const char *name)
 {
     const size_t length = strlen(name);
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
@@ -23,7 +23,7 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
     if (!d && (errno == ENOENT || errno == ENOTDIR)) return OK;
     if (!d) return status_set(REFUSED, "%s: cannot be read (%s); choose another -o", folder, strerror(errno));
     for (struct dirent *e; !*found && (e = readdir(d));)
-        if (!entry_is_ignored(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
+        if (!file_name_is_ignored(e->d_name) && !(kind->is_early && kind->is_early(folder, e->d_name)))
             snprintf(found, sizeof found, "%s", e->d_name);
     closedir(d);
     if (!*found) return OK;
@@ -31,7 +31,7 @@ static status entries_guard(const struct folder_kind *kind, const char *folder)
                       kind->what);
 }
 
-status folder_guard(const struct folder_kind *kind, const char *folder, const char *text, bool *there)
+status folder_check_writable(const struct folder_kind *kind, const char *folder, const char *text, bool *there)
 {
     const struct path sign = path_join(folder, kind->sign);
     *there = false;

@@ -21,7 +21,7 @@ static char *history_column_name(const char *from, size_t length)
     char *unit = strstr(name, " [");
     if (unit != NULL) *unit = '\0';
     name[strcspn(name, "\r")] = '\0';
-    text_harmless(name);
+    text_replace_controls(name);
     return name;
 }
 
@@ -101,7 +101,7 @@ void history_free(struct history *h)
     *h = (struct history){0};
 }
 
-int history_column(const struct history *h, const char *name)
+int history_find_column(const struct history *h, const char *name)
 {
     for (int k = 0; k < h->columns; k++)
         if (strcmp(h->name[k], name) == 0) return k;

@@ -33,7 +33,7 @@ struct dump_head {
 
 static status dump_fault(const struct dump *d, const char *what)
 {
-    return status_set(FAILED, "%s:%lld: %s", shown_name(d->path).text, (long long)d->line, what);
+    return status_set(FAILED, "%s:%lld: %s", printable_name(d->path).text, (long long)d->line, what);
 }
 
 static status dump_open(struct dump *d, const char *path)
@@ -41,7 +41,7 @@ static status dump_open(struct dump *d, const char *path)
     struct stat s;
     *d = (struct dump){.path = path};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || !(d->file = fopen(path, "r")))
-        return status_set(FAILED, "cannot read %s: there is no such file", shown_name(path).text);
+        return status_set(FAILED, "cannot read %s: there is no such file", printable_name(path).text);
     d->bytes = s.st_size;
     return OK;
 }
@@ -117,7 +117,7 @@ static status steps_read(struct dump *d, int *n, int64_t **step)
     }
 }
 
-status lammps_steps(const char *path, int *n, int64_t **step)
+status lammps_list_steps(const char *path, int *n, int64_t **step)
 {
     struct dump d;
     *n = 0, *step = NULL;
@@ -127,7 +127,7 @@ status lammps_steps(const char *path, int *n, int64_t **step)
     if (s == OK && *n > 0) return OK;
     memory_free(*step);
     *step = NULL, *n = 0;
-    return s != OK ? s : status_set(FAILED, "%s holds no step of LAMMPS yet", shown_name(path).text);
+    return s != OK ? s : status_set(FAILED, "%s holds no step of LAMMPS yet", printable_name(path).text);
 }
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
@@ -189,7 +189,7 @@ static status frame_find(struct dump *d, struct lammps_frame *f, int64_t step)
     bool more;
     for (;;) {
         TRY(head_next(d, &h, &more));
-        if (!more) return status_set(FAILED, "%s has no step %lld", shown_name(d->path).text, (long long)step);
+        if (!more) return status_set(FAILED, "%s has no step %lld", printable_name(d->path).text, (long long)step);
         if (h.step == step) break;
         if (!skip_rows(d, h.n)) h.n = 0;
     }

@@ -22,7 +22,7 @@ void output_start(void)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
-    invariant_clean_up(files_unfinished_remove);
+    invariant_set_cleanup(files_unfinished_remove);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -49,7 +49,7 @@ static bool is_frame(const char *name, const char *end)
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
 
 /* Removes a picture that Cleave drew; other pictures stay. */
-static status picture_remove(const char *path) { return picture_is_ours(path) ? file_remove(path) : OK; }
+static status picture_remove(const char *path) { return picture_has_mark(path) ? file_remove(path) : OK; }
 
 static bool has_frames(const char *folder)
 {
@@ -91,13 +91,13 @@ static int scene_difference(const char **a, const char **b)
 
 bool scene_text_same(const char *a, const char *b) { return scene_difference(&a, &b) == 0; }
 
-bool scene_text_is_written(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
+bool scene_text_is_echo(const char *text) { return strncmp(text, "name: \"", 7) == 0; }
 
 bool scene_file_same(const char *path, const char *scene_text)
 {
     char *text;
     size_t length;
-    if (!path_is_file(path) || file_get(path, &text, &length) != OK) return false;
+    if (!path_is_file(path) || file_read_whole(path, &text, &length) != OK) return false;
     const bool same = length == strlen(text) && scene_text_same(text, scene_text);
     memory_free(text);
     return same;
@@ -129,8 +129,8 @@ static bool is_scene_of_run(const char *path, const char *scene_text)
     size_t length;
     snprintf(frames.text, sizeof frames.text, "%.*s/frames", (int)(strrchr(path, '/') - path), path);
     if (scene_file_same(path, scene_text)) return true;
-    if (!path_is_folder(frames.text) || file_get(path, &text, &length) != OK) return false;
-    const bool is = scene_text_is_written(text);
+    if (!path_is_folder(frames.text) || file_read_whole(path, &text, &length) != OK) return false;
+    const bool is = scene_text_is_echo(text);
     memory_free(text);
     return is;
 }
@@ -142,7 +142,7 @@ static bool is_frames_folder(const char *folder, const char *name)
     bool bare = strcmp(name, "frames") == 0 && path_is_folder(frames.text);
     DIR *d = bare ? opendir(frames.text) : NULL;
     if (!d) return bare;
-    for (struct dirent *e; bare && (e = readdir(d));) bare = entry_is_ignored(e->d_name);
+    for (struct dirent *e; bare && (e = readdir(d));) bare = file_name_is_ignored(e->d_name);
     closedir(d);
     return bare;
 }
@@ -156,9 +156,9 @@ static status folder_check(const char *folder, const char *scene_text, enum outp
     char difference[500], *text = NULL;
     size_t length = 0;
     bool there;
-    TRY(folder_guard(&run_kind, folder, scene_text, &there));
+    TRY(folder_check_writable(&run_kind, folder, scene_text, &there));
     if (!there) return OK;
-    TRY(file_get(path_join(folder, "scene.yaml").text, &text, &length));
+    TRY(file_read_whole(path_join(folder, "scene.yaml").text, &text, &length));
     const bool same = length == strlen(text) && scene_text_same(text, scene_text);
     difference_text(text, scene_text, difference, sizeof difference);
     memory_free(text);
@@ -185,7 +185,7 @@ static bool has_advanced(const char *folder)
     size_t length = 0, lines = 0;
     const struct path history = path_join(folder, "history.csv"), frames = path_join(folder, "frames");
     if (path_exists(path_join(frames.text, "000001.hdf").text)) return true;
-    if (!path_is_file(history.text) || file_get(history.text, &text, &length) != OK) return false;
+    if (!path_is_file(history.text) || file_read_whole(history.text, &text, &length) != OK) return false;
     for (size_t k = 0; k < length; k++) lines += text[k] == '\n';
     memory_free(text);
     return lines > 1;
@@ -213,26 +213,26 @@ static status mode_check(const char *folder, enum output_mode mode)
             "cannot resume: %s holds a run whose checkpoints are gone; replace it with --overwrite, or choose "
             "another -o",
             folder);
-    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", shown_name(folder).text);
+    fprintf(stderr, "warning: nothing to resume in %s: starts at t = 0\n", printable_name(folder).text);
     return OK;
 }
 
 /* Calls `each` for the file `name` in the folder, if there is one. */
-static status file_each(const char *folder, const char *name, each_file *each)
+static status file_each(const char *folder, const char *name, file_visit_fn *each)
 {
     const struct path path = path_join(folder, name);
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
 /* Calls `each` for the frames of a region in the subfolder `inner` (frames_NAME) and for their indices. end: as in
- * files_each. */
-static status region_each(const char *folder, const char *inner, const char *end, each_file *each)
+ * files_visit. */
+static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
     char name[PATH_NAME_ROOM];
     const struct path path = path_join(folder, inner);
     if (path_is_link(path.text) || !path_is_folder(path.text)) return OK;
-    TRY(files_each(path.text, is_frame, end, each));
+    TRY(files_visit(path.text, is_frame, end, each));
     for (size_t k = 0; k < COUNT_OF(index); k++) {
         snprintf(name, sizeof name, "%.250s%s%s", inner + 7, index[k], end);
         TRY(file_each(folder, name, each));
@@ -252,13 +252,13 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
 
 /* Calls `each` as region_each does for every region of the scene that the folder holds. Copies of such folders under
  * other names stay. */
-static status regions_each(const char *folder, const char *end, each_file *each)
+static status regions_each(const char *folder, const char *end, file_visit_fn *each)
 {
     char *text;
     size_t length;
     status s = OK;
     const struct path scene = path_join(folder, "scene.yaml");
-    if (!path_is_file(scene.text) || file_get(scene.text, &text, &length) != OK) return OK;
+    if (!path_is_file(scene.text) || file_read_whole(scene.text, &text, &length) != OK) return OK;
     DIR *d = opendir(folder);
     for (struct dirent *e; d && s == OK && (e = readdir(d));)
         if (is_frames_of_region(e->d_name, text)) s = region_each(folder, e->d_name, end, each);
@@ -268,22 +268,22 @@ static status regions_each(const char *folder, const char *end, each_file *each)
 }
 
 /* Calls `each` for every file that a new run replaces. Stops at the first fault and returns it. */
-static status run_each(const char *folder, each_file *each)
+static status run_each(const char *folder, file_visit_fn *each)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++) TRY(file_each(folder, made[k].name, each));
-    TRY(files_each(path_join(folder, "frames").text, is_frame, "", each));
+    TRY(files_visit(path_join(folder, "frames").text, is_frame, "", each));
     TRY(regions_each(folder, "", each));
-    TRY(files_each(pictures_folder(folder).text, is_picture, "", each == file_remove ? picture_remove : each));
-    return files_each(pictures_folder(folder).text, is_picture, ASIDE_ENDING, each);
+    TRY(files_visit(pictures_folder(folder).text, is_picture_name, "", each == file_remove ? picture_remove : each));
+    return files_visit(pictures_folder(folder).text, is_picture_name, ASIDE_ENDING, each);
 }
 
 /* Removes temporary files of the run. Temporary files of pictures stay: they may belong to a `cleave plot` that is
  * drawing a run to be resumed. */
 static void temporary_remove(const char *folder)
 {
-    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_aside(path_join(folder, made[k].name).text).text);
-    unlink(path_aside(path_join(folder, "scene.yaml").text).text);
-    files_each(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
+    for (size_t k = 0; k < COUNT_OF(made); k++) unlink(path_temporary(path_join(folder, made[k].name).text).text);
+    unlink(path_temporary(path_join(folder, "scene.yaml").text).text);
+    files_visit(path_join(folder, "frames").text, is_frame, ASIDE_ENDING, file_remove);
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
@@ -291,7 +291,7 @@ static void temporary_remove(const char *folder)
 static status tables_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
-        if (made[k].begin) TRY(file_begin_guard(path_join(folder, made[k].name).text, &made[k].begin, 1));
+        if (made[k].begin) TRY(file_check_beginning(path_join(folder, made[k].name).text, &made[k].begin, 1));
     return OK;
 }
 
@@ -300,13 +300,13 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     const struct path frames = path_join(folder, "frames"), scene = path_join(folder, "scene.yaml");
     TRY(folder_check(folder, scene_text, mode));
     TRY(mode_check(folder, mode));
-    TRY(run_each(folder, file_guard));
+    TRY(run_each(folder, file_check_replaceable));
     if (mode != OUTPUT_RESUME) TRY(tables_guard(folder));
-    if (!file_holds(scene.text, scene_text, strlen(scene_text))) TRY(file_guard(scene.text));
+    if (!file_has_contents(scene.text, scene_text, strlen(scene_text))) TRY(file_check_replaceable(scene.text));
     TRY(folder_make(frames.text));
     temporary_remove(folder);
     if (mode != OUTPUT_RESUME) run_each(folder, file_remove);
-    return file_put(scene.text, scene_text, strlen(scene_text));
+    return file_write_whole(scene.text, scene_text, strlen(scene_text));
 }
 
 status output_open(struct output *o, const char *folder, const char *scene_text, enum output_mode mode, bool compress)
@@ -339,7 +339,7 @@ static struct path series_folder(const char *folder, const char *name)
     return path_join(folder, inner);
 }
 
-status output_series_guard(const char *folder, const char *name)
+status output_check_series_folder(const char *folder, const char *name)
 {
     const struct path path = series_folder(folder, name);
     if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);
@@ -351,7 +351,7 @@ status output_series_guard(const char *folder, const char *name)
 status output_add_series(struct output *o, const char *name, const struct region *region)
 {
     INVARIANT(o->n_series < SERIES_MOST);
-    TRY(output_series_guard(o->folder, name));
+    TRY(output_check_series_folder(o->folder, name));
     TRY(folder_make(series_folder(o->folder, name).text));
     struct frame_series *s = &o->series[++o->n_series];
     *s = (struct frame_series){.region = region};
@@ -374,10 +374,10 @@ void output_close(struct output *o)
     *o = (struct output){0};
 }
 
-status output_text(const struct output *o, const char *name, const char *text, size_t length)
+status output_write_text(const struct output *o, const char *name, const char *text, size_t length)
 {
-    TRY(folder_held(&o->lock, o->folder));
-    return file_put(path_join(o->folder, name).text, text, length);
+    TRY(folder_check_lock(&o->lock, o->folder));
+    return file_write_whole(path_join(o->folder, name).text, text, length);
 }
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */

@@ -236,7 +236,7 @@ unsigned frame_fields_of(const struct frame_source *s)
 
 size_t frame_field_row(const struct frame_field *field, int dim)
 {
-    return hdf_size(field->type) * (size_t)(field->columns ? field->columns : dim);
+    return hdf_type_size(field->type) * (size_t)(field->columns ? field->columns : dim);
 }
 
 void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,

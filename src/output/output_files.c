@@ -27,7 +27,7 @@ static struct path path_compose(const char *first, const char *between, const ch
 
 struct path path_join(const char *folder, const char *name) { return path_compose(folder, "/", name); }
 
-struct path path_aside(const char *path) { return path_compose(path, "", ASIDE_ENDING); }
+struct path path_temporary(const char *path) { return path_compose(path, "", ASIDE_ENDING); }
 
 bool path_exists(const char *path)
 {
@@ -73,15 +73,15 @@ static void unfinished_replace(const char *from, const char *to)
     pthread_mutex_unlock(&unfinished_lock);
 }
 
-struct path file_begin(const char *path)
+struct path file_begin_temporary(const char *path)
 {
-    const struct path aside = path_aside(path);
+    const struct path aside = path_temporary(path);
     unfinished_replace(aside.text, "");
     unfinished_replace("", aside.text);
     return aside;
 }
 
-static void file_end(const char *path) { unfinished_replace(path_aside(path).text, ""); }
+static void file_end(const char *path) { unfinished_replace(path_temporary(path).text, ""); }
 
 void files_unfinished_remove(void)
 {
@@ -121,7 +121,7 @@ status file_fault(const char *path, int cause)
 
 void file_discard(const char *path)
 {
-    struct path aside = path_aside(path);
+    struct path aside = path_temporary(path);
     /* After a failed write HDF5 keeps the file open: only truncation frees the disk. */
     if (path_is_file(aside.text) && truncate(aside.text, 0) != 0) errno = 0;
     unlink(aside.text);
@@ -130,7 +130,7 @@ void file_discard(const char *path)
 
 /* ---- what is not replaced ---------------------------------------------------------------------------------------- */
 
-status file_guard(const char *path)
+status file_check_replaceable(const char *path)
 {
     struct stat s;
     if (lstat(path, &s) != 0) return OK;
@@ -140,7 +140,7 @@ status file_guard(const char *path)
     return status_set(REFUSED, "%s is read by this command and never written over; choose another -o", path);
 }
 
-status file_begin_guard(const char *path, const char *const *begin, size_t n)
+status file_check_beginning(const char *path, const char *const *begin, size_t n)
 {
     char first[64];
     bool ours = false;
@@ -155,11 +155,11 @@ status file_begin_guard(const char *path, const char *const *begin, size_t n)
     return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave; move it away", path);
 }
 
-bool file_holds(const char *path, const void *bytes, size_t length)
+bool file_has_contents(const char *path, const void *bytes, size_t length)
 {
     char *text;
     size_t there;
-    if (!path_is_file(path) || file_get(path, &text, &there) != OK) return false;
+    if (!path_is_file(path) || file_read_whole(path, &text, &there) != OK) return false;
     const bool same = there == length && memcmp(text, bytes, length) == 0;
     memory_free(text);
     return same;
@@ -217,22 +217,22 @@ static status outcome(const char *path, int fault)
     return file_fault(path, fault);
 }
 
-status file_seal(const char *path, const void *tail, size_t length)
+status file_append_and_sync(const char *path, const void *tail, size_t length)
 {
-    return outcome(path, write_synced(path_aside(path).text, O_APPEND, tail, length));
+    return outcome(path, write_synced(path_temporary(path).text, O_APPEND, tail, length));
 }
 
 static status file_rename(const char *path)
 {
-    status s = file_guard(path);
+    status s = file_check_replaceable(path);
     if (s != OK) file_discard(path);
     TRY(s);
-    s = outcome(path, rename(path_aside(path).text, path) != 0 ? errno : 0);
+    s = outcome(path, rename(path_temporary(path).text, path) != 0 ? errno : 0);
     file_end(path);
     return s;
 }
 
-status file_settle(const char *path)
+status file_sync_folder(const char *path)
 {
     const int fault = sync_folder_of(path);
     return fault && fault != EACCES ? file_fault(path, fault) : OK; /* EACCES: the folder may be written but not read */
@@ -241,20 +241,20 @@ status file_settle(const char *path)
 status file_publish(const char *path)
 {
     TRY(file_rename(path));
-    return file_settle(path);
+    return file_sync_folder(path);
 }
 
-status file_put_unsettled(const char *path, const void *bytes, size_t length)
+status file_write_whole_unsynced(const char *path, const void *bytes, size_t length)
 {
-    if (input_was_read(path) && file_holds(path, bytes, length)) return OK;
-    TRY(outcome(path, write_synced(file_begin(path).text, O_CREAT | O_EXCL, bytes, length)));
+    if (input_was_read(path) && file_has_contents(path, bytes, length)) return OK;
+    TRY(outcome(path, write_synced(file_begin_temporary(path).text, O_CREAT | O_EXCL, bytes, length)));
     return file_rename(path);
 }
 
-status file_put(const char *path, const void *bytes, size_t length)
+status file_write_whole(const char *path, const void *bytes, size_t length)
 {
-    TRY(file_put_unsettled(path, bytes, length));
-    return file_settle(path);
+    TRY(file_write_whole_unsynced(path, bytes, length));
+    return file_sync_folder(path);
 }
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
@@ -262,7 +262,7 @@ status file_put(const char *path, const void *bytes, size_t length)
 /* Creates one folder unless it exists. REFUSED if a file has this name. */
 static status folder_make_one(const char *path)
 {
-    if (mkdir(path, 0777) == 0) return file_settle(path);
+    if (mkdir(path, 0777) == 0) return file_sync_folder(path);
     if (errno == EEXIST && path_is_folder(path)) return OK;
     if (errno == EEXIST || errno == ENOTDIR)
         return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
@@ -280,8 +280,8 @@ status folder_make(const char *path)
     return folder_make_one(part.text);
 }
 
-status files_each(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
-                  each_file *each)
+status files_visit(const char *folder, bool (*chosen)(const char *name, const char *end), const char *end,
+                   file_visit_fn *each)
 {
     status s = OK;
     DIR *d = path_is_link(folder) ? NULL : opendir(folder);
@@ -307,7 +307,7 @@ static int64_t output_files_read_all(int fd, char *bytes, size_t room)
     return (int64_t)have;
 }
 
-status file_get(const char *path, char **text, size_t *length)
+status file_read_whole(const char *path, char **text, size_t *length)
 {
     struct stat s;
     /* Open without blocking: a FIFO of this name would otherwise stop the program. */

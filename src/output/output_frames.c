@@ -132,8 +132,8 @@ static void write_field(struct hdf *f, const struct frame_job *job, int k, const
         else
             field->fill(job->more, i - own, to);
     }
-    hdf_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
-    hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
+    hdf_write_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
+    hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
 /* Writes one vertex cell per particle: cell k consists of point k and starts at k. room: buffer for one field. */
@@ -141,13 +141,13 @@ static void write_cells(struct hdf *f, int64_t n, char *room)
 {
     int64_t *number = (int64_t *)room;
     for (int64_t k = 0; k <= n; k++) number[k] = k;
-    hdf_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
-    hdf_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
-    hdf_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
-    hdf_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
-    hdf_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
+    hdf_write_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
+    hdf_write_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
+    hdf_write_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
+    hdf_write_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
+    hdf_write_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
     array_fill_bytes(room, VTK_VERTEX, n, 1);
-    hdf_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
+    hdf_write_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
 }
 
 /* Writes the data that VTK shows beside the particles: the time, the units and the scene. */
@@ -155,10 +155,10 @@ static void write_field_data(struct hdf *f, const struct frame_job *job)
 {
     char units[1000];
     frame_units_text(job->fields, units, sizeof units);
-    hdf_group(f, "/VTKHDF/FieldData");
-    hdf_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
-    hdf_text_list(f, "/VTKHDF/FieldData/units", units);
-    hdf_text_list(f, "/VTKHDF/FieldData/scene", job->scene_text);
+    hdf_create_group(f, "/VTKHDF/FieldData");
+    hdf_write_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
+    hdf_write_text_list(f, "/VTKHDF/FieldData/units", units);
+    hdf_write_text_list(f, "/VTKHDF/FieldData/scene", job->scene_text);
 }
 
 /* Writes the groups and attributes of a frame, and the text of its scene. */
@@ -166,16 +166,16 @@ static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char
 {
     static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
     int32_t dimension = dim;
-    hdf_group(f, "/VTKHDF");
-    hdf_mark(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
-    hdf_mark_text(f, "/VTKHDF", "Type", "UnstructuredGrid");
-    hdf_group(f, "/VTKHDF/PointData");
-    hdf_group(f, "/Cleave");
-    hdf_mark_one(f, "/Cleave", "version", HDF_I32, &version);
-    hdf_mark_one(f, "/Cleave", "dim", HDF_I32, &dimension);
-    hdf_mark_one(f, "/Cleave", "time", HDF_F64, &t);
-    hdf_mark_one(f, "/Cleave", "step", HDF_I64, &step);
-    hdf_text(f, "/Cleave/scene", scene_text);
+    hdf_create_group(f, "/VTKHDF");
+    hdf_write_attribute(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
+    hdf_write_text_attribute(f, "/VTKHDF", "Type", "UnstructuredGrid");
+    hdf_create_group(f, "/VTKHDF/PointData");
+    hdf_create_group(f, "/Cleave");
+    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_scalar_attribute(f, "/Cleave", "dim", HDF_I32, &dimension);
+    hdf_write_scalar_attribute(f, "/Cleave", "time", HDF_F64, &t);
+    hdf_write_scalar_attribute(f, "/Cleave", "step", HDF_I64, &step);
+    hdf_write_text(f, "/Cleave/scene", scene_text);
 }
 
 static void kept_free(struct frame_series *s)
@@ -227,7 +227,7 @@ static status frame_write(struct frame_job *job)
     struct hdf f;
     const int32_t *order = job->series->kept.order;
     char *room = job->series->kept.room;
-    hdf_create(&f, file_begin(job->path.text).text, job->compress);
+    hdf_create(&f, file_begin_temporary(job->path.text).text, job->compress);
     write_marks(&f, job->dim, job->t, job->step, job->scene_text);
     write_field_data(&f, job);
     write_cells(&f, job->n, room);
@@ -239,7 +239,7 @@ static status frame_write(struct frame_job *job)
         file_discard(job->path.text);
         return file_fault(job->path.text, f.cause);
     }
-    TRY(file_seal_whole(job->path.text));
+    TRY(file_append_footer(job->path.text));
     return file_publish(job->path.text);
 }
 
@@ -276,7 +276,7 @@ static void xdmf_item(FILE *out, const char *frame, const struct frame_field *fi
     static const char *const number[] = {
         [HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar", [HDF_I32] = "Int", [HDF_I64] = "Int"};
     fprintf(out, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%zu\" Dimensions=\"%lld", number[field->type],
-            hdf_size(field->type), (long long)n);
+            hdf_type_size(field->type), (long long)n);
     if (field->columns > 1) fprintf(out, " %d", field->columns);
     fprintf(out, "\">%s:%s</DataItem>", frame, field->path);
 }
@@ -346,7 +346,7 @@ static status index_make(const struct output *o, struct frame_job *job, int whic
 static status indices_put(const char *folder, const struct frame_job *job)
 {
     for (int k = 0; k < 2; k++)
-        TRY(file_put(index_path(folder, job->series, k).text, job->index[k], job->index_length[k]));
+        TRY(file_write_whole(index_path(folder, job->series, k).text, job->index[k], job->index_length[k]));
     return OK;
 }
 
@@ -413,7 +413,7 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
     char name[PATH_NAME_ROOM];
     TRY(output_wait(o));
     if (o->broken) return FAILED;
-    TRY(folder_held(&o->lock, o->folder));
+    TRY(folder_check_lock(&o->lock, o->folder));
     frame_name(series, name, sizeof name, series->frames);
     if (!kept_make(series, &source)) return file_fault(path_join(o->folder, name).text, ENOMEM);
     struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
@@ -427,7 +427,7 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
     return OK;
 }
 
-status output_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
+status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text)
 {
     TRY(output_frame_begin(o, 0, p, NULL, t, step, scene_text));
     return output_wait(o);
@@ -442,10 +442,10 @@ static const char *frame_fault(const char *path, real time)
     struct hdf f;
     real found = NAN;
     if (isnan(time)) return "is missing";
-    const char *fault = whole_fault_certain(path);
+    const char *fault = file_certain_damage(path);
     if (fault || !path_is_file(path)) return fault;
     hdf_open(&f, path);
-    hdf_read_mark(&f, "/Cleave", "time", HDF_F64, &found);
+    hdf_read_attribute(&f, "/Cleave", "time", HDF_F64, &found);
     const bool read = !f.failed;
     hdf_close(&f);
     return read && !bits_equal(found, time) ? "is another one" : NULL;

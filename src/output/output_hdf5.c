@@ -9,7 +9,7 @@
 /* Rows per chunk of a compressed dataset: 64 Ki rows of 24 bytes, 1.5 MiB, fit HDF5's chunk cache. */
 enum { CHUNK_ROWS = 1 << 16, GZIP_LEVEL = 4 };
 
-size_t hdf_size(enum hdf_type type)
+size_t hdf_type_size(enum hdf_type type)
 {
     static const size_t size[] = {[HDF_F32] = 4, [HDF_F64] = 8, [HDF_U8] = 1, [HDF_I32] = 4, [HDF_I64] = 8};
     return size[type];
@@ -91,7 +91,7 @@ void hdf_close(struct hdf *f)
     f->file = -1;
 }
 
-void hdf_group(struct hdf *f, const char *name)
+void hdf_create_group(struct hdf *f, const char *name)
 {
     hid_t list = -1, group = -1;
     if (!ready(f)) return;
@@ -112,7 +112,7 @@ static hid_t dataset_list(struct hdf *f, int rank, const hsize_t *shape)
     return made ? list : -1;
 }
 
-void hdf_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data)
+void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data)
 {
     hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
     int rank = columns > 1 ? 2 : 1;
@@ -135,8 +135,8 @@ static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name,
            good(f, H5Pset_virtual(list, space, source->file, name, from)) && good(f, H5Sclose(from));
 }
 
-void hdf_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns, const struct hdf_source *source,
-                 int sources, int more)
+void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int columns,
+                       const struct hdf_source *source, int sources, int more)
 {
     hsize_t all[2] = {0, (hsize_t)columns}, at[2] = {0, 0};
     const int rank = columns > 1 ? 2 : 1;
@@ -166,7 +166,7 @@ static hid_t text_type(struct hdf *f, const char *text)
     return f->failed ? -1 : type;
 }
 
-void hdf_text(struct hdf *f, const char *name, const char *text)
+void hdf_write_text(struct hdf *f, const char *name, const char *text)
 {
     hid_t type = -1, space = -1, list = -1, set = -1;
     if (!ready(f)) return;
@@ -177,7 +177,7 @@ void hdf_text(struct hdf *f, const char *name, const char *text)
            good(f, H5Pclose(list)) && good(f, H5Sclose(space)) && good(f, H5Tclose(type)));
 }
 
-void hdf_text_list(struct hdf *f, const char *name, const char *text)
+void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
 {
     const hsize_t one = 1;
     hid_t type = -1, space = -1, list = -1, set = -1;
@@ -204,18 +204,20 @@ static void output_hdf5_mark(struct hdf *f, const char *group, const char *name,
            good(f, H5Awrite(at, type, value)) && good(f, H5Aclose(at)) && good(f, H5Sclose(space)));
 }
 
-void hdf_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count, const void *values)
+void hdf_write_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, int count,
+                         const void *values)
 {
     hsize_t shape = (hsize_t)count;
     if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate_simple(1, &shape, NULL), values);
 }
 
-void hdf_mark_one(struct hdf *f, const char *group, const char *name, enum hdf_type type, const void *value)
+void hdf_write_scalar_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type,
+                                const void *value)
 {
     if (ready(f)) output_hdf5_mark(f, group, name, hdf_native(type), H5Screate(H5S_SCALAR), value);
 }
 
-void hdf_mark_text(struct hdf *f, const char *group, const char *name, const char *text)
+void hdf_write_text_attribute(struct hdf *f, const char *group, const char *name, const char *text)
 {
     if (!ready(f)) return;
     hid_t type = text_type(f, text);
@@ -224,7 +226,7 @@ void hdf_mark_text(struct hdf *f, const char *group, const char *name, const cha
     if (!f->failed) good(f, H5Tclose(type));
 }
 
-int64_t hdf_count(struct hdf *f, const char *name)
+int64_t hdf_dataset_size(struct hdf *f, const char *name)
 {
     hid_t set = -1, space = -1;
     if (!ready(f)) return -1;
@@ -240,7 +242,7 @@ void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t 
 {
     hid_t set = -1;
     if (!ready(f)) return;
-    if (hdf_count(f, name) != count) {
+    if (hdf_dataset_size(f, name) != count) {
         f->failed = true;
         return;
     }
@@ -249,7 +251,7 @@ void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t 
            good(f, H5Dread(set, hdf_native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data)) && good(f, H5Dclose(set)));
 }
 
-void hdf_read_mark(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value)
+void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value)
 {
     hid_t at = -1, space = -1;
     if (!ready(f)) return;

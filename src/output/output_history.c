@@ -75,10 +75,10 @@ static status history_cut(const struct output *o)
     size_t length = 0;
     if (!path_is_file(path.text))
         return status_set(FAILED, "cannot resume: %s is missing; begin anew with --overwrite", path.text);
-    TRY(file_get(path.text, &text, &length));
+    TRY(file_read_whole(path.text, &text, &length));
     const bool shorter = (int64_t)length < o->history_bytes;
     const bool same = !shorter && hash_bytes(HASH_START, text, (size_t)o->history_bytes) == o->history_hash;
-    const status cut = same ? file_put(path.text, text, (size_t)o->history_bytes) : OK;
+    const status cut = same ? file_write_whole(path.text, text, (size_t)o->history_bytes) : OK;
     memory_free(text);
     if (same) return cut;
     return status_set(FAILED, "cannot resume: %s is %s at the checkpoint (%lld bytes); begin anew with --overwrite",
@@ -101,7 +101,7 @@ status output_history_open(struct output *o, const struct column *column, int co
     struct path path = history_path(o);
     o->columns = columns;
     if (resume) TRY(history_cut(o));
-    TRY(file_guard(path.text));
+    TRY(file_check_replaceable(path.text));
     o->history = history_file(path.text, resume);
     if (!o->history) return file_fault(path.text, errno);
     if (resume) return OK;
@@ -109,7 +109,7 @@ status output_history_open(struct output *o, const struct column *column, int co
     return history_header(o, column);
 }
 
-status output_history(struct output *o, const real *value)
+status output_write_history(struct output *o, const real *value)
 {
     struct line l;
     if (!line_begin(&l)) return file_fault(history_path(o).text, ENOMEM);

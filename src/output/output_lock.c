@@ -86,8 +86,8 @@ status folder_lock(struct folder_lock *l, const char *folder)
         }
         if (fault) {
             close(fd);
-            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n", shown_name(folder).text,
-                    strerror(fault));
+            fprintf(stderr, "warning: cannot lock %s (%s): see that no other run uses it\n",
+                    printable_name(folder).text, strerror(fault));
             return OK;
         }
         const bool shared = has_other_names(fd);
@@ -107,7 +107,7 @@ status folder_lock(struct folder_lock *l, const char *folder)
     return OK;
 }
 
-status folder_held(const struct folder_lock *l, const char *folder)
+status folder_check_lock(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
     return status_set(
@@ -118,7 +118,7 @@ void folder_unlock(struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0) return;
     /* Remove the file before the lock is released: the next process that locks it then finds that it is removed. */
-    if (folder_held(l, folder) == OK) unlink(path_join(folder, lock_name).text);
+    if (folder_check_lock(l, folder) == OK) unlink(path_join(folder, lock_name).text);
     close(l->fd);
     l->fd = -1;
 }

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/last_words.h"
+#include "base/crash_message.h"
 #include "base/memory.h"
 #include "data/derived_fields.h"
 #include "output/output.h"
@@ -32,7 +32,7 @@ static void read_columns(struct hdf *h, const char *name, int64_t n, int columns
 
 static void *read_list(struct hdf *h, const char *name, enum hdf_type type, int64_t n)
 {
-    void *data = memory_new("frame.list", n, hdf_size(type));
+    void *data = memory_new("frame.list", n, hdf_type_size(type));
     hdf_read_rows(h, name, type, n, data);
     return data;
 }
@@ -51,9 +51,9 @@ static void read_fields(struct frame *f, struct hdf *h)
     f->material = read_list(h, "/VTKHDF/PointData/material", HDF_U8, f->n);
     f->body = read_list(h, "/VTKHDF/PointData/body", HDF_U8, f->n);
     f->id = read_list(h, "/VTKHDF/PointData/id", HDF_I32, f->n);
-    if (hdf_count(h, "/VTKHDF/PointData/fragment") >= 0)
+    if (hdf_dataset_size(h, "/VTKHDF/PointData/fragment") >= 0)
         f->fragment = read_list(h, "/VTKHDF/PointData/fragment", HDF_I32, f->n);
-    if (hdf_count(h, "/VTKHDF/PointData/spacing") >= 0)
+    if (hdf_dataset_size(h, "/VTKHDF/PointData/spacing") >= 0)
         f->spacing = read_list(h, "/VTKHDF/PointData/spacing", HDF_F32, f->n);
 }
 
@@ -61,11 +61,11 @@ static void read_fields(struct frame *f, struct hdf *h)
 static void read_size(struct frame *f, struct hdf *h, int64_t bytes)
 {
     int32_t dim = 0;
-    hdf_read_mark(h, "/Cleave", "dim", HDF_I32, &dim);
-    hdf_read_mark(h, "/Cleave", "time", HDF_F64, &f->t);
-    hdf_read_mark(h, "/Cleave", "step", HDF_I64, &f->step);
+    hdf_read_attribute(h, "/Cleave", "dim", HDF_I32, &dim);
+    hdf_read_attribute(h, "/Cleave", "time", HDF_F64, &f->t);
+    hdf_read_attribute(h, "/Cleave", "step", HDF_I64, &f->step);
     if (h->failed) return;
-    int64_t n = hdf_count(h, "/VTKHDF/Types");
+    int64_t n = hdf_dataset_size(h, "/VTKHDF/Types");
     if (dim < 1 || dim > DIM_MAX || n < 0 || n > INT32_MAX || n / PARTICLES_PER_BYTE_MOST > bytes) h->failed = true;
     f->dim = dim;
     f->n = n;
@@ -78,15 +78,15 @@ status frame_read(struct frame *f, const char *path)
     *f = (struct frame){0};
     if (stat(path, &s) != 0 || !S_ISREG(s.st_mode))
         return status_set(FAILED, "cannot read %s: there is no such file", path);
-    const char *fault = whole_fault(path);
+    const char *fault = file_damage(path);
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
-    last_words_reading(path);
+    crash_message_set_file(path);
     hdf_open(&h, path);
     if (!h.failed) read_size(f, &h, s.st_size);
     if (!h.failed) read_fields(f, &h);
     bool whole = !h.failed;
     hdf_close(&h);
-    last_words_reading(NULL);
+    crash_message_set_file(NULL);
     if (whole) return OK;
     frame_free(f);
     return status_set(FAILED, "cannot read %s: it is no whole frame of this program", path);
@@ -150,16 +150,16 @@ status frame_field_read(const struct frame *f, const char *path, const char *nam
         return OK;
     }
     snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
-    last_words_reading(path);
+    crash_message_set_file(path);
     hdf_open(&h, path);
-    const int64_t count = strchr(name, '/') ? -1 : hdf_count(&h, place), most = f->n * COLUMNS_MOST;
+    const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_size(&h, place), most = f->n * COLUMNS_MOST;
     if (count > 0 && count <= most && count % f->n == 0) {
         *columns = (int)(count / f->n), *value = NEW("frame.field", count, float);
         hdf_read_rows(&h, place, HDF_F32, count, *value);
     }
     const bool whole = !h.failed && *value;
     hdf_close(&h);
-    last_words_reading(NULL);
+    crash_message_set_file(NULL);
     if (whole) return OK;
     memory_free(*value);
     *value = NULL;
@@ -191,7 +191,7 @@ status frames_list(const char *folder, int *n, struct listed_frame **list)
     *n = 0;
     *list = NULL;
     if (!path_exists(path.text)) return status_set(FAILED, "%s holds no frames (no frames.hdf.series)", folder);
-    TRY(file_get(path.text, &text, &length));
+    TRY(file_read_whole(path.text, &text, &length));
     int count = 0;
     for (const char *at = text; next_frame(&at, &f);) count++;
     *list = NEW("frames.list", count, struct listed_frame);

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/last_words.h"
+#include "base/crash_message.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 
@@ -34,14 +34,15 @@ static bool frame_look(struct temporal *a, int k)
     struct hdf f;
     const struct path path = path_join(a->folder, a->name[k]);
     if (!path_is_file(path.text)) return false;
-    last_words_reading(path.text);
+    crash_message_set_file(path.text);
     hdf_open(&f, path.text);
-    const int64_t n = hdf_count(&f, "/VTKHDF/Types");
+    const int64_t n = hdf_dataset_size(&f, "/VTKHDF/Types");
     for (int field = 0; field < FRAME_FIELDS; field++)
-        if (hdf_count(&f, frame_fields[field].path) != n * frame_fields[field].columns) a->fields &= ~(1u << field);
+        if (hdf_dataset_size(&f, frame_fields[field].path) != n * frame_fields[field].columns)
+            a->fields &= ~(1u << field);
     const bool whole = !f.failed && n >= 0;
     hdf_close(&f);
-    last_words_reading(NULL);
+    crash_message_set_file(NULL);
     a->source[k] = (struct hdf_source){a->name[k], n};
     return whole;
 }
@@ -66,23 +67,23 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     const int32_t steps = a->n;
     char name[PATH_NAME_ROOM];
     double *time = (double *)number;
-    hdf_group(f, "/VTKHDF/Steps");
-    hdf_mark_one(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
+    hdf_create_group(f, "/VTKHDF/Steps");
+    hdf_write_scalar_attribute(f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
     for (int k = 0; k < a->n; k++) time[k] = a->time[k];
-    hdf_rows(f, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
+    hdf_write_rows(f, "/VTKHDF/Steps/Values", HDF_F64, a->n, 1, time);
     for (int k = 0; k < a->n; k++) number[k] = k;
-    hdf_rows(f, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
+    hdf_write_rows(f, "/VTKHDF/Steps/PartOffsets", HDF_I64, a->n, 1, number);
     for (int k = 0; k < a->n; k++) number[k] = 1;
-    hdf_rows(f, "/VTKHDF/Steps/NumberOfParts", HDF_I64, a->n, 1, number);
+    hdf_write_rows(f, "/VTKHDF/Steps/NumberOfParts", HDF_I64, a->n, 1, number);
     for (int s = 0; s < 3; s++) {
         snprintf(name, sizeof name, "/VTKHDF/Steps/%s", start[s]);
-        hdf_rows(f, name, HDF_I64, a->n, 1, a->start);
+        hdf_write_rows(f, name, HDF_I64, a->n, 1, a->start);
     }
-    hdf_group(f, "/VTKHDF/Steps/PointDataOffsets");
+    hdf_create_group(f, "/VTKHDF/Steps/PointDataOffsets");
     for (int field = FIELD_POINTS + 1; field < FRAME_FIELDS; field++) {
         if (!(a->fields >> field & 1) || frame_fields[field].columns == 0) continue;
         snprintf(name, sizeof name, "/VTKHDF/Steps/PointDataOffsets/%s", strrchr(frame_fields[field].path, '/') + 1);
-        hdf_rows(f, name, HDF_I64, a->n, 1, a->start);
+        hdf_write_rows(f, name, HDF_I64, a->n, 1, a->start);
     }
 }
 
@@ -94,17 +95,17 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     for (int k = 0; k < a->n; k++) number[k] = a->source[k].rows;
     for (int c = 0; c < 3; c++) {
         snprintf(name, sizeof name, "/VTKHDF/%s", count[c]);
-        hdf_rows(f, name, HDF_I64, a->n, 1, number);
+        hdf_write_rows(f, name, HDF_I64, a->n, 1, number);
     }
-    hdf_virtual(f, "/VTKHDF/Connectivity", HDF_I64, 1, a->source, a->n, 0);
-    hdf_virtual(f, "/VTKHDF/Offsets", HDF_I64, 1, a->source, a->n, 1);
-    hdf_virtual(f, "/VTKHDF/Types", HDF_U8, 1, a->source, a->n, 0);
-    hdf_group(f, "/VTKHDF/PointData");
+    hdf_write_virtual(f, "/VTKHDF/Connectivity", HDF_I64, 1, a->source, a->n, 0);
+    hdf_write_virtual(f, "/VTKHDF/Offsets", HDF_I64, 1, a->source, a->n, 1);
+    hdf_write_virtual(f, "/VTKHDF/Types", HDF_U8, 1, a->source, a->n, 0);
+    hdf_create_group(f, "/VTKHDF/PointData");
     for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
         if (!(a->fields >> k & 1) || field->columns == 0) continue;
-        hdf_virtual(f, field->path, field->type, field->columns, a->source, a->n, 0);
-        hdf_mark_text(f, field->path, "unit", field->unit[0] ? field->unit : "1");
+        hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, 0);
+        hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
     }
 }
 
@@ -115,18 +116,18 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     char units[1000], path[PATH_NAME_ROOM];
     frame_units_text(a->fields, units, sizeof units);
     const char *const text[] = {units, scene_text};
-    hdf_group(f, "/VTKHDF/FieldData");
-    hdf_group(f, "/VTKHDF/Steps/FieldDataOffsets");
-    hdf_group(f, "/VTKHDF/Steps/FieldDataSizes");
+    hdf_create_group(f, "/VTKHDF/FieldData");
+    hdf_create_group(f, "/VTKHDF/Steps/FieldDataOffsets");
+    hdf_create_group(f, "/VTKHDF/Steps/FieldDataSizes");
     for (int k = 0; k < 2; k++) {
         snprintf(path, sizeof path, "/VTKHDF/FieldData/%s", name[k]);
-        hdf_text_list(f, path, text[k]);
+        hdf_write_text_list(f, path, text[k]);
         for (int step = 0; step < a->n; step++) number[step] = 0;
         snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataOffsets/%s", name[k]);
-        hdf_rows(f, path, HDF_I64, a->n, 1, number);
+        hdf_write_rows(f, path, HDF_I64, a->n, 1, number);
         for (int step = 0; step < 2 * a->n; step++) number[step] = 1;
         snprintf(path, sizeof path, "/VTKHDF/Steps/FieldDataSizes/%s", name[k]);
-        hdf_rows(f, path, HDF_I64, a->n, 2, number);
+        hdf_write_rows(f, path, HDF_I64, a->n, 2, number);
     }
 }
 
@@ -135,10 +136,10 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     static const int32_t version[2] = {2, 0};
     int64_t *number = NEW("temporal.number", 2 * (int64_t)a->n, int64_t);
     struct hdf f;
-    hdf_create(&f, file_begin(path).text, false);
-    hdf_group(&f, "/VTKHDF");
-    hdf_mark(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
-    hdf_mark_text(&f, "/VTKHDF", "Type", "UnstructuredGrid");
+    hdf_create(&f, file_begin_temporary(path).text, false);
+    hdf_create_group(&f, "/VTKHDF");
+    hdf_write_attribute(&f, "/VTKHDF", "Version", HDF_I32, 2, version);
+    hdf_write_text_attribute(&f, "/VTKHDF", "Type", "UnstructuredGrid");
     write_steps(&f, a, number);
     write_rows(&f, a, number);
     write_texts(&f, a, scene_text, number);
@@ -149,7 +150,7 @@ static status temporal_write(const struct temporal *a, const char *path, const c
         file_discard(path);
         return file_fault(path, f.cause);
     }
-    TRY(file_seal(path, NULL, 0));
+    TRY(file_append_and_sync(path, NULL, 0));
     return file_publish(path);
 }
 
@@ -179,11 +180,11 @@ void output_temporal_remove(const struct output *o)
     }
 }
 
-status output_temporal(struct output *o, const char *scene_text)
+status output_write_temporal(struct output *o, const char *scene_text)
 {
     TRY(output_wait(o));
     if (o->broken) return FAILED;
-    TRY(folder_held(&o->lock, o->folder));
+    TRY(folder_check_lock(&o->lock, o->folder));
     for (int k = 0; k <= o->n_series; k++) TRY(series_temporal(o, &o->series[k], scene_text));
     return OK;
 }

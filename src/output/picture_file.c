@@ -92,7 +92,7 @@ static int mark_and_sync(int fd, const struct picture_end *e)
 
 status picture_publish(const char *path, enum picture_format format)
 {
-    const int fd = open(path_aside(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+    const int fd = open(path_temporary(path).text, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
     int fault = fd < 0 ? errno : mark_and_sync(fd, &ends[format]);
     if (fd >= 0 && close(fd) != 0 && !fault) fault = errno;
     if (!fault) return file_publish(path);
@@ -104,7 +104,7 @@ status picture_publish(const char *path, enum picture_format format)
                       path);
 }
 
-bool picture_is_ours(const char *path)
+bool picture_has_mark(const char *path)
 {
     char last[END_LENGTH];
     struct stat s;
@@ -117,9 +117,9 @@ bool picture_is_ours(const char *path)
     return ours;
 }
 
-status picture_guard(const char *path)
+status picture_check_replaceable(const char *path)
 {
-    TRY(file_guard(path));
-    if (!path_exists(path) || picture_is_ours(path)) return OK;
+    TRY(file_check_replaceable(path));
+    if (!path_exists(path) || picture_has_mark(path)) return OK;
     return status_set(REFUSED, "%s is there already and was not drawn by cleave; move it away", path);
 }

@@ -50,7 +50,7 @@ static bool ends_as_picture(const char *rest, const char *end)
     return false;
 }
 
-bool is_picture(const char *name, const char *end)
+bool is_picture_name(const char *name, const char *end)
 {
     if (strncmp(name, field_prefix, sizeof field_prefix - 1) == 0)
         return ends_as_picture(name + strspn(name, "abcdefghijklmnopqrstuvwxyz_0123456789"), end);

@@ -264,7 +264,7 @@ status summary_string(const char *folder, const char *dotted_key, char *out, siz
         out[length++] = *c;
     }
     out[length] = '\0';
-    text_harmless(out);
+    text_replace_controls(out);
     free(text);
     return is_string ? OK : status_set(FAILED, "%s/summary.json: %s is not a text", folder, dotted_key);
 }

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/leavings.h"
+#include "base/interrupt_cleanup.h"
 #include "base/memory.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
@@ -29,7 +29,7 @@ struct ffmpeg {
 static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
 {
     const int nothing = open("/dev/null", O_RDWR);
-    leavings_child();
+    interrupt_cleanup_in_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(from < 0 ? nothing : from, STDIN_FILENO);
     dup2(complaints < 0 ? nothing : complaints, STDOUT_FILENO);
@@ -38,7 +38,7 @@ static _Noreturn void become_ffmpeg(char *const *word, int from, int complaints)
     _exit(NOT_FOUND);
 }
 
-status film_possible(void)
+status film_check_encoder(void)
 {
     char *word[] = {"ffmpeg", "-version", NULL};
     int ended = 0;
@@ -63,7 +63,7 @@ static bool pipe_make(int *ends)
 static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
 {
     struct path to;
-    const struct path aside = path_aside(sheet.path);
+    const struct path aside = path_temporary(sheet.path);
     const bool gif = sheet.format == PICTURE_GIF;
     int ends[2];
     snprintf(to.text, sizeof to.text, "file:%.*s", (int)sizeof to.text - 6, aside.text);
@@ -79,12 +79,12 @@ static status ffmpeg_start(struct ffmpeg *f, struct sheet sheet)
     if (!gif) memcpy(word + 16, h264, sizeof h264);
     *f = (struct ffmpeg){.to = -1, .complaints = tmpfile()};
     if (!pipe_make(ends)) return status_set(FAILED, "%s: no pipe to ffmpeg: %s", sheet.path, strerror(errno));
-    leavings_hold(true);
+    interrupt_cleanup_block(true);
     f->process = (int)fork();
     if (f->process == 0) become_ffmpeg(word, ends[0], f->complaints ? fileno(f->complaints) : -1);
     const int cause = errno;
-    if (f->process > 0) leaving_set(LEAVING_FILM, aside.text, f->process);
-    leavings_hold(false);
+    if (f->process > 0) interrupt_cleanup_set(LEAVING_FILM, aside.text, f->process);
+    interrupt_cleanup_block(false);
     close(ends[0]);
     f->to = ends[1];
     if (f->process < 0) return status_set(FAILED, "%s: ffmpeg cannot be started: %s", sheet.path, strerror(cause));
@@ -97,7 +97,7 @@ static status ffmpeg_feed(struct ffmpeg *f, const char *picture)
 {
     char *bytes;
     size_t length, sent = 0;
-    TRY(file_get(picture, &bytes, &length));
+    TRY(file_read_whole(picture, &bytes, &length));
     while (sent < length) {
         const ssize_t done = write(f->to, bytes + sent, length - sent);
         if (done < 0 && errno == EINTR) continue;
@@ -120,11 +120,11 @@ static status ffmpeg_end(struct ffmpeg *f, struct sheet sheet, status fed)
     if (fed == OK && made)
         fed = picture_publish(sheet.path, sheet.format);
     else if (f->process > 0 && f->complaints && (fed == OK || !status_message()[0])) {
-        complaint_read(f->complaints, reason, sizeof reason);
+        error_message_read(f->complaints, reason, sizeof reason);
         fed = status_set(FAILED, "%s: ffmpeg made no film: %s", sheet.path, reason);
     }
     if (fed != OK) file_discard(sheet.path);
-    leaving_set(LEAVING_FILM, NULL, 0);
+    interrupt_cleanup_set(LEAVING_FILM, NULL, 0);
     if (f->complaints) fclose(f->complaints);
     return fed;
 }
@@ -137,15 +137,15 @@ status film_draw(struct sheet sheet, const char *title, enum map map, const stru
     const int length = snprintf(picture.text, sizeof picture.text, "%s" ASIDE_ENDING ".png", sheet.path);
     if (length >= (int)(sizeof picture.text - sizeof ASIDE_ENDING))
         return status_set(FAILED, "%s: the name is too long", sheet.path);
-    TRY(file_guard(sheet.path));
-    unlink(path_aside(sheet.path).text); /* a link of this name is not followed */
+    TRY(file_check_replaceable(sheet.path));
+    unlink(path_temporary(sheet.path).text); /* a link of this name is not followed */
     status s = ffmpeg_start(&f, sheet);
     for (int k = 0; s == OK && k < clouds; k++) {
-        leaving_set(LEAVING_FRAME, picture.text, 0);
+        interrupt_cleanup_set(LEAVING_FRAME, picture.text, 0);
         s = maps_draw((struct sheet){picture.text, PICTURE_PNG}, title, map, view, &cloud[k], 1);
         if (s == OK) s = ffmpeg_feed(&f, picture.text);
         unlink(picture.text);
-        leaving_set(LEAVING_FRAME, NULL, 0);
+        interrupt_cleanup_set(LEAVING_FRAME, NULL, 0);
     }
     return ffmpeg_end(&f, sheet, s);
 }

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/leavings.h"
+#include "base/interrupt_cleanup.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
 
@@ -37,7 +37,7 @@ void gnuplot_quote(FILE *to, const char *text)
  * `complaints`. */
 static _Noreturn void become_gnuplot(const int *pipe_ends, int complaints)
 {
-    leavings_child();
+    interrupt_cleanup_in_child();
     signal(SIGPIPE, SIG_DFL);
     dup2(pipe_ends[0], STDIN_FILENO);
     dup2(complaints, STDOUT_FILENO);
@@ -145,11 +145,11 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
         return status_set(FAILED, "%s: out of memory", path);
     }
     g->format = format;
-    leavings_hold(true);
-    status s = file_guard(path);
+    interrupt_cleanup_block(true);
+    status s = file_check_replaceable(path);
     if (s == OK) s = gnuplot_start(g);
-    if (s == OK) leaving_set(LEAVING_PICTURE, g->aside, g->process);
-    leavings_hold(false);
+    if (s == OK) interrupt_cleanup_set(LEAVING_PICTURE, g->aside, g->process);
+    interrupt_cleanup_block(false);
     if (s != OK) {
         gnuplot_release(g);
         return s;
@@ -159,7 +159,7 @@ status gnuplot_open(struct gnuplot *g, const char *path, enum picture_format for
     return OK;
 }
 
-void complaint_read(FILE *from, char *text, size_t size)
+void error_message_read(FILE *from, char *text, size_t size)
 {
     char line[256];
     snprintf(text, size, "it gave no reason");
@@ -184,13 +184,13 @@ status gnuplot_close(struct gnuplot *g)
                                "(Fedora, macOS)");
     } else if (!sent || !WIFEXITED(ended) || WEXITSTATUS(ended) != 0) {
         char reason[256];
-        complaint_read(g->complaints, reason, sizeof reason);
+        error_message_read(g->complaints, reason, sizeof reason);
         s = status_set(FAILED, "%s: gnuplot drew nothing: %s", g->path, reason);
     } else {
         s = picture_publish(g->path, g->format);
     }
     if (s != OK) remove(g->aside);
-    leaving_set(LEAVING_PICTURE, NULL, 0);
+    interrupt_cleanup_set(LEAVING_PICTURE, NULL, 0);
     gnuplot_release(g);
     return s;
 }

@@ -56,7 +56,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
         struct frame f;
         struct cloud c;
         const int number = frames->list[k].number;
-        TRY(run_frame(&f, r->folder, number));
+        TRY(run_read_frame(&f, r->folder, number));
         cloud_make(&c, &f, &r->projection);
         frame_free(&f);
         status s = draw_map(r, picture_path_of_frame(r->folder, DRAWN_DAMAGE, number).text, MAP_DAMAGE, view, &c, 1);
@@ -71,7 +71,7 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
 static status draw_views(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud,
                          const struct scene *scene)
 {
-    struct view view = view_of(cloud, frames->shown);
+    struct view view = view_around(cloud, frames->shown);
     const struct cloud *last = &cloud[frames->shown - 1];
     const struct contents has = contents_of(cloud, frames->shown);
     if (scene && scene->dim == 2) view.notches = scene->cracks, view.notch = scene->crack;
@@ -104,7 +104,7 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
 /* Draws a solid in an outside view, and its cracks. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
 {
-    const struct view view = view_of(cloud, frames->shown);
+    const struct view view = view_around(cloud, frames->shown);
     const struct path cracks = sheet_path(r, DRAWN_CRACKS);
     TRY(draw_map(r, sheet_path(r, DRAWN_SURFACE).text, MAP_DAMAGE, &view, cloud, frames->shown));
     const struct contents has = contents_of(cloud, frames->shown);
@@ -123,7 +123,7 @@ static status draw_clouds(const struct plot_request *r, const struct run_frames 
     status s = OK;
     for (int k = 0; s == OK && k < frames->shown; k++) {
         struct frame f;
-        s = run_frame(&f, r->folder, frames->show[k].number);
+        s = run_read_frame(&f, r->folder, frames->show[k].number);
         if (s != OK) break;
         cloud_make(&cloud[k], &f, &r->projection);
         frame_free(&f);
@@ -150,7 +150,7 @@ static status plot_draw_bar(const struct plot_request *r, const struct run_frame
 static status draw_profiles(const struct plot_request *r, const struct run_frames *frames)
 {
     char title[TITLE_LENGTH], probe[NAME_MAX_LENGTH];
-    if (bar_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
+    if (bar_find_probe(r->folder, probe)) return plot_draw_bar(r, frames, probe);
     struct frame *f = NULL;
     TRY(frames_read(&f, r->folder, frames));
     compose_title(title, r->folder, "profiles", NULL);
@@ -177,7 +177,7 @@ static status draw_frames(struct plot_request *r)
     struct run_frames frames;
     struct frame last;
     TRY(run_frames_choose(&frames, r));
-    status s = run_frame(&last, r->folder, frames.show[frames.shown - 1].number);
+    status s = run_read_frame(&last, r->folder, frames.show[frames.shown - 1].number);
     if (s == OK) {
         s = last.dim == 1 ? draw_profiles(r, &frames) : draw_solid(r, &frames, &last);
         frame_free(&last);
@@ -186,19 +186,19 @@ static status draw_frames(struct plot_request *r)
     return s;
 }
 
-status run_pictures(const struct plot_request *request)
+status run_draw_pictures(const struct plot_request *request)
 {
     struct plot_request r = *request;
     char title[TITLE_LENGTH];
     if (r.panels == 0) r.panels = PANELS;
-    r.projection.in_steps = run_in_steps(r.folder);
-    const bool frames = run_holds(r.folder, "frames.hdf.series"), history = run_holds(r.folder, "history.csv");
+    r.projection.in_steps = run_has_load_steps(r.folder);
+    const bool frames = run_has_file(r.folder, "frames.hdf.series"), history = run_has_file(r.folder, "history.csv");
     const struct path pictures = pictures_folder(r.folder);
     TRY(pictures_folder_make(pictures.text));
     if (frames) TRY(draw_frames(&r));
     compose_title(title, r.folder, "", NULL);
     if (history) TRY(curves_draw(r.folder, title, r.format));
-    if (printf("pictures in %s\n", shown_name(pictures.text).text) < 0 || fflush(stdout) != 0)
+    if (printf("pictures in %s\n", printable_name(pictures.text).text) < 0 || fflush(stdout) != 0)
         return status_set(FAILED, "standard output: %s", strerror(errno));
     return OK;
 }

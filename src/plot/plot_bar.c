@@ -43,13 +43,13 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     memcpy(name, file, length - end);
     name[length - end] = '\0';
     if (profile_read(&h, folder, name, 0) != OK) return false;
-    bool has = history_column(&h, "x") >= 0 && history_column(&h, "exact_stress") >= 0;
+    bool has = history_find_column(&h, "x") >= 0 && history_find_column(&h, "exact_stress") >= 0;
     history_free(&h);
     return has;
 }
 
 /* Chooses the first probe in alphabetical order, so that the choice does not depend on the order of the folder. */
-bool bar_probe(const char *folder, char name[NAME_MAX_LENGTH])
+bool bar_find_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
     bool found = false;
@@ -74,7 +74,7 @@ struct scale {
 
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
-    int at = column ? history_column(h, column) : -1;
+    int at = column ? history_find_column(h, column) : -1;
     for (int64_t i = 0; i < h->rows; i++) {
         double a = history_at(h, i, at);
         if (isfinite(a)) s->low = fmin(s->low, a), s->high = fmax(s->high, a);
@@ -132,10 +132,10 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
 {
     fprintf(to, "$f%d << EOD\n", k);
     for (int64_t i = 0; i < h->rows; i++) {
-        fprintf(to, "%.9g", history_at(h, i, history_column(h, "x")) / metre);
+        fprintf(to, "%.9g", history_at(h, i, history_find_column(h, "x")) / metre);
         for (int q = 0; q < QUANTITIES; q++) {
-            send_number(to, history_at(h, i, history_column(h, quantity[q].computed)) / scale[q].factor);
-            int exact = quantity[q].exact ? history_column(h, quantity[q].exact) : -1;
+            send_number(to, history_at(h, i, history_find_column(h, quantity[q].computed)) / scale[q].factor);
+            int exact = quantity[q].exact ? history_find_column(h, quantity[q].exact) : -1;
             send_number(to, history_at(h, i, exact) / scale[q].factor);
         }
         putc('\n', to);
@@ -147,7 +147,7 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
  * particles of one kind only. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
-    int x = history_column(h, "x"), kind = history_column(h, "kind"), parts = 0;
+    int x = history_find_column(h, "x"), kind = history_find_column(h, "kind"), parts = 0;
     int64_t from = 0, n = 0;
     for (int64_t i = 0; i < h->rows; i++) n += history_at(h, i, kind) == KIND_PD;
     if (n == 0 || n == h->rows) return false;
@@ -187,7 +187,7 @@ static status plot_bar_draw(struct sheet sheet, const char *title, const struct 
     int panels = QUANTITIES - scale[QUANTITIES - 1].zero; /* the last panel, damage, is left out if damage is zero
                                                            * everywhere */
     for (int k = 0; k < frames; k++) extend(&x, &h[k], "x");
-    int at = history_column(&h[0], "x");
+    int at = history_find_column(&h[0], "x");
     double half = h[0].rows > 1 ? 0.5 * fabs(history_at(&h[0], 1, at) - history_at(&h[0], 0, at)) : 0;
     struct unit metre = unit_for_length(fmax(-x.low, x.high));
     int height = 110 + 250 * panels;

@@ -11,7 +11,7 @@
 
 enum { POINTS_MAX = 4000, CURVES_MAX = 8 };
 
-double curves_largest(const struct history *h, int column)
+double curves_largest_value(const struct history *h, int column)
 {
     double largest = 0;
     for (int64_t i = 0; i < h->rows; i++) {
@@ -21,7 +21,7 @@ double curves_largest(const struct history *h, int column)
     return largest;
 }
 
-void curves_send(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
+void curves_write_data(FILE *to, const struct series *s, const int *column, const double *factor, int columns)
 {
     int64_t stride = s->h->rows / POINTS_MAX + 1;
     fputs("$data << EOD\n", to);
@@ -40,7 +40,7 @@ void curves_send(FILE *to, const struct series *s, const int *column, const doub
     fputs("EOD\n", to);
 }
 
-void curves_title(FILE *to, const char *title, const char *what)
+void curves_write_title(FILE *to, const char *title, const char *what)
 {
     char text[512];
     snprintf(text, sizeof text, "%s%s", title, what);
@@ -49,7 +49,7 @@ void curves_title(FILE *to, const char *title, const char *what)
     fputs(" at screen 0.1,0.955 left font ',16' textcolor rgb '#111111'\n", to);
 }
 
-void curves_time_axis(FILE *to, const struct series *s)
+void curves_write_time_axis(FILE *to, const struct series *s)
 {
     double end = history_at(s->h, s->h->rows - 1, s->time) / s->second.factor;
     const bool in_time = s->second.name[0] != 0;
@@ -71,17 +71,17 @@ static void set_axis(FILE *to, const char *axis, const char *label, int colour, 
 /* Draws crack length and share of peridynamic particles over time. */
 static status draw_crack(struct sheet sheet, const char *title, const struct series *s)
 {
-    int column[2] = {history_column(s->h, "crack_length"), history_column(s->h, "pd_share")};
-    double largest[2] = {curves_largest(s->h, column[0]), curves_largest(s->h, column[1])};
+    int column[2] = {history_find_column(s->h, "crack_length"), history_find_column(s->h, "pd_share")};
+    double largest[2] = {curves_largest_value(s->h, column[0]), curves_largest_value(s->h, column[1])};
     struct unit metre = unit_for_length(largest[0]);
     double factor[2] = {metre.factor, 0.01}; /* the share in percent */
     char label[64];
     struct gnuplot g;
     if (largest[0] == 0 && largest[1] == 0) return nothing_to_draw(sheet.path, "no crack, no peridynamic particle");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 600));
-    curves_send(g.to, s, column, factor, 2);
-    curves_title(g.to, title, "crack");
-    curves_time_axis(g.to, s);
+    curves_write_data(g.to, s, column, factor, 2);
+    curves_write_title(g.to, title, "crack");
+    curves_write_time_axis(g.to, s);
     snprintf(label, sizeof label, "crack length [%s]", metre.name);
     set_axis(g.to, "y", label, 0, 1.08 * largest[0] / factor[0]);
     set_axis(g.to, "y2", "share of peridynamic particles [%]", 1, 1.25 * largest[1] / factor[1]);
@@ -112,10 +112,11 @@ static void choose_energies(struct energies *e, const struct history *h)
 {
     double largest = 0;
     *e = (struct energies){0};
-    for (int k = 0; k < LEDGER_ROWS; k++) largest = fmax(largest, curves_largest(h, history_column(h, ledger[k].name)));
+    for (int k = 0; k < LEDGER_ROWS; k++)
+        largest = fmax(largest, curves_largest_value(h, history_find_column(h, ledger[k].name)));
     for (int k = 0; k < LEDGER_ROWS; k++) {
-        const int column = history_column(h, ledger[k].name);
-        if (column < 0 || !(curves_largest(h, column) > ENERGY_SHOWN * largest)) continue;
+        const int column = history_find_column(h, ledger[k].name);
+        if (column < 0 || !(curves_largest_value(h, column) > ENERGY_SHOWN * largest)) continue;
         e->column[e->n] = column;
         e->row[e->n++] = &ledger[k];
     }
@@ -146,7 +147,7 @@ static double plot_curves_tic_distance(double top)
 static void plot_balance(FILE *to, const struct series *s, double largest)
 {
     double top = largest > 0 ? 120 * largest : 1; /* percent; 20 % above the largest value */
-    curves_time_axis(to, s);
+    curves_write_time_axis(to, s);
     fprintf(to,
             "unset label\nunset key\nset format x '%%g'\nset tmargin at screen 0.255\nset bmargin at screen 0.105\n"
             "set yrange [%.9g:%.9g]\nset ytics %.9g\nset format y '%%.2g'\nset ylabel 'balance error [%%]'\n"
@@ -159,14 +160,14 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
 {
     struct energies e;
     struct gnuplot g;
-    int balance = history_column(s->h, "balance_error");
+    int balance = history_find_column(s->h, "balance_error");
     const double percent = 0.01;
     choose_energies(&e, s->h);
     if (e.n == 0) return nothing_to_draw(sheet.path, "all energies are 0");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, balance >= 0 ? 760 : 600));
-    curves_send(g.to, s, e.column, e.factor, e.n);
-    curves_title(g.to, title, "energy");
-    curves_time_axis(g.to, s);
+    curves_write_data(g.to, s, e.column, e.factor, e.n);
+    curves_write_title(g.to, title, "energy");
+    curves_write_time_axis(g.to, s);
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.78\nset key at screen 0.79,0.91 left top\n"
             "set ylabel 'energy [%s]'\n",
@@ -177,8 +178,8 @@ static status draw_energy(struct sheet sheet, const char *title, const struct se
     plot_energies(g.to, &e);
     if (balance >= 0) {
         fputs("undefine $data\n", g.to);
-        curves_send(g.to, s, &balance, &percent, 1);
-        plot_balance(g.to, s, curves_largest(s->h, balance));
+        curves_write_data(g.to, s, &balance, &percent, 1);
+        plot_balance(g.to, s, curves_largest_value(s->h, balance));
         fputs("unset multiplot\n", g.to);
     }
     return gnuplot_close(&g);
@@ -188,8 +189,8 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 {
     struct history h;
     TRY(history_read(&h, folder));
-    const bool in_steps = history_column(&h, "load_time") >= 0;
-    struct series s = {.h = &h, .time = history_column(&h, in_steps ? "step" : "time"), .format = format};
+    const bool in_steps = history_find_column(&h, "load_time") >= 0;
+    struct series s = {.h = &h, .time = history_find_column(&h, in_steps ? "step" : "time"), .format = format};
     const char *ending = picture_ending[format];
     status result = OK;
     if (s.time >= 0 && h.rows > 1) {
@@ -197,7 +198,7 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
         result = draw_crack((struct sheet){picture_path(folder, DRAWN_CRACK, ending).text, format}, title, &s);
         if (result == OK)
             result = draw_energy((struct sheet){picture_path(folder, DRAWN_ENERGY, ending).text, format}, title, &s);
-        if (result == OK) result = sif_bench_draw(folder, title, &s);
+        if (result == OK) result = sif_curves_draw(folder, title, &s);
         if (result == OK) result = paths_draw(folder, title, &s);
         if (result == OK && in_steps)
             result = load_displacement_draw((struct sheet){picture_path(folder, DRAWN_LOAD, ending).text, format},
@@ -319,7 +320,7 @@ status profiles_draw(struct sheet sheet, const char *title, const struct frame *
     snprintf(label[2], sizeof label[2], "damage");
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1080, height));
     for (int k = 0; k < frames; k++) send_profile(g.to, &frame[k], k, frame_spacing(&frame[0]), unit);
-    curves_title(g.to, title, "");
+    curves_write_title(g.to, title, "");
     fprintf(g.to,
             "set multiplot\nset lmargin at screen 0.1\nset rmargin at screen 0.86\nset format x ''\n"
             "set offsets graph 0, graph 0, graph 0.06, graph 0.06\nset key at screen 0.875,%.4f left top\n",
@@ -370,7 +371,7 @@ status field_profiles_draw(struct sheet sheet, const char *title, const struct p
         if (*c == '_') *c = ' ';
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 560));
     for (int k = 0; k < frames; k++) send_field(g.to, &frame[k], k, value[k], frame_spacing(&frame[0]), factor);
-    curves_title(g.to, title, "");
+    curves_write_title(g.to, title, "");
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.84\nset tmargin at screen 0.9\n"
             "set bmargin at screen 0.13\n"

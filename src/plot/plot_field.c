@@ -83,7 +83,7 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
     return status_set(REFUSED,
                       "plot: --field %s: there is no such field; do you mean %s? Others are damage, speed, "
                       "velocity_x, displacement, stress_xx, von_mises, pressure, principal_stress",
-                      shown_name(name).text, word_nearest(name, names, COUNT_OF(names)));
+                      printable_name(name).text, word_nearest(name, names, COUNT_OF(names)));
 }
 
 status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path)

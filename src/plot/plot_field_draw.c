@@ -59,7 +59,7 @@ static status say_field(const char *path, const struct view *view, const struct 
                         int64_t particles)
 {
     const bool damage = map_of_field(r->projection.field) == MAP_DAMAGE;
-    printf("%s: %s of %d frame%s, %lld particles", shown_name(path).text, r->projection.field->name, frames,
+    printf("%s: %s of %d frame%s, %lld particles", printable_name(path).text, r->projection.field->name, frames,
            frames > 1 ? "s" : "", (long long)particles);
     if (view->categories)
         say_categories(view->categories);
@@ -72,7 +72,7 @@ static status say_field(const char *path, const struct view *view, const struct 
 static status draw_field_clouds(const struct plot_request *r, const char *path, const struct cloud *cloud, int clouds)
 {
     char title[TITLE_LENGTH];
-    struct view view = view_of(cloud, clouds);
+    struct view view = view_around(cloud, clouds);
     view_set_field(&view, r->projection.field, cloud, clouds);
     if (!isfinite(view.to[0] - view.from[0]) || !isfinite(view.to[1] - view.from[1]))
         return status_set(FAILED, "%s: the frames hold no particles, or positions that are not numbers", r->folder);
@@ -99,7 +99,7 @@ static status read_cloud(struct cloud *c, struct plot_request *r, const struct l
 {
     struct frame f;
     float *value = NULL;
-    TRY(run_frame(&f, r->folder, shown->number));
+    TRY(run_read_frame(&f, r->folder, shown->number));
     const status s = plot_field_read(&value, r->projection.field, &f, run_frame_path(r->folder, shown->number).text);
     r->projection.value = value;
     if (s == OK) cloud_make(c, &f, &r->projection);
@@ -138,7 +138,8 @@ static status draw_field_bar(const struct plot_request *r, const char *path, con
     for (int k = 0; k < frames->shown; k++) memory_free(value[k]);
     memory_free(value);
     frames_free(f, frames->shown);
-    if (s == OK && printf("%s: %s of %d frames\n", shown_name(path).text, r->projection.field->name, frames->shown) < 0)
+    if (s == OK &&
+        printf("%s: %s of %d frames\n", printable_name(path).text, r->projection.field->name, frames->shown) < 0)
         s = status_set(FAILED, "cannot write to standard output");
     return s;
 }
@@ -156,7 +157,7 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
 {
     struct frame last;
     struct path path;
-    TRY(run_frame(&last, r->folder, frames->show[frames->shown - 1].number));
+    TRY(run_read_frame(&last, r->folder, frames->show[frames->shown - 1].number));
     const int dim = last.dim;
     status s = projection_check(r, dim);
     if (s == OK) s = plot_field_find(&r->projection.field, r->field ? r->field : "damage", dim);
@@ -168,13 +169,13 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     return dim == 1 ? draw_field_bar(r, path.text, frames) : draw_field_map(r, path.text, frames);
 }
 
-status field_picture(const struct plot_request *request)
+status field_draw_picture(const struct plot_request *request)
 {
     struct plot_request r = *request;
     struct run_frames frames;
-    if (picture_moves(r.format)) TRY(film_possible());
+    if (picture_moves(r.format)) TRY(film_check_encoder());
     if (r.panels == 0) r.panels = picture_moves(r.format) ? INT_MAX : r.every ? PANELS_MAX : PANELS;
-    r.projection.in_steps = run_in_steps(r.folder);
+    r.projection.in_steps = run_has_load_steps(r.folder);
     TRY(run_frames_choose(&frames, &r));
     const status s = field_of_frames(&r, &frames);
     run_frames_free(&frames);

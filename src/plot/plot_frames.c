@@ -39,7 +39,7 @@ struct unit unit_for_length(double largest)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
-bool run_holds(const char *folder, const char *name)
+bool run_has_file(const char *folder, const char *name)
 {
     char path[PATH_LENGTH];
     struct stat found;
@@ -53,7 +53,7 @@ struct path run_frame_path(const char *folder, int number)
     return path_join(folder, name);
 }
 
-status run_frame(struct frame *f, const char *folder, int number)
+status run_read_frame(struct frame *f, const char *folder, int number)
 {
     const struct path path = run_frame_path(folder, number);
     return path.text[0] ? frame_read(f, path.text) : status_set(FAILED, "%s: the name is too long", folder);
@@ -121,7 +121,7 @@ status frames_read(struct frame **f, const char *folder, const struct run_frames
 {
     *f = NEW("plot.frames", frames->shown, struct frame);
     for (int k = 0; k < frames->shown; k++) {
-        const status s = run_frame(&(*f)[k], folder, frames->show[k].number);
+        const status s = run_read_frame(&(*f)[k], folder, frames->show[k].number);
         if (s == OK) continue;
         frames_free(*f, k);
         return s;
@@ -140,7 +140,7 @@ status pictures_folder_make(const char *path)
     if (path_is_link(path))
         return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", path);
     if (mkdir(path, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", path, strerror(errno));
-    return files_each(path, is_picture, "", picture_guard);
+    return files_visit(path, is_picture_name, "", picture_check_replaceable);
 }
 
 status picture_destination(struct path *path, const char *out, const char *name, bool overwrite)
@@ -148,7 +148,7 @@ status picture_destination(struct path *path, const char *out, const char *name,
     const char *end = strrchr(out, '/');
     struct path above = {{0}};
     if (!*out || strlen(out) >= sizeof path->text)
-        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected", shown_name(out).text);
+        return status_set(REFUSED, "plot: -o '%s': the name of a file or folder is expected", printable_name(out).text);
     snprintf(above.text, sizeof above.text, "%.*s", end > out ? (int)(end - out) : 0, out);
     if (above.text[0]) TRY(folder_make(above.text));
     if (end > out && !end[1])
@@ -157,9 +157,9 @@ status picture_destination(struct path *path, const char *out, const char *name,
         *path = path_join(out, name);
     else
         snprintf(path->text, sizeof path->text, "%s", out);
-    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", shown_name(out).text);
-    TRY(file_guard(path->text));
-    if (overwrite || !path_exists(path->text) || picture_is_ours(path->text)) return OK;
+    if (!path->text[0]) return status_set(REFUSED, "%s: the name is too long", printable_name(out).text);
+    TRY(file_check_replaceable(path->text));
+    if (overwrite || !path_exists(path->text) || picture_has_mark(path->text)) return OK;
     return status_set(REFUSED,
                       "plot: %s is there already and was not drawn by cleave; choose another -o, or replace it with "
                       "--overwrite",
@@ -171,7 +171,7 @@ status picture_destination(struct path *path, const char *out, const char *name,
 status nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');
-    if (picture_is_ours(path)) remove(path);
+    if (picture_has_mark(path)) remove(path);
     return printf("%s is not drawn: %s\n", slash ? slash + 1 : path, why) < 0
                ? status_set(FAILED, "cannot write to standard output")
                : OK;

@@ -64,7 +64,7 @@ static void set_box(FILE *to, const struct layout *l, double left, double above,
             1 - (above + height) / l->height);
 }
 
-void panel_place(FILE *to, const struct layout *l, double left, double above)
+void panel_write_margins(FILE *to, const struct layout *l, double left, double above)
 {
     set_box(to, l, left, above, l->panel_width, l->panel_height);
 }
@@ -77,8 +77,8 @@ static double plot_maps_tic_distance(double range, int pixels, int apart)
     return decade * (lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10);
 }
 
-void panel_image(FILE *to, const struct colour *pixel, int width, int height, const double *from, const double *step,
-                 const char *more)
+void panel_write_image(FILE *to, const struct colour *pixel, int width, int height, const double *from,
+                       const double *step, const char *more)
 {
     fprintf(to,
             "plot '-' binary array=(%d,%d) dx=%.12g dy=%.12g origin=(%.12g,%.12g) format='%%uchar' "
@@ -99,8 +99,8 @@ static void draw_notches(FILE *to, const struct view *view, double metre)
     }
 }
 
-void panel_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                const struct unit *metre, int column, bool lowest)
+void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+                      const struct unit *metre, int column, bool lowest)
 {
     const int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) {
@@ -113,8 +113,8 @@ void panel_axes(FILE *to, const struct layout *l, const struct view *view, const
     }
 }
 
-void panel_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
-                      const struct unit *metre)
+void panel_write_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+                            const struct unit *metre)
 {
     const double pixel = (view->to[0] - view->from[0]) / metre->factor / l->panel_width;
     const double corner[2] = {view->from[0] / metre->factor + 34 * pixel, view->from[1] / metre->factor + 20 * pixel};
@@ -146,7 +146,7 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     int size[2] = {l->panel_width, l->panel_height};
     for (int k = 0; k < 2; k++) largest = fmax(largest, fmax(fabs(view->from[k]), fabs(view->to[k])));
     struct unit metre = unit_for_length(largest);
-    panel_place(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y));
+    panel_write_margins(to, l, LEFT + column * (l->panel_width + GAP_X), ABOVE + row * (l->panel_height + GAP_Y));
     for (int k = 0; k < 2; k++) {
         from[k] = view->from[k] / metre.factor;
         step[k] = (view->to[k] - view->from[k]) / metre.factor / size[k];
@@ -160,12 +160,12 @@ static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct 
     fputs("' font ',13' offset 0,-0.5\n", to);
     if (map == MAP_DAMAGE) draw_notches(to, view, metre.factor);
     if (c->position[2])
-        panel_directions(to, l, view, c, &metre);
+        panel_write_directions(to, l, view, c, &metre);
     else
-        panel_axes(to, l, view, c, &metre, column, lowest);
+        panel_write_axes(to, l, view, c, &metre, column, lowest);
     struct colour *pixel = NEW("plot.pixel", (int64_t)size[0] * size[1], struct colour);
     raster_paint(pixel, size[0], size[1], view, c, map);
-    panel_image(to, pixel, size[0], size[1], from, step, "");
+    panel_write_image(to, pixel, size[0], size[1], from, step, "");
     memory_free(pixel);
 }
 
@@ -223,7 +223,7 @@ static void plot_maps_draw_bar(FILE *to, const struct layout *l, const struct vi
             "set label '%s' at screen %.6g,%.6g center rotate by 90 textcolor rgb '#333333'\n",
             scale.low, scale.high, scale.low, scale.high, scale.tics, format, scale.label,
             (beside + bar_numbers_width(&scale, format)) / l->width, 1 - (ABOVE + 0.5 * shown) / l->height);
-    panel_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
+    panel_write_image(to, pixel, BAR_COLUMNS, BAR_STEPS, from, step, "");
 }
 
 /* Draws an entry of the key: a square in colour c, unless c is transparent, and its text. x, y: pixels from the upper

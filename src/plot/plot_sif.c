@@ -28,7 +28,7 @@ static int plot_sif_column_of(const struct history *h, const char *probe, const 
 {
     char name[2 * NAME_MAX_LENGTH];
     snprintf(name, sizeof name, "%.63s.%.63s", probe, quantity);
-    return history_column(h, name);
+    return history_find_column(h, name);
 }
 
 /* ---- factors over time ------------------------------------------------------------------------------------------- */
@@ -52,7 +52,7 @@ static void find_factors(struct factors *f, const struct history *h)
         f->column[2 * k + 1] = plot_sif_column_of(h, f->name[k], "K_II");
         f->spread[k] = plot_sif_column_of(h, f->name[k], "contour_spread");
         f->percent[k] = 0.01;
-        for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest(h, f->column[2 * k + m]));
+        for (int m = 0; m < 2; m++) largest = fmax(largest, curves_largest_value(h, f->column[2 * k + m]));
     }
     f->unit = unit_for(largest, "Pa√m");
     for (int k = 0; k < 2 * f->n; k++) f->factor[k] = f->unit.factor;
@@ -73,7 +73,7 @@ static void plot_factors(FILE *to, const struct factors *f)
 /* Plots the spread of the contours; more than 1/2 indicates waves or a kink of the crack inside the ring. */
 static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
 {
-    curves_time_axis(to, s);
+    curves_write_time_axis(to, s);
     fputs("unset label\nunset key\nset format x '%g'\nset tmargin at screen 0.29\nset bmargin at screen 0.105\n"
           "set logscale y\nset yrange [0.1:100]\nset ytics ('0.1' 0.1, '1' 1, '10' 10, '100' 100)\nset format y '%g'\n"
           "set ylabel 'contours differ by [%]'\nplot ",
@@ -84,16 +84,16 @@ static void plot_spread(FILE *to, const struct series *s, const struct factors *
     putc('\n', to);
 }
 
-status sif_bench_draw(const char *folder, const char *title, const struct series *s)
+status sif_curves_draw(const char *folder, const char *title, const struct series *s)
 {
     struct factors f;
     struct gnuplot g;
     find_factors(&f, s->h);
     if (f.n == 0) return OK;
     TRY(gnuplot_open(&g, picture_path(folder, DRAWN_SIF, picture_ending[s->format]).text, s->format, 1000, 760));
-    curves_send(g.to, s, f.column, f.factor, 2 * f.n);
-    curves_title(g.to, title, "stress-intensity factors");
-    curves_time_axis(g.to, s);
+    curves_write_data(g.to, s, f.column, f.factor, 2 * f.n);
+    curves_write_title(g.to, title, "stress-intensity factors");
+    curves_write_time_axis(g.to, s);
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.86\nset key at screen 0.875,0.9 left top\n"
             "set ylabel 'K [%s]'\nset offsets graph 0, graph 0, graph 0.04, graph 0.04\n"
@@ -102,7 +102,7 @@ status sif_bench_draw(const char *folder, const char *title, const struct series
             f.unit.name);
     plot_factors(g.to, &f);
     fputs("set offsets\nundefine $data\n", g.to);
-    curves_send(g.to, s, f.spread, f.percent, f.n);
+    curves_write_data(g.to, s, f.spread, f.percent, f.n);
     plot_spread(g.to, s, &f);
     fputs("unset multiplot\n", g.to);
     return gnuplot_close(&g);
@@ -230,7 +230,7 @@ status paths_draw(const char *folder, const char *title, const struct series *s)
     if (n == 0) return OK;
     const struct unit metre = unit_for_length(fmax(fabs(path[0].to[0]), fabs(path[0].to[1])));
     TRY(gnuplot_open(&g, picture_path(folder, DRAWN_PATH, picture_ending[s->format]).text, s->format, 940, 760));
-    curves_title(g.to, title, "path of the crack");
+    curves_write_title(g.to, title, "path of the crack");
     for (int k = 0; k < n; k++) send_tip_path(g.to, h, &path[k], k, metre.factor);
     set_square(g.to, path, n, &metre);
     fputs("set lmargin at screen 0.1\nset rmargin at screen 0.74\nset tmargin at screen 0.9\n"

@@ -13,11 +13,11 @@
 #define FORCE_LEFT 0.01
 enum { REACTIONS_SHOWN = CURVE_COLOURS - 1, TOUGHNESSES_SHOWN = 3 };
 
-bool run_in_steps(const char *folder)
+bool run_has_load_steps(const char *folder)
 {
     struct history h;
-    if (!run_holds(folder, "history.csv") || history_read(&h, folder) != OK) return false;
-    const bool in_steps = history_column(&h, "load_time") >= 0;
+    if (!run_has_file(folder, "history.csv") || history_read(&h, folder) != OK) return false;
+    const bool in_steps = history_find_column(&h, "load_time") >= 0;
     history_free(&h);
     return in_steps;
 }
@@ -35,7 +35,7 @@ static struct components components_of(const struct history *h, const char *prob
     for (int d = 0; d < 3; d++) {
         char name[3 * NAME_MAX_LENGTH];
         snprintf(name, sizeof name, "%.63s.%.63s_%c", probe, quantity, 'x' + d);
-        const int column = history_column(h, name);
+        const int column = history_find_column(h, name);
         if (column >= 0) c.column[c.n++] = column;
     }
     return c;
@@ -166,7 +166,7 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
     const struct unit newton = unit_for(r.force, "N"), metre = unit_for_length(r.displacement);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     reactions_send(g.to, h, &r, newton, metre);
-    curves_title(g.to, title, "load and displacement");
+    curves_write_title(g.to, title, "load and displacement");
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.72\nset tmargin at screen 0.9\n"
             "set bmargin at screen 0.13\nset key at screen 0.735,0.895 left top\nset xrange [0:%.9g]\n"
@@ -232,10 +232,10 @@ static void release_plot(FILE *to, const double *toughness, int n, double mean, 
 
 status r_curve_draw(struct sheet sheet, const char *folder, const char *title, const struct history *h)
 {
-    const int area = history_column(h, "crack_area"), rate = history_column(h, "release_rate"),
-              released = history_column(h, "released");
-    const double grown = curves_largest(h, area);
-    double toughness[TOUGHNESSES_SHOWN] = {0}, top = curves_largest(h, rate);
+    const int area = history_find_column(h, "crack_area"), rate = history_find_column(h, "release_rate"),
+              released = history_find_column(h, "released");
+    const double grown = curves_largest_value(h, area);
+    double toughness[TOUGHNESSES_SHOWN] = {0}, top = curves_largest_value(h, rate);
     struct gnuplot g;
     if (!(grown > 0)) return nothing_to_draw(sheet.path, "no crack has grown");
     const int n = toughnesses_of(folder, toughness);
@@ -244,7 +244,7 @@ status r_curve_draw(struct sheet sheet, const char *folder, const char *title, c
     const double mean = history_at(h, h->rows - 1, released) / history_at(h, h->rows - 1, area);
     TRY(gnuplot_open(&g, sheet.path, sheet.format, 1000, 640));
     release_send(g.to, h, area, rate, square, joule.factor);
-    curves_title(g.to, title, "energy released by the growing crack");
+    curves_write_title(g.to, title, "energy released by the growing crack");
     fprintf(g.to,
             "set lmargin at screen 0.1\nset rmargin at screen 0.76\nset tmargin at screen 0.9\n"
             "set bmargin at screen 0.13\nset key at screen 0.775,0.895 left top\nset xrange [0:%.9g]\n"

@@ -74,7 +74,7 @@ static int64_t count_outside(const struct view *v, const struct cloud *c)
     return outside;
 }
 
-struct view view_of(const struct cloud *cloud, int clouds)
+struct view view_around(const struct cloud *cloud, int clouds)
 {
     struct view v = {.top = 0.5};
     double longest = 0, reach = 0;

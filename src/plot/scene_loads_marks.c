@@ -74,8 +74,9 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     } else if (b->kind == BOUNDARY_VELOCITY) {
         real X[DIM_MAX];
         particle_place(p, i, X);
-        const struct driving driving = driving_make(b, p->dim, t, e->clock.dt);
-        for (int d = 0; d < p->dim; d++) vector[d] = b->components >> d & 1 ? driving_at(&driving, X, d, true) : 0;
+        const struct prescribed_motion driving = prescribed_motion_make(b, p->dim, t, e->clock.dt);
+        for (int d = 0; d < p->dim; d++)
+            vector[d] = b->components >> d & 1 ? prescribed_velocity_at(&driving, X, d, true) : 0;
     } else if (b->kind == BOUNDARY_BODY_FORCE) {
         load_force_at(l, p, k, t, vector);
         for (int d = 0; d < p->dim; d++) vector[d] /= b->by_mass ? p->mass[i] : p->volume0[i];
@@ -120,9 +121,10 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
     uint8_t *selected = NEW("plot.selected", p->n, uint8_t), *on = NEW("plot.on", p->n, uint8_t);
-    load_region(l->boundary, p, e->scene->spacing, selected);
+    load_mark_region(l->boundary, p, e->scene->spacing, selected);
     const struct boundary *all = e->boundary ? e->boundary : e->scene->boundary;
-    pressure_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing, selected, face_on, on);
+    pressure_visit_faces(all, e->scene->boundaries, (int)(l - e->loads.load), p, e->scene->spacing, selected, face_on,
+                         on);
     memory_free(selected);
     return on;
 }
@@ -247,7 +249,7 @@ static void arrows_of_load(struct marks *m, const struct load *l, const uint8_t 
         particle_place(p, l->particle[k], X);
         for (int d = 0; d < p->dim; d++) vector[d] = m->arrow * acts[d] / acting->most;
         for (int d = 0; d < p->dim && inward; d++) X[d] -= vector[d];
-        mark_place(m, X, vector);
+        mark_add_point(m, X, vector);
     }
 }
 
@@ -258,7 +260,7 @@ static void points_of_load(struct marks *m, const struct load *l)
         real X[DIM_MAX];
         if (!chosen_has(&chosen, &m->engine->part, l->particle[k])) continue;
         particle_place(&m->engine->part, l->particle[k], X);
-        mark_place(m, X, NULL);
+        mark_add_point(m, X, NULL);
     }
 }
 
@@ -275,7 +277,7 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
         X[b->axis] = b->at;
         if (p->dim > 1) X[a] = up ? high[a] + m->arrow : low[a] - m->arrow;
         if (p->dim == 3) X[c] = far ? high[c] + m->arrow : low[c] - m->arrow;
-        mark_place(m, X, NULL);
+        mark_add_point(m, X, NULL);
     }
 }
 
@@ -308,7 +310,7 @@ static void boundary_mark(struct marks *m, int number)
 }
 
 /* Draws points after arrows, which would hide them. */
-void marks_loads(struct marks *m)
+void marks_draw_loads(struct marks *m)
 {
     const struct run *e = m->engine;
     for (int pass = 0; pass < 2; pass++)
@@ -333,11 +335,11 @@ static void rigid_arrows(struct marks *m, double fastest)
         const real *v = s->body[s->bodies + k].velocity;
         double vector[DIM_MAX] = {0};
         for (int d = 0; d < s->dim; d++) vector[d] = m->arrow * v[d] / fastest;
-        if (value_size(v, s->dim) > 0) mark_place(m, m->engine->rigid->body[k].x, vector);
+        if (value_size(v, s->dim) > 0) mark_add_point(m, m->engine->rigid->body[k].x, vector);
     }
 }
 
-void marks_motion(struct marks *m)
+void marks_draw_velocities(struct marks *m)
 {
     const struct particles *p = &m->engine->part;
     const struct scene *s = m->engine->scene;
@@ -358,7 +360,7 @@ void marks_motion(struct marks *m)
         real X[DIM_MAX];
         if (speed_at_start(p, i) == 0 || k++ % stride != 0) continue;
         for (int d = 0; d < p->dim; d++) X[d] = p->x[d][i], vector[d] = m->arrow * p->v[d][i] / fastest;
-        mark_place(m, X, vector);
+        mark_add_point(m, X, vector);
     }
     rigid_arrows(m, fastest);
     add_value(text, snprintf(text, sizeof text, "velocity, at most"), fastest, "m/s");

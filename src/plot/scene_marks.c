@@ -22,7 +22,7 @@ static double marks_across(const double *axis, const double *x, int dim)
 
 void mark_begin(struct marks *m) { fprintf(m->to, "$m%d << EOD\n", m->blocks); }
 
-void mark_place(struct marks *m, const real *X, const double *vector)
+void mark_add_point(struct marks *m, const real *X, const double *vector)
 {
     const int dim = m->engine->part.dim;
     fprintf(m->to, "%.9g %.9g", marks_across(m->camera.right, X, dim) / m->metre,
@@ -48,7 +48,7 @@ void mark_end(struct marks *m, const char *how, const char *text)
     gnuplot_quote(m->plot, text);
 }
 
-void marks_colour(struct marks *m, struct colour c, const char *text)
+void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 {
     fprintf(m->plot, ", NaN with points pt 5 ps 2 lc rgb '#%02x%02x%02x' title ", c.red, c.green, c.blue);
     gnuplot_quote(m->plot, text);
@@ -58,12 +58,12 @@ void marks_colour(struct marks *m, struct colour c, const char *text)
 
 static void crack_line(struct marks *m, const struct crack *c)
 {
-    for (int k = 0; k < c->n; k++) mark_place(m, c->corner[k], NULL);
-    if (c->n > 2) mark_place(m, c->corner[0], NULL);
+    for (int k = 0; k < c->n; k++) mark_add_point(m, c->corner[k], NULL);
+    if (c->n > 2) mark_add_point(m, c->corner[0], NULL);
     mark_break(m);
 }
 
-void marks_cracks(struct marks *m)
+void marks_draw_cracks(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     char text[96];
@@ -79,7 +79,7 @@ void marks_cracks(struct marks *m)
         for (int d = 0; d < s->dim; d++) arrow[d] = m->arrow * s->growth[k].direction[d];
         snprintf(text, sizeof text, "%.40s: a crack grows from here", s->growth[k].name);
         mark_begin(m);
-        mark_place(m, s->growth[k].at, arrow);
+        mark_add_point(m, s->growth[k].at, arrow);
         mark_end(m, "using 1:2:3:4 with vectors head filled size screen 0.014,20 lw 2 lc rgb '#7a1020'", text);
     }
 }
@@ -97,8 +97,8 @@ static void box_lines(struct marks *m, const real *from, const real *to, int dim
             if (k >> a & 1) continue;
             for (int d = 0; d < dim; d++) X[0][d] = X[1][d] = k >> d & 1 ? to[d] : from[d];
             X[1][a] = to[a];
-            mark_place(m, X[0], NULL);
-            mark_place(m, X[1], NULL);
+            mark_add_point(m, X[0], NULL);
+            mark_add_point(m, X[1], NULL);
             mark_break(m);
         }
 }
@@ -108,7 +108,7 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     for (int k = 0; k <= CIRCLE; k++) {
         const double angle = 2 * M_PI * k / CIRCLE;
         const real X[DIM_MAX] = {centre[0] + radius * cos(angle), centre[1] + radius * sin(angle), 0};
-        mark_place(m, X, NULL);
+        mark_add_point(m, X, NULL);
     }
 }
 
@@ -116,7 +116,7 @@ static void circle_line(struct marks *m, const real *centre, double radius)
 static void tip_marks(struct marks *m)
 {
     const struct tips *t = &m->engine->fracture->tips;
-    for (int k = 0; k < t->n; k++) mark_place(m, t->tip[k].origin, NULL);
+    for (int k = 0; k < t->n; k++) mark_add_point(m, t->tip[k].origin, NULL);
 }
 
 /* Draws the position or line of a probe; a probe without a position is listed in the key only. */
@@ -129,15 +129,15 @@ static void probe_mark(struct marks *m, int k, const char *text)
     static const char point[] = "with points pt 1 ps 1.8 lw 2.4 lc rgb '#5b2a86'";
     static const char line[] = "with lines lw 1.6 dt (7,4) lc rgb '#5b2a86'";
     mark_begin(m);
-    if (probes_sif_ring(&m->engine->probing->probes, k, &seen, from, &radius)) {
+    if (probes_sif_contour(&m->engine->probing->probes, k, &seen, from, &radius)) {
         circle_line(m, from, radius);
         mark_end(m, line, text);
     } else if (p->kind == PROBE_LINE) {
-        mark_place(m, p->from, NULL);
-        mark_place(m, p->to, NULL);
+        mark_add_point(m, p->from, NULL);
+        mark_add_point(m, p->to, NULL);
         mark_end(m, line, text);
     } else if (p->has_at) {
-        mark_place(m, p->at, NULL);
+        mark_add_point(m, p->at, NULL);
         mark_end(m, point, text);
     } else if (p->kind == PROBE_TIP && m->engine->fracture->tips.n > 0) {
         tip_marks(m);
@@ -155,7 +155,7 @@ static void probe_mark(struct marks *m, int k, const char *text)
     }
 }
 
-void marks_probes(struct marks *m)
+void marks_draw_probes(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     char text[NAME_MAX_LENGTH + 16];
@@ -173,7 +173,7 @@ void marks_probes(struct marks *m)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
-void marks_regions(struct marks *m)
+void marks_draw_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
     for (int k = 0; k < s->regions; k++) {
@@ -222,7 +222,7 @@ static int64_t level_cells_draw(struct marks *m, int level)
     return n;
 }
 
-void marks_levels(struct marks *m)
+void marks_draw_levels(struct marks *m)
 {
     static const char *const colour[LEVELS_MAX + 1] = {"", "#9a9a9a", "#7a7a7a", "#5a5a5a", "#3a3a3a"};
     const struct mesh_levels *l = &m->engine->frame->levels;

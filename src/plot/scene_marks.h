@@ -16,37 +16,37 @@ struct marks {
     int blocks;                   /* number of data blocks so far */
 };
 
-/* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with mark_place
- * and end it with mark_end. */
+/* Begins a gnuplot data block, which holds the points or arrows of one kind of symbol. Add its lines with
+ * mark_add_point and end it with mark_end. */
 void mark_begin(struct marks *m);
 
 /* Adds a line to the data block: the point X [m], projected onto the picture, and the projection of `vector` [m], NULL
  * for none. */
-void mark_place(struct marks *m, const real *X, const double *vector);
+void mark_add_point(struct marks *m, const real *X, const double *vector);
 
 /* Ends the data block and adds the element that draws it to the plot command. how: style in that element; text: line
  * of the key, "" for none. */
 void mark_end(struct marks *m, const char *how, const char *text);
 
 /* Draws symbols for loads, supports, mirrors and absorbing faces of the scene. */
-void marks_loads(struct marks *m);
+void marks_draw_loads(struct marks *m);
 
 /* Draws arrows for the initial velocities of bodies and rigid bodies. Draws nothing if all are 0. */
-void marks_motion(struct marks *m);
+void marks_draw_velocities(struct marks *m);
 
 /* Draws the pre-cracks of the scene as lines, and an arrow where each crack with prescribed growth starts. */
-void marks_cracks(struct marks *m);
+void marks_draw_cracks(struct marks *m);
 
 /* Draws symbols at the positions of the probes of the scene. */
-void marks_probes(struct marks *m);
+void marks_draw_probes(struct marks *m);
 
 /* Draws the outlines of the coarse mesh cells of a plane scene, in one shade of grey for each refinement level. */
-void marks_levels(struct marks *m);
+void marks_draw_levels(struct marks *m);
 
 /* Draws boxes around the named regions of the scene. */
-void marks_regions(struct marks *m);
+void marks_draw_regions(struct marks *m);
 
 /* Adds a line with a square in the colour c and the text `text` to the key of the picture. */
-void marks_colour(struct marks *m, struct colour c, const char *text);
+void marks_add_colour_key(struct marks *m, struct colour c, const char *text);
 
 #endif

@@ -71,7 +71,7 @@ static int64_t rigid_sites(const struct scene *s, const struct particles *part, 
     double sites = 1, thinnest = INFINITY;
     if (!region_bounds(shape, s->dim, from, to))
         for (int d = 0; d < s->dim; d++) {
-            const real beside = 0.08 * particles_longest(part);
+            const real beside = 0.08 * particles_longest_edge(part);
             particles_extent(part, part->n, d, &from[d], &to[d]);
             from[d] -= beside, to[d] += beside;
         }
@@ -107,7 +107,7 @@ static void scene_cloud(struct cloud *c, struct run *e, const struct camera *cam
     real from[DIM_MAX];
     int64_t count[DIM_MAX];
     double step;
-    const bool hollow = frame_hollow_points(e->frame, &e->part, s->material, false);
+    const bool hollow = frame_hollow_make_points(e->frame, &e->part, s->material, false);
     int64_t room = e->part.n + (hollow ? e->frame->shown.part.n : 0);
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         room += rigid_sites(e->scene, &e->part, &s->body[b].shape, from, count, &step);
@@ -164,15 +164,15 @@ static void key_of_parts(struct marks *m)
         if (n == 0) continue;
         snprintf(text, sizeof text, "%.48s: %lld particles%s", name, (long long)n,
                  e->part.n < e->part.n_body ? " are made" : "");
-        marks_colour(m, part_colour(k), text);
+        marks_add_colour_key(m, part_colour(k), text);
     }
     if (e->part.n_of[KIND_PD] > 0 && e->part.n_of[KIND_MPM] > 0) {
         snprintf(text, sizeof text, "darker: %lld peridynamic", (long long)e->part.n_of[KIND_PD]);
-        marks_colour(m, colour_shaded(part_colour(0), PERIDYNAMIC), text);
+        marks_add_colour_key(m, colour_shaded(part_colour(0), PERIDYNAMIC), text);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
         rigid_words(text, &s->body[b], s->dim);
-        marks_colour(m, RIGID, text);
+        marks_add_colour_key(m, RIGID, text);
     }
 }
 
@@ -187,7 +187,7 @@ static int key_lines(const struct scene *s)
 /* Returns the view with a margin for arrows beside the body. */
 static struct view scene_view(const struct cloud *c, double arrow)
 {
-    struct view v = view_of(c, 1);
+    struct view v = view_around(c, 1);
     for (int a = 0; a < 2; a++) v.from[a] -= arrow, v.to[a] += arrow;
     v.outside = 0;
     return v;
@@ -223,13 +223,13 @@ static void draw_scene_title(FILE *to, const struct layout *l, const struct scen
 static void set_panel(FILE *to, const struct layout *l, const struct view *v, const struct cloud *c,
                       const struct unit *metre)
 {
-    panel_place(to, l, PICTURE_LEFT, PICTURE_ABOVE);
+    panel_write_margins(to, l, PICTURE_LEFT, PICTURE_ABOVE);
     for (int a = 0; a < 2; a++)
         fprintf(to, "set %crange [%.12g:%.12g]\n", 'x' + a, v->from[a] / metre->factor, v->to[a] / metre->factor);
     if (c->position[2])
-        panel_directions(to, l, v, c, metre);
+        panel_write_directions(to, l, v, c, metre);
     else
-        panel_axes(to, l, v, c, metre, 0, true);
+        panel_write_axes(to, l, v, c, metre, 0, true);
     if (c->tall > 0) fputs("unset ytics\nset ylabel ''\nset border 1\n", to);
     fprintf(to,
             "set key at screen %.6g,%.6g left top Left reverse horizontal maxcols 1 samplen 2 spacing 1.15 "
@@ -247,7 +247,7 @@ static void plot_scene(FILE *to, const struct layout *l, const struct view *v, c
     for (int a = 0; a < 2; a++)
         from[a] = v->from[a] / metre->factor, step[a] = (v->to[a] - v->from[a]) / metre->factor / size[a];
     boxes_paint(pixel, size[0], size[1], v, c, MAP_DAMAGE);
-    panel_image(to, pixel, size[0], size[1], from, step, marks);
+    panel_write_image(to, pixel, size[0], size[1], from, step, marks);
     memory_free(pixel);
 }
 
@@ -268,12 +268,12 @@ static status draw_scene(struct sheet sheet, struct run *e, struct cloud *c)
     fputs("unset grid\n", g.to);
     draw_scene_title(g.to, &l, e->scene, &e->part);
     key_of_parts(&m);
-    marks_levels(&m);
-    marks_regions(&m);
-    marks_cracks(&m);
-    marks_loads(&m);
-    marks_motion(&m);
-    marks_probes(&m);
+    marks_draw_levels(&m);
+    marks_draw_regions(&m);
+    marks_draw_cracks(&m);
+    marks_draw_loads(&m);
+    marks_draw_velocities(&m);
+    marks_draw_probes(&m);
     const bool whole = fclose(plot) == 0;
     set_panel(g.to, &l, &v, c, &metre);
     if (whole) plot_scene(g.to, &l, &v, c, &metre, elements);
@@ -305,24 +305,25 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     const status drew = draw_scene((struct sheet){path.text, r->format}, e, &c);
     cloud_free(&c);
     TRY(drew);
-    const int said = printf("%s: %lld places, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
-                            shown_name(path.text).text, (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s",
-                            s->cracks, s->cracks == 1 ? "" : "s", s->probes, s->probes == 1 ? "" : "s");
+    const int said =
+        printf("%s: %lld places, %d boundary condition%s, %d pre-crack%s, %d probe%s\n", printable_name(path.text).text,
+               (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s", s->cracks, s->cracks == 1 ? "" : "s",
+               s->probes, s->probes == 1 ? "" : "s");
     return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 
-status scene_picture(const char *path, const struct scene_override *override, int overrides,
-                     const struct plot_request *r)
+status scene_draw_picture(const char *path, const struct scene_override *override, int overrides,
+                          const struct plot_request *r)
 {
     struct scene s = {0};
     struct run e = {0};
     struct pilot_wish wish;
     if (picture_moves(r->format)) return status_set(REFUSED, "plot: --scene draws one picture: png, svg or pdf");
-    TRY(scene_read_or_wish(&s, &wish, path, override, overrides));
+    TRY(scene_read_or_pilot_wish(&s, &wish, path, override, overrides));
     if (wish.wanted) {
         s = wish.provisional;
         printf("%s: method: auto: drawn at a spacing of %.4g m; cleave run chooses method and spacing\n",
-               shown_name(path).text, s.spacing);
+               printable_name(path).text, s.spacing);
     }
     const status result = draw_made(&e, &s, r);
     engine_free(&e);

@@ -22,7 +22,7 @@ void diagnostics_make(struct diagnostics *w)
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
-    const real size = diagnostics_momentum_of(p, nodes, grids, w->now.momentum);
+    const real size = particles_linear_momentum(p, nodes, grids, w->now.momentum);
     real missing2 = 0;
     for (int d = 0; d < p->dim; d++) {
         if (!w->started) w->momentum_start[d] = w->now.momentum[d] - impulse[d];
@@ -45,12 +45,12 @@ static void balance_of(struct diagnostics *w)
     struct energy_balance *l = &w->now;
     real energy = energy_sum(&l->energy);
     if (!w->started) w->energy_start = energy - l->external_work;
-    const real size = energy_size(&l->energy);
+    const real size = energy_magnitude(&l->energy);
     w->energy_scale = real_max(w->energy_scale, real_max(size, fabs(l->external_work)));
     l->balance_error = w->energy_scale > 0 ? (energy - w->energy_start - l->external_work) / w->energy_scale : 0;
 }
 
-void diagnostics_balance(struct diagnostics *w, real t, const struct energy *energy, real work)
+void diagnostics_energy_balance(struct diagnostics *w, real t, const struct energy *energy, real work)
 {
     w->now.time = t;
     w->now.energy = *energy;
@@ -73,7 +73,7 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
         const int64_t i = list ? list[k] : k;
         if (p->flag[i] & FLAG_CRACKED) particle_place(p, i, place[cut++].X);
     }
-    const int64_t ends = places_middle(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
+    const int64_t ends = positions_group_middle(place, cut, p->dim, horizon * (1 + 1e-6), along, middle);
     memory_free(place);
     return ends;
 }
@@ -87,7 +87,7 @@ static bool driven_breaks(const struct particles *p)
     return false;
 }
 
-bool diagnostics_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t)
+bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t)
 {
     w->bonds_broken += broken;
     if (broken == 0) return false;
@@ -128,7 +128,7 @@ static status divergence_report(const struct particles *p, int64_t i, real limit
                       (int)p->id[i], position, what);
 }
 
-real diagnostics_fastest(const struct particles *p, const int32_t *list, int64_t n)
+real diagnostics_largest_speed(const struct particles *p, const int32_t *list, int64_t n)
 {
     real most = 0;
 #pragma omp parallel for schedule(static) reduction(max : most)

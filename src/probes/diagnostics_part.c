@@ -70,7 +70,7 @@ static void put_crack(struct json *j, const struct run *e)
         put_when(j, e->scene, &e->clock, "arrest", longest->arrest_time);
         json_real(j, "length_end", longest->growth);
         json_real(j, "angle_deg", tip_angle(longest, dim));
-        json_count(j, "tied", tips_tied(&e->fracture->tips));
+        json_count(j, "tied", tips_count_tied(&e->fracture->tips));
     }
     if (longest && !scene_in_steps(e->scene)) {
         json_real(j, "tip_speed_max", longest->speed_max);

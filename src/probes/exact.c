@@ -111,7 +111,7 @@ static struct exact_values manufactured(const struct exact *e, real X, real t)
                                  .strain = strain};
 }
 
-struct exact_values exact_at(const struct exact *e, real X, real t)
+struct exact_values exact_solution_at(const struct exact *e, real X, real t)
 {
     switch (e->form) {
     case EXACT_STEP_BAR:
@@ -143,7 +143,7 @@ static struct exact_front step_front(const struct exact *e, real t)
                                 .behind = before + jump};
 }
 
-int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
+int exact_stress_fronts(const struct exact *e, real t, struct exact_front front[EXACT_FRONTS])
 {
     if (e->form == EXACT_STEP_BAR) {
         front[0] = step_front(e, t);
@@ -157,10 +157,10 @@ int exact_fronts(const struct exact *e, real t, struct exact_front front[EXACT_F
     return 2;
 }
 
-bool exact_plateau(const struct exact *e, real t, enum exact_window which, real *from, real *to)
+bool exact_constant_window(const struct exact *e, real t, enum exact_window which, real *from, real *to)
 {
     struct exact_front front[EXACT_FRONTS];
-    int fronts = exact_fronts(e, t, front);
+    int fronts = exact_stress_fronts(e, t, front);
     real L = length(e), near, far; /* distances from the loaded end */
     if (fronts == 0 || (which == EXACT_PRECURSOR && fronts < 2)) return false;
     bool outward = front[0].ahead == -e->loaded;

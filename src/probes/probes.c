@@ -91,9 +91,9 @@ int32_t particle_nearest(const struct observed *o, const real *X)
 {
     const struct particles *p = o->part;
     real reach = real_min(nearest_reach(o), o->cells->edge), least = INFINITY;
-    int room = cells_near(o->cells, p, X, reach, -1, NULL, 0);
+    int room = cells_find_near(o->cells, p, X, reach, -1, NULL, 0);
     int32_t *found = NEW("probes.found", room, int32_t), nearest = -1;
-    int n = cells_near(o->cells, p, X, reach, -1, found, room);
+    int n = cells_find_near(o->cells, p, X, reach, -1, found, room);
     for (int k = 0; k < n; k++) {
         if (found[k] >= p->n) continue;
         real distance2 = 0;
@@ -204,7 +204,7 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_REACTION:
         return bind_support(q, o);
     case PROBE_PULSE:
-        return pulse_bind(q, o);
+        return pulse_probe_start(q, o);
     case PROBE_BREAK:
     case PROBE_ENERGY:
     case PROBE_MOMENTUM:
@@ -212,12 +212,12 @@ static status probe_bind(struct probe *q, const struct observed *o)
     case PROBE_EXACT:
         return bar_make(q, o);
     case PROBE_SIF:
-        return sif_bind(q, o);
+        return sif_probe_start(q, o);
     case PROBE_GROWTH:
         return bind_growth(q, o);
     case PROBE_RIGID:
         TRY(bind_region(q, o));
-        return rigid_bind(q, o);
+        return rigid_probe_start(q, o);
     default:
         return OK;
     }
@@ -232,7 +232,7 @@ status probes_make(struct probes *s, const struct probe_request *request, int n,
         q->request = request[k];
         q->memory = (struct probe_memory){
             .first_time = NAN, .position = {NAN, NAN, NAN}, .body = -1, .factors = {NAN, NAN, NAN, NAN}};
-        status fault = status_at(q->request.place, probe_bind(q, o));
+        status fault = status_prepend_location(q->request.place, probe_bind(q, o));
         if (fault != OK) {
             probes_free(s);
             return fault;
@@ -248,9 +248,9 @@ void probes_free(struct probes *s)
 {
     for (int k = 0; s->probe && k < s->n; k++) {
         memory_free(s->probe[k].list);
-        motion_free(&s->probe[k]);
+        probe_motion_free(&s->probe[k]);
         bar_free(s->probe[k].bar);
-        sif_free(s->probe[k].sif);
+        sif_probe_free(s->probe[k].sif);
     }
     memory_free(s->probe);
     memory_free(s->column);
@@ -291,7 +291,7 @@ static bool any_cut(const struct particles *p)
     return any & FLAG_LOST_BOND;
 }
 
-void probes_breaks(struct probes *s, const struct observed *o)
+void probes_update_breaks(struct probes *s, const struct observed *o)
 {
     bool waits_for_break = false;
     for (int k = 0; k < s->n; k++) {
@@ -304,15 +304,15 @@ void probes_breaks(struct probes *s, const struct observed *o)
         struct probe *q = &s->probe[k];
         if (!isnan(q->memory.first_time)) continue;
         if (q->request.kind == PROBE_BREAK) step_break(q, o);
-        if (q->request.kind == PROBE_SPALL) spall_sample(q, o);
+        if (q->request.kind == PROBE_SPALL) spall_probe_sample(q, o);
     }
 }
 
-void probes_step(struct probes *s, const struct observed *o)
+void probes_update_step(struct probes *s, const struct observed *o)
 {
     for (int k = 0; k < s->n; k++)
         if (s->probe[k].request.kind == PROBE_REACTION) step_reaction(&s->probe[k], o);
-    probes_breaks(s, o);
+    probes_update_breaks(s, o);
 }
 
 /* ---- every sample ------------------------------------------------------------------------------------------------ */
@@ -348,7 +348,7 @@ void probes_sample(struct probes *s, const struct observed *o)
             probe_reaction(q, o->loads, dim, value, value + dim);
             break;
         case PROBE_POINT:
-            readings_of(o->part, q->list[0], value);
+            particle_readings(o->part, q->list[0], value);
             break;
         case PROBE_ENERGY:
             probes_sample_energy(q, o, value);
@@ -363,7 +363,7 @@ void probes_sample(struct probes *s, const struct observed *o)
             growth_readings(&o->growth[q->growth], value);
             break;
         case PROBE_RIGID:
-            rigid_sample(q, o, value);
+            rigid_probe_sample(q, o, value);
             break;
         default:
             break;
@@ -378,18 +378,18 @@ static bool has_motion(const struct probe *q)
     return kind == PROBE_POINT || kind == PROBE_ENERGY || kind == PROBE_MOMENTUM || kind == PROBE_RIGID;
 }
 
-void probes_keep(struct probes *s, const struct observed *o)
+void probes_store_motion(struct probes *s, const struct observed *o)
 {
     for (int k = 0; k < s->n; k++) {
-        if (s->probe[k].request.kind == PROBE_SIF) sif_keep(&s->probe[k], o);
-        if (has_motion(&s->probe[k])) motion_keep(&s->probe[k], o);
+        if (s->probe[k].request.kind == PROBE_SIF) sif_probe_store_motion(&s->probe[k], o);
+        if (has_motion(&s->probe[k])) probe_motion_store(&s->probe[k], o);
     }
 }
 
 /* Computes and stores the stress-intensity factors of a SIF probe. */
 static void sample_sif(struct probe *q, const struct observed *o, real t_velocity, real *value)
 {
-    sif_sample(q, o, t_velocity);
+    sif_probe_sample(q, o, t_velocity);
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
@@ -411,7 +411,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
     for (int k = 0; k < s->n; k++) {
         struct probe *q = &s->probe[k];
         real *value = s->value + q->first;
-        if (has_motion(q)) motion_complete(q, o, now);
+        if (has_motion(q)) probe_motion_interpolate(q, o, now);
         switch (q->request.kind) {
         case PROBE_SIF:
             sample_sif(q, o, now->t, value);
@@ -429,12 +429,12 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
             probe_momentum(q, o->part, value);
             break;
         case PROBE_RIGID:
-            rigid_sample_motion(q, o->part, value);
+            rigid_probe_sample_motion(q, o->part, value);
             break;
         default:
             break;
         }
-        motion_end(q);
+        probe_motion_discard(q);
     }
 }
 

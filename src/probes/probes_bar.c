@@ -42,7 +42,7 @@ static void add_bonds(const struct bar *b, const struct observed *o, real *betwe
     }
 }
 
-void bar_flux(const struct bar *b, const struct observed *o, real *flux)
+void bar_bond_flux(const struct bar *b, const struct observed *o, real *flux)
 {
     real *between = NEW("probes.between", b->n + 1, real), *end = NEW("probes.end", b->n + 1, real), crossing = 0;
     if (o->bonds && o->bonds->rows > 0) add_bonds(b, o, between, end);
@@ -65,7 +65,7 @@ static void measure_strain(struct bar *b, const struct particles *p)
     }
 }
 
-void bar_measure(struct bar *b, const struct observed *o)
+void bar_measure_fields(struct bar *b, const struct observed *o)
 {
     for (int64_t k = 0; k < b->n; k++) {
         int32_t i = b->order[k];
@@ -73,7 +73,7 @@ void bar_measure(struct bar *b, const struct observed *o)
         b->velocity[k] = o->part->v[0][i];
     }
     measure_strain(b, o->part);
-    bar_flux(b, o, b->flux);
+    bar_bond_flux(b, o, b->flux);
 }
 
 /* ---- profile ----------------------------------------------------------------------------------------------------- */
@@ -94,8 +94,8 @@ const struct column bar_reading[BAR_READINGS] = {{"x", "m"},
 void bar_readings(const struct bar *b, const struct observed *o, int64_t rank, real *value)
 {
     int32_t i = b->order[rank];
-    struct exact_values e = exact_at(&b->exact, o->part->X[0][i], o->t);
-    real velocity = exact_at(&b->exact, o->part->X[0][i], o->t_velocity).velocity;
+    struct exact_values e = exact_solution_at(&b->exact, o->part->X[0][i], o->t);
+    real velocity = exact_solution_at(&b->exact, o->part->X[0][i], o->t_velocity).velocity;
     const real all[BAR_READINGS] = {o->part->X[0][i],
                                     b->displacement[rank],
                                     b->velocity[rank],
@@ -183,9 +183,9 @@ static void errors(const struct bar *b, const struct observed *o, real *value)
     real sum[7] = {0};
     for (int64_t k = 0; k < b->n; k++) {
         real X = o->part->X[0][b->order[k]];
-        struct exact_values e = exact_at(&b->exact, X, o->t);
+        struct exact_values e = exact_solution_at(&b->exact, X, o->t);
         real stress = b->flux[k] - e.stress, strain = b->exact.young * (b->strain[k] - e.strain);
-        real velocity = b->velocity[k] - exact_at(&b->exact, X, o->t_velocity).velocity;
+        real velocity = b->velocity[k] - exact_solution_at(&b->exact, X, o->t_velocity).velocity;
         sum[0] += fabs(stress), sum[1] += square(stress);
         sum[2] += fabs(strain), sum[3] += square(strain);
         sum[4] += fabs(velocity), sum[5] += square(velocity);
@@ -232,17 +232,17 @@ static void fronts(const struct bar *b, const struct observed *o, real *value)
 {
     struct exact_front front[EXACT_FRONTS];
     const struct exact *e = &b->exact;
-    int n = exact_fronts(e, o->t, front);
+    int n = exact_stress_fronts(e, o->t, front);
     real from, to;
     if (n > 0) value[FRONT] = front_of(b, o->part, &front[0], b->flux, 1);
     if (n > 0) value[FRONT_STRAIN] = front_of(b, o->part, &front[0], b->strain, e->young);
     if (n > 1) value[FRONT_PLASTIC] = front_of(b, o->part, &front[1], b->flux, 1);
-    if (exact_plateau(e, o->t, EXACT_PLATEAU, &from, &to)) {
+    if (exact_constant_window(e, o->t, EXACT_PLATEAU, &from, &to)) {
         value[PLATEAU] = mean_between(b, o->part, b->flux, from, to);
         value[STRAIN_PLASTIC] = mean_between(b, o->part, b->strain, from, to);
         value[PLATEAU_STRAIN] = e->young * value[STRAIN_PLASTIC];
     }
-    if (exact_plateau(e, o->t, EXACT_PRECURSOR, &from, &to))
+    if (exact_constant_window(e, o->t, EXACT_PRECURSOR, &from, &to))
         value[STRAIN_ELASTIC] = mean_between(b, o->part, b->strain, from, to);
 }
 
@@ -251,7 +251,7 @@ void bar_figures(struct bar *b, const struct observed *o, real *value)
     real all[FIGURES];
     int n = 0;
     for (int k = 0; k < FIGURES; k++) all[k] = NAN;
-    bar_measure(b, o);
+    bar_measure_fields(b, o);
     errors(b, o, all);
     fronts(b, o, all);
     if (b->exact.loaded) all[END_DISPLACEMENT] = b->displacement[b->exact.loaded > 0 ? b->n - 1 : 0];

@@ -39,7 +39,7 @@ struct column reading_column(const struct particles *p, int k)
     return c;
 }
 
-void readings_of(const struct particles *p, int64_t i, real *value)
+void particle_readings(const struct particles *p, int64_t i, real *value)
 {
     for (int d = 0; d < p->dim; d++) *value++ = p->x[d][i] - p->X[d][i];
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
@@ -154,7 +154,7 @@ static real broken_term(const void *context, int64_t k)
 
 real probe_kinetic(const struct probe *q, const struct particles *p)
 {
-    return team_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed){.part = p}});
+    return reproducible_sum(q->n, kinetic_term, &(struct region_sum){.q = q, .o = &(struct observed){.part = p}});
 }
 
 struct energies probe_energies(const struct probe *q, const struct observed *o)
@@ -162,9 +162,9 @@ struct energies probe_energies(const struct probe *q, const struct observed *o)
     struct region_sum s = {.q = q, .o = o};
     return (struct energies){
         .kinetic = probe_kinetic(q, o->part),
-        .strain =
-            team_sum(q->n, bond_term, &s) + diagnostics_strain_of(o->part, o->material, o->partial, q->list, q->n),
-        .fracture = team_sum(q->n, fracture_term, &s),
+        .strain = reproducible_sum(q->n, bond_term, &s) +
+                  points_strain_energy_of_list(o->part, o->material, o->partial, q->list, q->n),
+        .fracture = reproducible_sum(q->n, fracture_term, &s),
     };
 }
 
@@ -172,7 +172,7 @@ void probe_momentum(const struct probe *q, const struct particles *p, real *mome
 {
     const struct observed o = {.part = p};
     for (int d = 0; d < p->dim; d++)
-        momentum[d] = team_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
+        momentum[d] = reproducible_sum(q->n, momentum_term, &(struct region_sum){.q = q, .o = &o, .component = d});
 }
 
 /* ---- figures ----------------------------------------------------------------------------------------------------- */
@@ -209,7 +209,7 @@ static void figures_tip(const struct emitter *e)
     if (moves) probes_figures_put(e, "speed_max", tip->speed_max);
     if (moves) probes_figures_put(e, "speed_mean", tip->speed_mean);
     put_position(e, tip->place);
-    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_tied(e->o->tips)));
+    probes_figures_put(e, "tied", (real)(e->q->request.has_at ? tip->ends : tips_count_tied(e->o->tips)));
 }
 
 /* Reports time and position of the first break and broken bonds; each bond is counted once, not by its two entries. */
@@ -222,7 +222,8 @@ static void figures_break(const struct emitter *e)
         probes_figures_put(e, "first_time", e->q->memory.first_time);
     put_position(e, e->q->memory.position);
     probes_figures_put(e, "tied", (real)e->q->memory.ends);
-    probes_figures_put(e, "bonds", 0.5 * team_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
+    probes_figures_put(e, "bonds",
+                       0.5 * reproducible_sum(e->q->n, broken_term, &(struct region_sum){.q = e->q, .o = e->o}));
 }
 
 static void figures_reaction(const struct emitter *e)
@@ -253,7 +254,7 @@ static void figures_spall(const struct emitter *e)
 {
     real speed, rest;
     if (isnan(e->q->memory.first_time)) return;
-    spall_speeds(e->q, e->o->part, &speed, &rest);
+    spall_probe_speeds(e->q, e->o->part, &speed, &rest);
     probes_figures_put(e, "position", e->q->memory.position[0]);
     probes_figures_put(e, "time", e->q->memory.first_time);
     probes_figures_put(e, "speed", speed);
@@ -264,7 +265,7 @@ static void figures_point(const struct emitter *e)
 {
     const struct particles *p = e->o->part;
     real value[READINGS_MAX];
-    readings_of(p, e->q->list[0], value);
+    particle_readings(p, e->q->list[0], value);
     for (int k = 0; k < p->dim && e->sampled; k++) value[p->dim + k] = e->sampled[p->dim + k];
     for (int k = 0; k < readings_count(p); k++) probes_figures_put(e, reading_column(p, k).name, value[k]);
 }
@@ -277,7 +278,7 @@ static void figures_line(const struct emitter *e)
     for (int k = 0; k < READINGS_MAX; k++) low[k] = INFINITY, high[k] = -INFINITY;
     for (int64_t m = 0; m < e->q->n; m++) {
         if (e->q->list[m] < 0) continue;
-        readings_of(p, e->q->list[m], value);
+        particle_readings(p, e->q->list[m], value);
         for (int k = 0; k < readings_count(p); k++)
             low[k] = real_min(low[k], value[k]), high[k] = real_max(high[k], value[k]);
     }
@@ -308,7 +309,7 @@ static void figures_momentum(const struct emitter *e)
 
 static void figures_pulse(const struct emitter *e)
 {
-    struct pulse_shares s = pulse_shares(e->q, e->o);
+    struct pulse_shares s = pulse_compute_shares(e->q, e->o);
     probes_figures_put(e, "reflected", s.reflected);
     probes_figures_put(e, "transmitted", s.transmitted);
     probes_figures_put(e, "energy_change", s.energy_change);
@@ -344,8 +345,9 @@ static void figures_rigid(const struct emitter *e)
     for (int k = 0; k < RIGID_FIGURES; k++) probes_figures_put(e, rigid_figure[k].name, e->q->memory.rigid.most[k]);
 }
 
-void probes_figures(const struct probes *s, const struct observed *o,
-                    void (*emit)(void *context, const char *probe, const char *quantity, real value), void *context)
+void probes_visit_results(const struct probes *s, const struct observed *o,
+                          void (*emit)(void *context, const char *probe, const char *quantity, real value),
+                          void *context)
 {
     static void (*const figures[PROBES])(const struct emitter *) = {
         [PROBE_TIP] = figures_tip,       [PROBE_BREAK] = figures_break,   [PROBE_REACTION] = figures_reaction,

@@ -12,7 +12,7 @@ static void copy_listed(const struct probe *q, real *const *from, real **to, int
     }
 }
 
-void motion_keep(struct probe *q, const struct observed *o)
+void probe_motion_store(struct probe *q, const struct observed *o)
 {
     struct sampled_motion *m = &q->motion;
     m->kept = true, m->t = o->t, m->t_velocity = o->t_velocity;
@@ -20,7 +20,7 @@ void motion_keep(struct probe *q, const struct observed *o)
     copy_listed(q, o->part->v, m->v, o->part->dim);
 }
 
-void motion_complete(struct probe *q, const struct observed *o, const struct velocity_time *now)
+void probe_motion_interpolate(struct probe *q, const struct observed *o, const struct velocity_time *now)
 {
     struct sampled_motion *m = &q->motion;
     const struct particles *p = o->part;
@@ -34,9 +34,9 @@ void motion_complete(struct probe *q, const struct observed *o, const struct vel
     m->complete = true;
 }
 
-void motion_end(struct probe *q) { q->motion.complete = false; }
+void probe_motion_discard(struct probe *q) { q->motion.complete = false; }
 
-void motion_free(struct probe *q)
+void probe_motion_free(struct probe *q)
 {
     for (int d = 0; d < DIM_MAX; d++) memory_free(q->motion.x[d]), memory_free(q->motion.v[d]);
 }

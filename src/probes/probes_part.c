@@ -17,14 +17,14 @@ int64_t cracks_grow(struct run *e)
     int64_t released = 0;
     for (int k = 0; k < e->scene->growths; k++) {
         struct control r;
-        const bool known = probes_sif_control(&e->probing->probes, e->scene->growth[k].probe, &r);
-        released += growth_step(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL, e->clock.t,
-                                e->clock.dt);
+        const bool known = probes_sif_values(&e->probing->probes, e->scene->growth[k].probe, &r);
+        released += growth_extend_crack(&e->fracture->growth[k], &e->bonds, &e->part, &e->source, known ? &r : NULL,
+                                        e->clock.t, e->clock.dt);
     }
     return released;
 }
 
-real largest_stress(const struct particles *p)
+real particles_largest_stress(const struct particles *p)
 {
     real most = 0;
     for (int c = 0; c < symmetric_count(p->dim); c++)
@@ -32,7 +32,7 @@ real largest_stress(const struct particles *p)
     return most;
 }
 
-void make_pulses(const struct scene *s, struct probing *probing)
+void pulses_list(const struct scene *s, struct probing *probing)
 {
     probing->pulse = NEW("engine.pulse", s->initials, struct wave_pulse);
     for (int k = 0; k < s->initials; k++)

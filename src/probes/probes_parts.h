@@ -68,35 +68,35 @@ struct column reading_column(const struct particles *p, int k);
 
 /* Computes displacement, velocity, stress and damage of particle i and stores them in value[readings_count(p)], in the
  * order of reading_column. */
-void readings_of(const struct particles *p, int64_t i, real *value);
+void particle_readings(const struct particles *p, int64_t i, real *value);
 
 /* ---- motion at the time of a sample (probes_motion.c) ------------------------------------------------------------ */
 
 /* Copies the positions (at time o->t) and velocities (at time o->t_velocity) of the particles of a probe to q->motion,
  * before the time step. */
-void motion_keep(struct probe *q, const struct observed *o);
+void probe_motion_store(struct probe *q, const struct observed *o);
 
-/* Interpolates the velocities copied by motion_keep and the present velocities to the time of the sample, after the
- * time step. now: time of the present velocities. After the last step, which no other step follows, the present
- * positions are used and the velocities are extrapolated. If motion_keep was not called, velocities are 0. */
-void motion_complete(struct probe *q, const struct observed *o, const struct velocity_time *now);
+/* Interpolates the velocities copied by probe_motion_store and the present velocities to the time of the sample, after
+ * the time step. now: time of the present velocities. After the last step, which no other step follows, the present
+ * positions are used and the velocities are extrapolated. If probe_motion_store was not called, velocities are 0. */
+void probe_motion_interpolate(struct probe *q, const struct observed *o, const struct velocity_time *now);
 
 /* Discards the positions and velocities interpolated for a sample, so that probe_position and probe_velocity return
  * the present values again. */
-void motion_end(struct probe *q);
+void probe_motion_discard(struct probe *q);
 
 /* Frees the copies of positions and velocities of a probe. */
-void motion_free(struct probe *q);
+void probe_motion_free(struct probe *q);
 
 /* Returns component d of the position of the k-th particle of a probe [m]: at the time of the sample between
- * motion_complete and motion_end, else the present position. */
+ * probe_motion_interpolate and probe_motion_discard, else the present position. */
 static inline real probe_position(const struct probe *q, const struct particles *p, int d, int64_t k)
 {
     return q->motion.complete ? q->motion.x[d][k] : p->x[d][q->list[k]];
 }
 
 /* Returns component d of the velocity of the k-th particle of a probe [m/s]: at the time of the sample between
- * motion_complete and motion_end, else the present velocity. */
+ * probe_motion_interpolate and probe_motion_discard, else the present velocity. */
 static inline real probe_velocity(const struct probe *q, const struct particles *p, int d, int64_t k)
 {
     return q->motion.complete ? q->motion.v[d][k] : p->v[d][q->list[k]];
@@ -142,19 +142,19 @@ struct pulse_shares {
 
 /* Stores the largest initial speed of the body as the incident amplitude of a PULSE probe. Returns REFUSED if nothing
  * moves at the start. */
-status pulse_bind(struct probe *q, const struct observed *o);
+status pulse_probe_start(struct probe *q, const struct observed *o);
 
 /* Returns the reflected and transmitted amplitudes of a PULSE probe, relative to its incident amplitude, and the
  * energy change of the present state relative to that of the run on material points alone. */
-struct pulse_shares pulse_shares(const struct probe *q, const struct observed *o);
+struct pulse_shares pulse_compute_shares(const struct probe *q, const struct observed *o);
 
 /* Tests whether broken bonds separate a bar into two parts along x. If so, stores the position of the plane of
  * separation and the time in q->memory; else changes nothing. */
-void spall_sample(struct probe *q, const struct observed *o);
+void spall_probe_sample(struct probe *q, const struct observed *o);
 
 /* Computes the mean velocity along x of the lighter part of a separated bar, *speed, and of the remaining part,
  * *speed_rest [m/s]. */
-void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
+void spall_probe_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest);
 
 /* Tip position and length of a growing crack, its speed, and the equivalent factor K_eq that controls it. */
 enum { GROWTH_FIGURES = 5 };
@@ -172,18 +172,18 @@ extern const struct column sif_figure[SIF_FIGURES];
 /* Finds the crack tip of a SIF probe, its integration contours, and the material around the tip. Returns REFUSED if
  * the body is not plane, no pre-crack ends inside a body, or the contours are too narrow, leave the body, or contain
  * another crack tip or material. */
-status sif_bind(struct probe *q, const struct observed *o);
+status sif_probe_start(struct probe *q, const struct observed *o);
 
 /* Frees the crack tip and the contours of a SIF probe. w may be NULL. */
-void sif_free(struct sif_tracked *w);
+void sif_probe_free(struct sif_tracked *w);
 
 /* Copies positions (at time o->t) and velocities (at time o->t_velocity) near the crack tip of a SIF probe, before the
  * time step. */
-void sif_keep(struct probe *q, const struct observed *o);
+void sif_probe_store_motion(struct probe *q, const struct observed *o);
 
 /* Computes K_I, K_II, J and the spread between contours of a SIF probe at the time of the sample, and stores them in
  * q->memory.factors. t_velocity: time of the present velocities [s]. */
-void sif_sample(struct probe *q, const struct observed *o, real t_velocity);
+void sif_probe_sample(struct probe *q, const struct observed *o, real t_velocity);
 
 /* ---- rotating body: RIGID ---------------------------------------------------------------------------------------- */
 
@@ -191,15 +191,15 @@ extern const struct column rigid_figure[RIGID_FIGURES];
 
 /* Stores the angular momentum and the kinetic energy of the particles of a RIGID probe at the start. Returns REFUSED
  * if the scene is not plane. */
-status rigid_bind(struct probe *q, const struct observed *o);
+status rigid_probe_start(struct probe *q, const struct observed *o);
 
 /* Computes the angle of rotation and the largest stresses of a RIGID probe at the present positions, stores them in
  * value[], and updates q->memory.rigid. */
-void rigid_sample(struct probe *q, const struct observed *o, real *value);
+void rigid_probe_sample(struct probe *q, const struct observed *o, real *value);
 
 /* Computes the errors of angular momentum and kinetic energy of a RIGID probe and stores them in value[]. Call this
  * function when the velocities at the time of the sample are known. */
-void rigid_sample_motion(struct probe *q, const struct particles *p, real *value);
+void rigid_probe_sample_motion(struct probe *q, const struct particles *p, real *value);
 
 /* ---- a bar against a closed form: EXACT -------------------------------------------------------------------------- */
 
@@ -220,13 +220,13 @@ void bar_free(struct bar *b);
 
 /* Computes displacement, velocity, stress by bond flux and strain of all particles of a bar and stores them in the
  * arrays of *b. */
-void bar_measure(struct bar *b, const struct observed *o);
+void bar_measure_fields(struct bar *b, const struct observed *o);
 
 /* Computes the stress by bond flux of each particle, flux[n] by rank from left to right [Pa]: the sum of the forces of
  * all bonds that cross the centre of the particle, divided by the cross section of the bar. A bond counts fully for
  * particles strictly between its two ends and by half for the particles at its ends. Bonds to mirror images of
  * particles are included. Material points have their Cauchy stress instead. */
-void bar_flux(const struct bar *b, const struct observed *o, real *flux);
+void bar_bond_flux(const struct bar *b, const struct observed *o, real *flux);
 
 /* Figures of a bar in a fixed order; they are columns of the history, too. */
 enum { BAR_FIGURES_MAX = 16 };
@@ -238,8 +238,8 @@ int bar_figures_count(enum exact_form form);
  * bar_figures_count(form). */
 struct column bar_figure(enum exact_form form, int k);
 
-/* Updates the measured fields of a bar (bar_measure), compares them with the closed-form solution, and stores the
- * reported quantities in value[bar_figures_count], in the order of bar_figure. */
+/* Updates the measured fields of a bar (bar_measure_fields), compares them with the closed-form solution, and stores
+ * the reported quantities in value[bar_figures_count], in the order of bar_figure. */
 void bar_figures(struct bar *b, const struct observed *o, real *value);
 
 /* Columns of a bar's profile. */

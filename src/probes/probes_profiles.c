@@ -30,7 +30,7 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
         for (int d = 0; d < p->dim; d++) s2 += square(X[d] - start[d]);
         fprintf(file, "%.9g", sqrt(s2));
         for (int d = 0; d < p->dim; d++) fprintf(file, ",%.9g", X[d]);
-        readings_of(p, q->list[k], value);
+        particle_readings(p, q->list[k], value);
         for (int m = 0; m < readings_count(p); m++) fprintf(file, ",%.9g", value[m]);
         fputc('\n', file);
     }
@@ -43,7 +43,7 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed *o
     for (int m = 0; m < BAR_READINGS; m++)
         fprintf(file, "%s%s [%s]%s", m > 0 ? "," : "", bar_reading[m].name, bar_reading[m].unit,
                 m + 1 < BAR_READINGS ? "" : "\n");
-    bar_measure(q->bar, o);
+    bar_measure_fields(q->bar, o);
     for (int64_t k = 0; k < q->bar->n; k++) {
         bar_readings(q->bar, o, k, value);
         for (int m = 0; m < BAR_READINGS; m++)
@@ -102,14 +102,15 @@ static status profile_put(const struct probe *q, const struct observed *o, probe
     return s;
 }
 
-int64_t probes_profiled(const struct probes *s)
+int64_t probes_count_profiles(const struct probes *s)
 {
     int64_t n = 0;
     for (int k = 0; k < s->n; k++) n += has_profile(&s->probe[k]);
     return n;
 }
 
-status probes_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context, int frame)
+status probes_write_profiles(const struct probes *s, const struct observed *o, probe_file_fn *put, void *context,
+                             int frame)
 {
     for (int k = 0; k < s->n; k++)
         if (has_profile(&s->probe[k])) TRY(profile_put(&s->probe[k], o, put, context, frame));

@@ -60,14 +60,14 @@ static real probes_rigid_turn(const struct probe *q, const struct particles *p, 
 {
     struct rigid_sum s = {.q = q, .p = p};
     real sum[5];
-    team_sums(q->n, 5, centre_block, &s, sum);
+    reproducible_sums(q->n, 5, centre_block, &s, sum);
     for (int d = 0; d < 2; d++) s.centre[d] = sum[1 + d] / sum[0], s.centre_reference[d] = sum[3 + d] / sum[0];
-    team_sums(q->n, 5, turn_block, &s, sum);
+    reproducible_sums(q->n, 5, turn_block, &s, sum);
     *spin = sum[2], *spin_scale = sum[3], *kinetic = sum[4];
     return atan2(sum[1], sum[0]);
 }
 
-status rigid_bind(struct probe *q, const struct observed *o)
+status rigid_probe_start(struct probe *q, const struct observed *o)
 {
     struct rigid_memory *m = &q->memory.rigid;
     if (o->part->dim != 2)
@@ -98,7 +98,7 @@ static void rigid_most(struct rigid_memory *m, const real *value, int first, int
 }
 
 /* Accumulates the angle beyond half a turn; samples must be less than half a turn apart. */
-void rigid_sample(struct probe *q, const struct observed *o, real *value)
+void rigid_probe_sample(struct probe *q, const struct observed *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;
@@ -109,7 +109,7 @@ void rigid_sample(struct probe *q, const struct observed *o, real *value)
     rigid_most(m, value, 1, RIGID_PLACES);
 }
 
-void rigid_sample_motion(struct probe *q, const struct particles *p, real *value)
+void rigid_probe_sample_motion(struct probe *q, const struct particles *p, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;
     real spin, scale, kinetic;

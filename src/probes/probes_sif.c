@@ -204,7 +204,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     return OK;
 }
 
-status sif_bind(struct probe *q, const struct observed *o)
+status sif_probe_start(struct probe *q, const struct observed *o)
 {
     const struct probe_request *r = &q->request;
     if (o->part->dim != 2) return status_set(REFUSED, "probe \"%s\": plane spaces only in this version", r->name);
@@ -225,7 +225,7 @@ status sif_bind(struct probe *q, const struct observed *o)
     return OK;
 }
 
-void sif_free(struct sif_tracked *w)
+void sif_probe_free(struct sif_tracked *w)
 {
     if (!w) return;
     for (int d = 0; d < 2; d++) {
@@ -286,7 +286,7 @@ static void keep_displacement(struct sif_tracked *w, const struct particles *p)
     }
 }
 
-void sif_keep(struct probe *q, const struct observed *o)
+void sif_probe_store_motion(struct probe *q, const struct observed *o)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
@@ -337,7 +337,7 @@ static bool find_body_force(struct sif_tracked *w, const struct observed *o)
     return any;
 }
 
-void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
+void sif_probe_sample(struct probe *q, const struct observed *o, real t_velocity)
 {
     struct sif_tracked *w = q->sif;
     const struct particles *p = o->part;
@@ -357,13 +357,13 @@ void sif_sample(struct probe *q, const struct observed *o, real t_velocity)
     for (int d = 0; d < 2 && moves; d++) m.velocity[d] = w->mean[d], m.acceleration[d] = w->acceleration[d];
     sif_integrate(&w->tip, w->contour, w->contours, &m, &w->rule, p, o->cells, found);
     const real factors[SIF_FIGURES] = {found[0].K[MODE_I], found[0].K[MODE_II], found[0].J,
-                                       sif_spread(found + 1, w->contours - 1)};
+                                       sif_contour_spread(found + 1, w->contours - 1)};
     memcpy(q->memory.factors, factors, sizeof factors);
     memcpy(q->memory.along, w->tip.along, sizeof q->memory.along);
     q->memory.time = o->t;
 }
 
-bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, real position[2], real *radius)
+bool probes_sif_contour(const struct probes *s, int k, const struct observed *o, real position[2], real *radius)
 {
     const struct sif_tracked *w = s->probe[k].sif;
     if (s->probe[k].request.kind != PROBE_SIF || !w) return false;
@@ -374,7 +374,7 @@ bool probes_sif_ring(const struct probes *s, int k, const struct observed *o, re
     return true;
 }
 
-bool probes_sif_control(const struct probes *s, const char *name, struct control *found)
+bool probes_sif_values(const struct probes *s, const char *name, struct control *found)
 {
     for (int k = 0; k < s->n; k++) {
         const struct probe *q = &s->probe[k];

@@ -110,7 +110,7 @@ static bool columns_apart(const struct columns *c, real *position)
     return false;
 }
 
-void spall_sample(struct probe *q, const struct observed *o)
+void spall_probe_sample(struct probe *q, const struct observed *o)
 {
     int bodies = 0;
     if (!o->bonds || o->bonds->rows == 0) return;
@@ -132,7 +132,7 @@ void spall_sample(struct probe *q, const struct observed *o)
     }
 }
 
-void spall_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
+void spall_probe_speeds(const struct probe *q, const struct particles *p, real *speed, real *speed_rest)
 {
     real mass[2] = {0}, momentum[2] = {0};
     for (int64_t i = 0; i < p->n; i++) {

@@ -13,15 +13,15 @@ static const char *const profile_begin[] = {"s [m],", "x [m],"};
 static status profiles_put(void *folder, const char *name, const char *text, size_t length)
 {
     const struct path path = path_join(folder, name);
-    TRY(file_begin_guard(path.text, profile_begin, COUNT_OF(profile_begin)));
-    return file_put_unsettled(path.text, text, length);
+    TRY(file_check_beginning(path.text, profile_begin, COUNT_OF(profile_begin)));
+    return file_write_whole_unsynced(path.text, text, length);
 }
 
 status profiles_write(const struct probes *s, const struct output *out, const struct observed *o)
 {
-    if (probes_profiled(s) == 0) return OK;
-    TRY(probes_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));
-    return file_settle(path_join(out->folder, "history.csv").text);
+    if (probes_count_profiles(s) == 0) return OK;
+    TRY(probes_write_profiles(s, o, profiles_put, out->folder, out->series[0].frames - 1));
+    return file_sync_folder(path_join(out->folder, "history.csv").text);
 }
 
 void profiles_check(const struct probes *s, const struct output *out, struct warnings *to)
@@ -38,14 +38,14 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     char others[48];
     if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
     snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
 }
 
 /* Removes a profile but keeps a file that is none; returns false if there is no file. */
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;
-    return file_begin_guard(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
+    return file_check_beginning(path, profile_begin, COUNT_OF(profile_begin)) != OK || unlink(path) == 0;
 }
 
 void profiles_remove(const struct probes *s, const struct output *out)

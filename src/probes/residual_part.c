@@ -23,12 +23,12 @@ static void node_keep(const struct scene *s, const struct grid *g, int64_t I, in
         if (in_patch(s, x)) *most = real_max(*most, fabs(g->force[d][I]));
 }
 
-void residual_keep_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
+void residual_store_mesh(struct probing *q, const struct scene *s, const struct mesh *mesh)
 {
     for (int64_t I = 0; I < mesh->grid.n; I++) node_keep(s, &mesh->grid, I, mesh_base(mesh, I), &q->residual_step0);
 }
 
-void residual_keep(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid)
+void residual_store(struct probing *q, const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     real x[DIM_MAX], *most = &q->residual_step0;
     for (int k = 0; k < grid->fields; k++) {

@@ -79,7 +79,7 @@ static real diagnostics_spin_of(const struct particles *p, const struct mesh *me
     return real_max(size, LEAST_TURN * sqrt(real_max(0, inertia) * real_max(0, kinetic)));
 }
 
-void diagnostics_spin(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies)
+void diagnostics_angular_momentum(struct diagnostics *w, const struct particles *p, const struct mesh *mesh, int bodies)
 {
     real spin[DIM_MAX], missing2 = 0;
     const real size = diagnostics_spin_of(p, mesh, bodies, spin);

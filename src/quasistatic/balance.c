@@ -3,11 +3,11 @@
 #include <math.h>
 
 #include "balance.h"
-#include "overload.h"
-#include "pieces.h"
+#include "stretch_ratio.h"
+#include "unconstrained.h"
 #include "springs.h"
 #include "system.h"
-#include "touch.h"
+#include "contact_set.h"
 #include "trial.h"
 #include "unknowns.h"
 
@@ -43,8 +43,8 @@ static real load_growth(const struct statics *s, const struct particles *part, r
 static void increment_predict(struct statics *s, const struct particles *p, const struct mesh *mesh,
                               const struct loads *loads, real t, real *const *before)
 {
-    struct displacing by[BOUNDARIES_MAX];
-    for (int b = 0; b < loads->n; b++) by[b] = displacing_make(loads->load[b].boundary, p->dim, t);
+    struct prescribed_displacement by[BOUNDARIES_MAX];
+    for (int b = 0; b < loads->n; b++) by[b] = prescribed_displacement_make(loads->load[b].boundary, p->dim, t);
     for (int64_t k = 0; k < s->balance.n; k++) {
         real X[DIM_MAX] = {0};
         if (s->balance.held[k]) unknown_position(s, p, mesh, k, X);
@@ -52,7 +52,7 @@ static void increment_predict(struct statics *s, const struct particles *p, cons
             const int load = s->load[k * DIM_MAX + d];
             const real u = s->balance.u.of[d][k];
             if (s->balance.held[k] >> d & 1)
-                s->increment.of[d][k] = (load < 0 ? 0 : displacing_at(&by[load], X, d)) - u;
+                s->increment.of[d][k] = (load < 0 ? 0 : prescribed_displacement_at(&by[load], X, d)) - u;
         }
     }
     const real growth = load_growth(s, p, t, before);
@@ -68,7 +68,7 @@ static real round_off_force(const struct bonds *bonds, const struct particles *p
     real sum = 0;
     for (int64_t r = 0; r < bonds->rows; r++) {
         const int32_t i = bonds->particle[r];
-        const real spring = 0.25 * bonds_row_bound(bonds, part, r);
+        const real spring = 0.25 * bonds_row_stiffness_bound(bonds, part, r);
         for (int d = 0; d < part->dim; d++) sum += square(spring * part->X[d][i] * DBL_EPSILON);
     }
     return 10 * sqrt(sum);
@@ -169,22 +169,22 @@ static status solve_at(struct run *e, real t, bool *crossed)
     real *before[DIM_MAX] = {0};
     const int64_t asked = s->balance.directions;
     const real lost = s->balance.lost;
-    TRY(loads_finite(&e->loads, &e->part, t));
+    TRY(loads_check_finite(&e->loads, &e->part, t));
     statics_contact_begin(e, t);
     account_start(&account, s, &e->part);
     for (int d = 0; d < e->part.dim; d++) {
         before[d] = BARE("statics.before", e->part.n, real);
         array_copy(before[d], e->part.x[d], e->part.n, sizeof(real));
     }
-    applied_forces_make(s, &e->part, &e->loads, t);
+    applied_forces_compute(s, &e->part, &e->loads, t);
     if (s->fragments_stale) unconstrained_find(e);
     increment_predict(s, &e->part, &e->frame->mesh, &e->loads, t, account.applied);
     s->balance.applied = applied_forces_norm(s, &e->part, e->contact);
     if (!s->precondition) s->balance.noise = round_off_force(&e->bonds, &e->part);
     const status found = equilibrium_find(&s->balance, &s->increment, t != s->t);
     plastic_update(e);
-    frame_sync(e->frame, &e->part, &e->loads);
-    loads_mirror(&e->loads, &e->part);
+    frame_update_points(e->frame, &e->part, &e->loads);
+    loads_update_images(&e->loads, &e->part);
     s->t = t;
     const bool touched = statics_in_contact(s, e->contact);
     const real worked = e->loads.work + e->loads.constraint_work,
@@ -196,7 +196,7 @@ static status solve_at(struct run *e, real t, bool *crossed)
     for (int d = 0; d < e->part.dim; d++) memory_free(before[d]);
     reactions_store(s, &e->part, &e->loads);
     s->solutions++;
-    statics_precondition_watch(s, s->balance.directions - asked);
+    statics_precondition_check_cost(s, s->balance.directions - asked);
     return found == OK ? OK : equilibrium_failed(s, &e->part, &e->frame->mesh, e->clock.step + 1);
 }
 

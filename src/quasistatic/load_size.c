@@ -21,12 +21,12 @@ real statics_load_size(const struct run *e, real t)
     real sum = 0, forces = 0;
     for (int b = 0; b < e->loads.n; b++) {
         const struct load *l = &e->loads.load[b];
-        const struct displacing by = displacing_make(l->boundary, e->part.dim, t);
+        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, e->part.dim, t);
         for (int64_t k = 0; k < l->n; k++) {
             real X[DIM_MAX], f[DIM_MAX];
             particle_place(&e->part, l->particle[k], X);
             for (int d = 0; d < e->part.dim && l->boundary->kind == BOUNDARY_VELOCITY; d++)
-                if (l->boundary->components >> d & 1) sum += square(displacing_at(&by, X, d));
+                if (l->boundary->components >> d & 1) sum += square(prescribed_displacement_at(&by, X, d));
             if (!boundary_is_force(l->boundary)) continue;
             load_force_at(l, &e->part, k, t, f);
             forces += dot(f, f, e->part.dim);
@@ -53,7 +53,7 @@ real statics_time_of_size(const struct run *e, real size)
 
 /* ---- crack increments -------------------------------------------------------------------------------------------- */
 
-real statics_released(const struct statics *s, const struct bonds *b)
+real statics_energy_released(const struct statics *s, const struct bonds *b)
 {
     return bonds_fracture_energy(b) + s->balance.lost;
 }
@@ -66,7 +66,8 @@ real balanced_load(const struct crack_increment *a, const struct crack_increment
 
 real balanced_load_alone(const struct crack_increment *a) { return balanced_load(a, &(struct crack_increment){0}); }
 
-struct crack_increment increment_before(const struct crack_increment *first, const struct crack_increment *second)
+struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
+                                                      const struct crack_increment *second)
 {
     const real rate = first->release / first->cost, growth = second->release / second->cost - rate;
     const real release = first->release - 2 * growth * square(first->cost) / (first->cost + second->cost);

@@ -22,10 +22,11 @@ real balanced_load_alone(const struct crack_increment *a);
 /* Returns a fictitious increment that precedes the first one, as if the pre-crack had grown to its present length by
  * it. Its cost equals that of *first; its release is extrapolated linearly from the first two increments and is at
  * least 0. */
-struct crack_increment increment_before(const struct crack_increment *first, const struct crack_increment *second);
+struct crack_increment increment_extrapolate_previous(const struct crack_increment *first,
+                                                      const struct crack_increment *second);
 
 /* Returns the energy released since the start [J]: the fracture energy of broken bonds and the energy that solutions
  * have lost. */
-real statics_released(const struct statics *s, const struct bonds *b);
+real statics_energy_released(const struct statics *s, const struct bonds *b);
 
 #endif

@@ -1,17 +1,17 @@
-/* Load steps: control of the loads through a sequence of equilibrium states, with crack increments (advance.c) between
- * them. */
+/* Load steps: control of the loads through a sequence of equilibrium states, with crack increments (crack_increment.c)
+ * between them. */
 #include <math.h>
 #include <stdio.h>
 
-#include "advance.h"
+#include "crack_increment.h"
 #include "balance.h"
-#include "led.h"
+#include "sif_cracks.h"
 #include "load_size.h"
-#include "pieces.h"
+#include "unconstrained.h"
 #include "springs.h"
 #include "steps_record.h"
 #include "system.h"
-#include "touch.h"
+#include "contact_set.h"
 #include "trial.h"
 
 #include "contact/contact.h"
@@ -47,7 +47,7 @@ static real increment_load(const struct statics *s, const struct diagnostics *di
  * have reached. */
 static void state_sample(struct run *e)
 {
-    sample_probes(e);
+    sample_update_probes(e);
     for (int k = 0; k < e->scene->rigids; k++) rigid_note(&e->rigid->body[k]);
 }
 
@@ -99,9 +99,9 @@ static status increment_under_loads(struct run *e, real *size, real from, real t
         TRY(equilibrium_at(e, t));
     state_sample(e);
     if (follows && e->scene->steps.then == THEN_EXPLICIT)
-        TRY(crack_increment_make_dynamic(e));
+        TRY(crack_increment_apply_dynamic(e));
     else
-        TRY(pays ? crack_increment_make(e) : crack_increment_make_balanced(e));
+        TRY(pays ? crack_increment_apply(e) : crack_increment_apply_balanced(e));
     if (!pays) TRY(within ? go_to_size(e, *size, from, t) : equilibrium_at(e, t));
     return crack_increment_find(e);
 }
@@ -131,7 +131,7 @@ static status step_by_energy(struct run *e, real most)
 {
     struct statics *s = e->statics;
     const real t = real_min(s->t + most, e->scene->duration);
-    if (s->increment_due) TRY(crack_increment_make_balanced(e));
+    if (s->increment_due) TRY(crack_increment_apply_balanced(e));
     TRY(crack_increment_find(e));
     if (s->severs) return OK;
     if (s->next.n == 0) TRY(approach_loads(e, t));
@@ -198,7 +198,7 @@ static status step_by_opening(struct run *e)
         } else {
             TRY(go_to_size(e, increment_load(e->statics, e->diagnostics), 0, INFINITY));
             state_sample(e);
-            TRY(crack_increment_make_balanced(e));
+            TRY(crack_increment_apply_balanced(e));
         }
         TRY(crack_increment_find(e));
     }
@@ -294,9 +294,9 @@ status statics_check(const struct run *e)
 static void warn_closed_faces(struct warnings *to, real K_I, const struct contact *c)
 {
     if (K_I < 0 && c->law.between == CONTACT_NONE)
-        warnings_say(to,
-                     "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
-                     "contact.between: all");
+        warnings_add_and_print(
+            to, "K_I of a crack is negative: its faces are pressed together, and pass through each other without "
+                "contact.between: all");
 }
 
 #define FLOW_LARGE 0.1 /* largest plastic strain of a small-strain analysis [1]; a limit by judgement */
@@ -312,7 +312,7 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
              "the plastic strain has reached %.2g, and load steps are for a few per cent: check that the body can "
              "carry its loads, or use smaller loads or solver: explicit",
              most);
-    if (most > FLOW_LARGE) warnings_say(to, text);
+    if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
 
 /* Warns of driven rigid bodies without contact force, which miss the body or push a body that nothing constrains.
@@ -326,7 +326,7 @@ static void warn_missed_bodies(struct warnings *to, const struct rigid_body *bod
                  "rigid body %.60s has moved without pushing anything: check that it meets a body, and that this body "
                  "is held",
                  r->name);
-        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_say(to, text);
+        if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_add_and_print(to, text);
     }
 }
 
@@ -348,12 +348,13 @@ static status check_constrained(struct run *e, bool *apart)
     const status held = unconstrained_check(e->statics, &e->part, true, e->clock.step + 1);
     *apart = parts && (held != OK || e->statics->severs);
     if (*apart)
-        warnings_say(&e->warnings, "the crack goes through: after its next increment a fragment of the body would be "
-                                   "almost unsupported under its loads, and the run ends before it");
+        warnings_add_and_print(&e->warnings,
+                               "the crack goes through: after its next increment a fragment of the body would be "
+                               "almost unsupported under its loads, and the run ends before it");
     return parts ? OK : held;
 }
 
-status engine_steps(struct run *e)
+status engine_run_load_steps(struct run *e)
 {
     TRY(report_start(e));
     timers_start(&e->timers);
@@ -362,7 +363,7 @@ status engine_steps(struct run *e)
     e->statics->gauge[0] = particles_nearest(&e->part, e->scene->steps.from);
     e->statics->gauge[1] = particles_nearest(&e->part, e->scene->steps.to);
     sif_cracks_start(e); /* for the plane of the tips, which a resumed run lacks */
-    if (e->clock.step == 0) sample_rest(e);
+    if (e->clock.step == 0) sample_equilibrium(e);
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
@@ -373,10 +374,10 @@ status engine_steps(struct run *e)
         if (apart) e->clock.steps = e->clock.step;
         e->clock.t = e->clock.dt * (real)e->clock.step;
         state_sample(e);
-        sample_rest(e);
-        statics_record_keep(e->statics);
+        sample_equilibrium(e);
+        statics_record_reset(e->statics);
         if (e->statics->t >= e->scene->duration * (1 - 1e-12)) e->clock.steps = e->clock.step;
-        timer_book(&e->timers, TIMER_BONDS);
+        timer_add_elapsed(&e->timers, TIMER_BONDS);
         if (e->clock.step == e->clock.steps) warn_at_end(e);
         snprintf(e->report->note, sizeof e->report->note, "load time %.4g s  %lld equilibria", e->statics->t,
                  (long long)e->statics->solutions);

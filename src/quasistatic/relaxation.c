@@ -15,7 +15,7 @@
 
 real grid_relaxation_ramp(real length, real wave_speed, real dt) { return ceil(2 * length / (wave_speed * dt)) * dt; }
 
-/* Adds up sum m u^2 and sum m v^2 of particles first..end - 1, for team_sums. */
+/* Adds up sum m u^2 and sum m v^2 of particles first..end - 1, for reproducible_sums. */
 static void motion_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -26,7 +26,7 @@ static void motion_block(const void *context, int64_t first, int64_t end, real *
         }
 }
 
-/* Adds up the squares of the forces that accelerate the grid nodes first..end - 1, for team_sums. */
+/* Adds up the squares of the forces that accelerate the grid nodes first..end - 1, for reproducible_sums. */
 static void node_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct grid_method *mpm = context;
@@ -35,7 +35,7 @@ static void node_block(const void *context, int64_t first, int64_t end, real *su
         for (int64_t I = first; I < end; I++) sum[0] += square(g->mass[I] * g->force[d][I] / mpm->transfer.dt_velocity);
 }
 
-/* Adds up the squares of the forces on particles first..end - 1 that are not on the grid, for team_sums. */
+/* Adds up the squares of the forces on particles first..end - 1 that are not on the grid, for reproducible_sums. */
 static void particle_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct particles *p = context;
@@ -63,13 +63,13 @@ static void estimate(struct run *e, bool *done)
     struct solver *s = e->solver;
     real nodes = 0, particles, motion[2];
     const real strain = e->kernels.bond_energy(&e->bonds, &e->part) +
-                        diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial);
-    team_sums(e->part.n, 2, motion_block, &e->part, motion);
+                        points_strain_energy(&e->part, e->scene->material, &e->coupling->partial);
+    reproducible_sums(e->part.n, 2, motion_block, &e->part, motion);
     s->damping = motion[0] > 0 ? real_min(2 * sqrt(2 * strain / motion[0]) * e->clock.dt, 1) : 0;
     if (e->part.n_of[KIND_MPM] + e->part.n_grid_coupled > 0)
-        team_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
-    team_sums(e->part.n, 1, particle_block, &e->part, &particles);
-    solver_scale(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
+        reproducible_sums(e->grid->field[0].grid.n, 1, node_block, e->grid, &nodes);
+    reproducible_sums(e->part.n, 1, particle_block, &e->part, &particles);
+    solver_set_residual(s, reactions_norm(&e->loads, e->part.dim), sqrt(nodes + particles));
     *done = e->clock.t > s->ramp_time * (1 + 1e-9) && s->residual <= e->scene->solver_tolerance &&
             0.5 * motion[1] <= MOTION_SMALL * strain;
 }
@@ -87,7 +87,7 @@ static void damp_velocities(struct particles *p, const struct loads *loads, int 
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->gradient[k][i] *= keep;
     }
-    loads_mirror(loads, p);
+    loads_update_images(loads, p);
 }
 
 status grid_relaxation_step(struct run *e, bool *done)

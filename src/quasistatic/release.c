@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "advance.h"
-#include "led.h"
+#include "crack_increment.h"
+#include "sif_cracks.h"
 #include "springs.h"
 #include "system.h"
 
@@ -35,7 +35,7 @@ static void boundaries_freeze(const struct scene *scene, struct boundary *bounda
         struct boundary *to = &boundary[b];
         real factor = 1;
         *to = *from;
-        if (boundary_is_force(from)) factor = time_function_at(&from->time, t), to->frozen = true, to->frozen_at = t;
+        if (boundary_is_force(from)) factor = time_function_value(&from->time, t), to->frozen = true, to->frozen_at = t;
         if (from->kind == BOUNDARY_VELOCITY) {
             factor = 0;
             memset(to->formula, 0, sizeof to->formula);
@@ -71,19 +71,19 @@ static void velocities_scale(struct particles *p, struct mesh *mesh, const struc
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] *= share;
         for (int64_t I = 0; mesh->points > 0 && I < g->n; I++) g->velocity[d][I] *= share;
     }
-    loads_mirror(loads, p);
+    loads_update_images(loads, p);
 }
 
 /* Returns the kinetic energy of particles and mesh [J]. */
 static real kinetic_present(const struct particles *part, const struct reference_frame *frame)
 {
-    return diagnostics_kinetic(part) + frame_kinetic(frame);
+    return particles_kinetic_energy(part) + frame_kinetic_energy(frame);
 }
 
 /* Makes time steps until the body is at rest. Stores the number of directed bonds that break in *broken. */
 static status steps_in_time(struct run *e, int64_t *broken)
 {
-    const real crossing = (particles_longest(&e->part) + e->scene->spacing) /
+    const real crossing = (particles_longest_edge(&e->part) + e->scene->spacing) /
                           e->tables.wave_speed; /* time in which a wave crosses the body [s] */
     const real quiet = CROSSINGS_QUIET * crossing, damping = 2 / crossing;
     const int64_t most = (int64_t)ceil(CROSSINGS_MOST * crossing / e->clock.dt);
@@ -98,7 +98,8 @@ static status steps_in_time(struct run *e, int64_t *broken)
         if ((real)(k - last) * e->clock.dt < quiet) continue;
         velocities_scale(&e->part, &e->frame->mesh, &e->loads, 1 - damping * e->clock.dt);
         damped++;
-        if (k % ENERGY_STEPS == 0 && kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_strain(e)) break;
+        if (k % ENERGY_STEPS == 0 && kinetic_present(&e->part, e->frame) <= MOTION_SMALL * sample_strain_energy(e))
+            break;
     }
     return OK;
 }
@@ -106,11 +107,11 @@ static status steps_in_time(struct run *e, int64_t *broken)
 /* Returns the strain energy, contact energy and fracture energy minus the work of loads and supports [J]. */
 static real energy_budget(struct run *e)
 {
-    const real held = sample_strain(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
+    const real held = sample_strain_energy(e) + contact_energy(e->contact, &e->part) + bonds_fracture_energy(&e->bonds);
     return held - e->loads.work - e->loads.constraint_work;
 }
 
-status crack_increment_make_dynamic(struct run *e)
+status crack_increment_apply_dynamic(struct run *e)
 {
     struct statics *s = e->statics;
     const struct run_clock clock = e->clock;
@@ -120,7 +121,7 @@ status crack_increment_make_dynamic(struct run *e)
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     boundaries_freeze(e->scene, e->boundary, s->t);
     rigids_freeze(e->scene, e->rigid, true);
-    contact_unmark(e->contact);
+    contact_end_selection(e->contact);
     const real dt = clock.dt_bears;
     e->clock.dt = e->grid->transfer.dt = dt;
     e->clock.step = 1, e->clock.steps = RELEASE_STEPS_MOST, e->clock.stride = 1;
@@ -131,11 +132,11 @@ status crack_increment_make_dynamic(struct run *e)
     rigids_freeze(e->scene, e->rigid, false);
     velocities_scale(&e->part, &e->frame->mesh, &e->loads, 0);
     TRY(moved);
-    if (more > 0) sif_tips_end(&s->sif);
+    if (more > 0) sif_tips_stop_all(&s->sif);
     const real lost = before - energy_budget(e);
     s->balance.lost += lost, e->damped = damped + lost;
     statics_precondition_free(s);
     statics_unknowns_free(s);
     statics_unknowns_make(e);
-    return crack_increment_settle(e, broken + more);
+    return crack_increment_equilibrate(e, broken + more);
 }

@@ -31,9 +31,9 @@ status engine_solver_make(struct run *e)
     const struct scene *s = e->scene;
     const struct static_body body = static_body_of(e);
     const real ramp_time = s->method == METHOD_PD ? 1
-                                                  : grid_relaxation_ramp(particles_longest(&e->part) + s->spacing,
+                                                  : grid_relaxation_ramp(particles_longest_edge(&e->part) + s->spacing,
                                                                          e->tables.wave_speed, e->clock.dt);
-    loads_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
+    loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, ramp_time);
     TRY(solver_make(e->solver, &body, ramp_time));
     if (s->method == METHOD_PD)
         solver_iteration_make(e->solver, &body, s->solver == SOLVER_CG);
@@ -66,7 +66,7 @@ static void warn_past_limit(struct warnings *to, int64_t past)
              "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
              "solver explicit",
              (long long)past);
-    if (past > 0) warnings_say(to, text);
+    if (past > 0) warnings_add_and_print(to, text);
 }
 
 #define STRAIN_LARGE                                                                                                   \
@@ -85,7 +85,7 @@ static void warn_large_strain(struct warnings *to, const struct particles *p, co
              "stresses of the solution reach %.2g times Young's modulus, beyond any solid and beyond small strains: "
              "check the loads and their units",
              most);
-    if (!(most <= STRAIN_LARGE)) warnings_say(to, text);
+    if (!(most <= STRAIN_LARGE)) warnings_add_and_print(to, text);
 }
 
 /* Completes a solution: sets velocities to 0 and the time to the end of the duration, and updates work, probes and
@@ -97,17 +97,17 @@ static void solver_finish(struct run *e)
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->v[d], 0, p->n_all, sizeof(real));
     for (int k = 0; k < p->dim * p->dim && (e->optional & WITH_GRADIENT); k++)
         array_fill_bytes(p->gradient[k], 0, p->n_all, sizeof(real));
-    loads_mirror(&e->loads, p);
-    loads_static_work(&e->loads, p);
+    loads_update_images(&e->loads, p);
+    loads_compute_static_work(&e->loads, p);
     memset(e->loads.impulse, 0, sizeof e->loads.impulse);
     e->clock.t = e->scene->duration;
     e->clock.steps = e->clock.step;
     e->report->sampling.due = false;
     e->report->sampling.kinetic = 0, e->report->sampling.constraint_work = e->loads.constraint_work;
-    sample_probes(e);
+    sample_update_probes(e);
     e->solver->past_limit = bonds_past_limit(&e->bonds, p, &limit);
     warn_past_limit(&e->warnings, e->solver->past_limit);
-    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     warn_large_strain(&e->warnings, p, e->scene->material);
 }
 
@@ -138,7 +138,7 @@ static status solve_step(struct run *e, bool *done)
     const struct static_body body = static_body_of(e);
     if (e->scene->method != METHOD_PD) return grid_relaxation_step(e, done);
     TRY((e->scene->solver == SOLVER_CG ? cg_step : relaxation_step)(e->solver, &body, e->clock.step, done));
-    timer_book(&e->timers, TIMER_BONDS);
+    timer_add_elapsed(&e->timers, TIMER_BONDS);
     e->clock.step++;
     return OK;
 }
@@ -149,11 +149,11 @@ static void solve_start(struct solver *s, const struct particles *p)
     for (int d = 0; d < p->dim; d++) array_copy(s->before.of[d], p->f[d], p->n, sizeof(real));
 }
 
-status engine_solve(struct run *e)
+status engine_solve_static(struct run *e)
 {
     TRY(report_start(e));
     timers_start(&e->timers);
-    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_rest(e);
+    if (e->scene->method == METHOD_PD && e->clock.step == 0) sample_equilibrium(e);
     if (e->scene->method == METHOD_PD) solve_start(e->solver, &e->part);
     while (e->clock.step < e->clock.steps) {
         bool done = false;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "springs.h"
-#include "pieces.h"
+#include "unconstrained.h"
 #include "unknowns.h"
 
 #include "base/memory.h"
@@ -157,8 +157,8 @@ static void springs_visit(struct springs *s)
     for (int64_t r = 0; r < b->rows; r++)
         if (s->particle_at[b->particle[r]] < 0) springs_row_add(s, r);
     for (int64_t I = 0; mesh->points > 0 && I < mesh->grid.n; I++)
-        if (mesh_cell_holds(mesh, I)) cell_add(s, I);
-    contact_terms(s->e->contact, &s->e->part, contact_add_spring, s);
+        if (mesh_cell_has_body(mesh, I)) cell_add(s, I);
+    contact_visit_springs(s->e->contact, &s->e->part, contact_add_spring, s);
 }
 
 /* Sorts the entries of a row by column and adds up those of one column. Returns the number of entries that remain. */
@@ -300,7 +300,7 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
 }
 
 /* Tolerates bonds in the preconditioner that have broken since it was made. */
-void statics_precondition_watch(struct statics *s, int64_t directions)
+void statics_precondition_check_cost(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;
     if (s->directions == 0)

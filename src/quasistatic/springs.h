@@ -17,7 +17,7 @@ void statics_precondition_make(struct run *e);
 /* Frees the preconditioner if bonds that have broken since it was made have made it inefficient. directions: number of
  * search directions of the last solution. The limit is 1.5 times that of the first solution with the preconditioner,
  * plus 8 (empirical). */
-void statics_precondition_watch(struct statics *s, int64_t directions);
+void statics_precondition_check_cost(struct statics *s, int64_t directions);
 
 /* Frees the preconditioner. Does nothing if there is none. */
 void statics_precondition_free(struct statics *s);

@@ -91,7 +91,7 @@ status statics_archive(struct run *e, struct archive *a)
     if (whole) TRY(increment_archive(s, &e->bonds, a));
     ARCHIVE_VALUE(a, "statics/lost", q->lost);
     if (whole) TRY(search_archive(s, &e->clock, a));
-    if (!a->saving) applied_forces_make(s, &e->part, &e->loads, s->t);
+    if (!a->saving) applied_forces_compute(s, &e->part, &e->loads, s->t);
     if (!a->saving && whole) plastic_state_save(e);
     return OK;
 }

@@ -1,7 +1,7 @@
 /* Load steps as a part of a run: the row of the table of parts. */
 #include <math.h>
 
-#include "led.h"
+#include "sif_cracks.h"
 #include "steps_record.h"
 #include "toughness.h"
 
@@ -23,7 +23,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
             warnings_add(to,
                          "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
                          "ones would take %.3g",
-                         s->material[m].name, toughness_of(&e->source.family, s->model, &s->material[m]),
+                         s->material[m].name, toughness_of_material(&e->source.family, s->model, &s->material[m]),
                          family_crossing_energy(&e->source.family, &s->material[m]));
     if (!scene_at_rest(s)) return;
     for (int k = 0; k < s->initials; k++)
@@ -36,7 +36,7 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     if (s->bodies > 1 || s->cracks > 0)
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
                          "where they close");
-    if (e->solver->applied == 0 && solver_largest(&e->solver->driven, s->dim, e->part.n) == 0)
+    if (e->solver->applied == 0 && solver_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add(to,
                      "nothing loads the body at t = %.4g s: forces have their value at the end of the duration "
                      "there (a step that ends before has none)",

@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "steps_record.h"
-#include "led.h"
+#include "sif_cracks.h"
 #include "load_size.h"
-#include "touch.h"
+#include "contact_set.h"
 
 #include "fracture/fracture_part.h"
 #include "probes/diagnostics.h"
@@ -78,10 +78,10 @@ static void measure(struct run *e)
     const real path = sif_paths_area(&s->sif, &e->part),
                spacing = growth_by_spacing(&e->fracture->tips, scene_section(e->scene));
     const bool solid = e->part.dim == 3 && path == 0;
-    const real damaged = solid ? r->broken : tips_area(&e->fracture->tips, &e->part, &around);
+    const real damaged = solid ? r->broken : tips_crack_area(&e->fracture->tips, &e->part, &around);
     const bool by_path = path > 0 && damaged <= path + 1.5 * spacing;
     const real area = by_path ? path : damaged, growth = by_path || solid ? 0 : GROWTH * spacing;
-    r->released = statics_released(s, &e->bonds);
+    r->released = statics_energy_released(s, &e->bonds);
     if (!(area > r->area)) return;
     r->area = area;
     r->rate = (r->released - r->mark[0].released) / (area - r->mark[0].area);
@@ -111,7 +111,7 @@ void statics_record(struct run *e, real *record)
     array_copy(record + COUNT_OF(own) + MODES, place, e->part.dim < 3 ? 2 : 3, sizeof *place);
 }
 
-void statics_record_keep(struct statics *s)
+void statics_record_reset(struct statics *s)
 {
     s->record.directions = s->balance.directions, s->record.solutions = s->solutions;
 }

@@ -16,6 +16,6 @@ void statics_record(struct run *e, real *record);
 
 /* Stores the present numbers of search directions and equilibria of the solver. The next call of statics_record
  * reports the numbers since then. */
-void statics_record_keep(struct statics *s);
+void statics_record_reset(struct statics *s);
 
 #endif

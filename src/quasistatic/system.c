@@ -1,9 +1,9 @@
 /* The system of equations of load steps: its unknowns, the forces on them, contact between solutions, and the
  * preconditioner. */
 #include "system.h"
-#include "pieces.h"
+#include "unconstrained.h"
 #include "springs.h"
-#include "touch.h"
+#include "contact_set.h"
 #include "unknowns.h"
 
 #include "base/memory.h"
@@ -65,14 +65,14 @@ static void applied_add(const struct statics *s, const struct loads *loads, stru
 static void forces_present(struct run *e)
 {
     const bool has_mesh = e->frame->mesh.points > 0;
-    if (has_mesh) frame_exposed_follow(e->frame, &e->part);
-    loads_mirror(&e->loads, &e->part);
-    loads_clear(&e->loads, &e->part);
+    if (has_mesh) frame_update_exposed_points(e->frame, &e->part);
+    loads_update_images(&e->loads, &e->part);
+    loads_clear_forces(&e->loads, &e->part);
     plastic_state_restore(e); /* that of the last equilibrium, whatever positions have been evaluated since */
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
     applied_add(e->statics, &e->loads, &e->part);
-    if (has_mesh) frame_force(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
+    if (has_mesh) frame_compute_forces(e->frame, &e->part, e->clock.step), mirror_forces_add(&e->frame->mesh);
 }
 
 /* Computes the forces f at the displacements u (`force` of solver/equilibrium.h). context: a struct run. */
@@ -134,7 +134,7 @@ void statics_unknowns_free(struct statics *s)
 {
     const struct equilibrium kept = s->balance;
     unconstrained_free(s);
-    unknowns_unlist(s);
+    unknowns_free(s);
     s->balance.forces = kept.forces, s->balance.directions = kept.directions, s->balance.lost = kept.lost;
     s->balance.largest = kept.largest;
 }

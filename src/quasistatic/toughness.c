@@ -3,19 +3,19 @@
 
 #include "toughness.h"
 
-real stretch_work(real elastic, real yield, real hardening)
+real bond_stretch_work(real elastic, real yield, real hardening)
 {
     const real beyond = real_max(0, elastic - yield), slope = hardening / (1 + hardening);
     return 0.5 * square(elastic - beyond) + (beyond > 0 ? beyond * (yield + 0.5 * slope * beyond) : 0);
 }
 
-real toughness_of(const struct family *family, enum model model, const struct material *m)
+real toughness_of_material(const struct family *family, enum model model, const struct material *m)
 {
     const bool given = model != MODEL_BOND && !isnan(m->energy_release_rate);
     if (given) return m->energy_release_rate;
     const real elastic = family_crossing_energy(family, m), limit = m->critical_stretch;
     if (!material_yields(m) || !isfinite(limit)) return elastic;
-    const real taken = stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
+    const real taken = bond_stretch_work(limit, m->yield_stress / m->young, m->yield_hardening / m->young);
     return elastic * taken / (0.5 * square(limit));
 }
 
@@ -26,7 +26,8 @@ static real toughness_of_pair(const struct scene *s, const struct bond_source *s
 {
     const struct family *family = &source->family;
     const struct material *one = &s->material[a], *other = &s->material[b];
-    const real least = real_min(toughness_of(family, s->model, one), toughness_of(family, s->model, other));
+    const real least =
+        real_min(toughness_of_material(family, s->model, one), toughness_of_material(family, s->model, other));
     for (int k = 0; k < s->interfaces && s->model != MODEL_BOND; k++) {
         const struct scene_interface *face = &s->interface[k];
         const int m = s->body[face->body[0]].material, n = s->body[face->body[1]].material;

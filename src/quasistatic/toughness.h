@@ -8,7 +8,7 @@
 /* Returns the crack energy per area of a material [J/m^2]. For a bond-based `model` it is the energy of all bonds of
  * the lattice family that cross a plane of the lattice, each at its critical stretch, per area; for state-based models
  * the fracture energy G_c of the material. */
-real toughness_of(const struct family *family, enum model model, const struct material *m);
+real toughness_of_material(const struct family *family, enum model model, const struct material *m);
 
 /* Returns the crack energy per area between the particles i and j [J/m^2]: that of their common material; for two
  * materials that of their interface if the scene defines it, else that of the weaker material. Where the strength of
@@ -20,6 +20,6 @@ real toughness_between(const struct scene *s, const struct bond_source *source, 
  * divided by the stiffness and length of the bond [1]. The force grows linearly up to the stretch `yield` [1]
  * (INFINITY: the bond does not yield), then with the slope h/(1 + h), where h = `hardening` is the ratio of plastic
  * modulus to stiffness [1], as in a bar with linear isotropic hardening (Simo & Hughes 1998, section 1.2). */
-real stretch_work(real elastic, real yield, real hardening);
+real bond_stretch_work(real elastic, real yield, real hardening);
 
 #endif

@@ -1,6 +1,6 @@
 /* Trial equilibria of load steps, and the restoration of the previous state. */
 #include "trial.h"
-#include "overload.h"
+#include "stretch_ratio.h"
 #include "system.h"
 #include "unknowns.h"
 
@@ -31,14 +31,14 @@ void trial_begin(struct run *e, struct memory_archive *m)
 
 void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken)
 {
-    if (broken) bonds_mend(e->statics, &e->bonds, &e->part, broken);
+    if (broken) bonds_restore_broken(e->statics, &e->bonds, &e->part, broken);
     memory_archive_rewind(m);
     const status restored = trial_archive(e, &m->archive);
     INVARIANT(restored == OK);
     memory_archive_free(m);
     plastic_state_save(e); /* a nested trial may have saved a different one */
     unknowns_move(e->statics, &e->part, &e->frame->mesh, &e->statics->balance.u);
-    frame_sync(e->frame, &e->part, &e->loads);
-    loads_mirror(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
+    frame_update_points(e->frame, &e->part, &e->loads);
+    loads_update_images(&e->loads, &e->part); /* the stretch of bonds to images depends on their positions */
     reactions_store(e->statics, &e->part, &e->loads);
 }

@@ -117,7 +117,7 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
     memory_free(node_at);
 }
 
-void unknowns_unlist(struct statics *s)
+void unknowns_free(struct statics *s)
 {
     equilibrium_free(&s->balance);
     memory_free(s->node);
@@ -170,7 +170,7 @@ void image_signs(const struct particles *p, const struct loads *loads, int64_t i
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
-void applied_forces_make(struct statics *s, const struct particles *p, const struct loads *loads, real t)
+void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t)
 {
     for (int d = 0; d < p->dim; d++) {
         if (!s->applied[d]) s->applied[d] = NEW("statics.applied", p->n, real);
@@ -195,21 +195,22 @@ real applied_forces_norm(const struct statics *s, const struct particles *p, con
         for (int64_t i = 0; i < p->n; i++)
             if (p->kind[i] != KIND_PD && !(p->flag[i] & FLAG_DRIVEN)) sum += square(s->applied[d][i]);
     }
-    return hypot(sqrt(sum), contact_rigid_norm(c, p));
+    return hypot(sqrt(sum), contact_rigid_force_norm(c, p));
 }
 
 void reactions_store(const struct statics *s, const struct particles *p, struct loads *loads)
 {
     for (int b = 0; b < loads->n; b++) {
         struct load *l = &loads->load[b];
-        if (boundary_is_force(l->boundary)) load_applied_sum(l, p, s->t);
+        if (boundary_is_force(l->boundary)) load_sum_applied(l, p, s->t);
         if (l->boundary->kind != BOUNDARY_VELOCITY) continue;
-        const struct displacing by = displacing_make(l->boundary, p->dim, s->t);
+        const struct prescribed_displacement by = prescribed_displacement_make(l->boundary, p->dim, s->t);
         memset(l->reaction, 0, sizeof l->reaction);
         for (int d = 0; d < p->dim; d++) {
             real sum = 0, X[DIM_MAX] = {0};
             if (!(l->boundary->components >> d & 1)) continue;
-            for (int64_t q = 0; q < l->n; q++) particle_place(p, l->particle[q], X), sum += displacing_at(&by, X, d);
+            for (int64_t q = 0; q < l->n; q++)
+                particle_place(p, l->particle[q], X), sum += prescribed_displacement_at(&by, X, d);
             l->displacement[d] = l->n > 0 ? sum / (real)l->n : 0;
         }
     }

@@ -11,11 +11,11 @@ struct contact;
 
 /* Lists the particles and mesh nodes whose displacements are unknown, with their weights, the boundaries that
  * prescribe their components and their present displacements, and allocates the fields of s->balance. The caller has
- * set the member `length` of s->balance. Release with unknowns_unlist. */
+ * set the member `length` of s->balance. Release with unknowns_free. */
 void unknowns_list(struct statics *s, const struct particles *p, const struct mesh *mesh, const struct loads *loads);
 
 /* Frees the lists and fields that unknowns_list has allocated. */
-void unknowns_unlist(struct statics *s);
+void unknowns_free(struct statics *s);
 
 /* Stores the reference position of unknown k, a particle or a mesh node, in X[] [m]. */
 void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X);
@@ -30,7 +30,7 @@ void image_signs(const struct particles *p, const struct loads *loads, int64_t i
 
 /* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
  * the body [N]. Allocates these arrays on the first call. */
-void applied_forces_make(struct statics *s, const struct particles *p, const struct loads *loads, real t);
+void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t);
 
 /* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of
  * the contact forces of rigid bodies [N]. */

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "balance.h"
-#include "pieces.h"
+#include "unconstrained.h"
 #include "system.h"
 
 #include "base/memory.h"

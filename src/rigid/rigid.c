@@ -223,7 +223,7 @@ real rigid_displacement(const struct rigid_body *r, real t, real *u)
     return sqrt(dot(u, u, r->dim));
 }
 
-void rigid_put(struct rigid_body *r, real t)
+void rigid_set_position(struct rigid_body *r, real t)
 {
     real u[DIM_MAX];
     rigid_displacement(r, t, u);
@@ -257,19 +257,19 @@ void rigid_note(struct rigid_body *r)
     r->force_most = real_max(r->force_most, sqrt(dot(r->force, r->force, r->dim)));
 }
 
-void rigid_book(struct rigid_body *r)
+void rigid_add_work(struct rigid_body *r)
 {
     r->work += work_of_step(r);
     memcpy(r->force_previous, r->force, sizeof r->force_previous);
     memset(r->increment, 0, sizeof r->increment);
 }
 
-real rigid_kinetic(const struct rigid_body *r)
+real rigid_kinetic_energy(const struct rigid_body *r)
 {
     return 0.5 * r->mass * dot(r->v, r->v, r->dim) + 0.5 * dot(r->angular, r->spin, DIM_MAX);
 }
 
-real rigid_kick(const struct rigid_body *r, real dt)
+real rigid_kick_energy(const struct rigid_body *r, real dt)
 {
     if (r->motion != RIGID_FREE) return 0;
     const real turning = r->turns ? dot(r->moment, r->spin, DIM_MAX) : 0;

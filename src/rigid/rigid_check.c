@@ -47,8 +47,8 @@ status rigids_check(const struct rigid_set *rigid, const struct scene *s, const 
 {
     for (int k = 0; k < rigid->n; k++) {
         const char *place = s->body[s->bodies + k].place;
-        TRY(status_at(place, check_room(&rigid->body[k], s, p)));
-        TRY(status_at(place, check_mirrors(&rigid->body[k], s)));
+        TRY(status_prepend_location(place, check_room(&rigid->body[k], s, p)));
+        TRY(status_prepend_location(place, check_mirrors(&rigid->body[k], s)));
     }
     return OK;
 }
@@ -92,7 +92,7 @@ static bool have_met(const struct rigid_body *r, const struct rigid_body *other,
     return false;
 }
 
-void rigids_meet(struct rigid_set *rigid, real spacing, real t, struct warnings *to)
+void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *to)
 {
     for (int a = 0; a < rigid->n && !rigid->met; a++)
         for (int b = 0; b < rigid->n && !rigid->met; b++) {
@@ -103,7 +103,7 @@ void rigids_meet(struct rigid_set *rigid, real spacing, real t, struct warnings 
                      "rigid bodies %.60s and %.60s overlap at t = %.3g s: rigid bodies push particles, not each other; "
                      "change their motion, or make one of them a body of particles",
                      one->name, other->name, t);
-            warnings_say(to, text);
+            warnings_add_and_print(to, text);
             rigid->met = true;
         }
 }

@@ -18,17 +18,17 @@ status rigids_make(struct rigid_set *rigid, const struct scene *s)
         const struct scene_body *b = &s->body[s->bodies + k];
         struct rigid_body *r = &rigid->body[k];
         memcpy(r->name, b->name, sizeof b->name);
-        TRY(status_at(b->place, rigid_make(r, &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
+        TRY(status_prepend_location(b->place, rigid_make(r, &b->shape, s->dim, b->mass, b->velocity, s->spacing)));
         r->ramp = b->ramp;
         for (int d = 0; d < s->dim; d++) r->weight[d] = b->force[d] + b->mass * s->gravity[d];
     }
     return OK;
 }
 
-void rigids_book(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
+void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX])
 {
     for (int k = 0; k < rigid->n; k++) {
-        rigid_book(&rigid->body[k]);
+        rigid_add_work(&rigid->body[k]);
         rigid_note(&rigid->body[k]);
         for (int d = 0; d < rigid->dim; d++) impulse[d] -= rigid->body[k].force[d] * dt_velocity;
     }
@@ -44,9 +44,9 @@ struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt)
     struct rigid_energy sum = {0};
     for (int k = 0; k < rigid->n; k++) {
         const struct rigid_body *r = &rigid->body[k];
-        sum.before += rigid_kinetic(r);
+        sum.before += rigid_kinetic_energy(r);
         sum.step += r->kinetic;
-        sum.last += rigid_kinetic(r) + rigid_kick(r, dt);
+        sum.last += rigid_kinetic_energy(r) + rigid_kick_energy(r, dt);
         sum.work += rigid_work(r);
     }
     return sum;
@@ -79,7 +79,7 @@ int rigids_columns(const struct run *e, struct column *column)
     return n;
 }
 
-void rigids_keep(struct rigid_set *rigid, real t)
+void rigids_store_motion(struct rigid_set *rigid, real t)
 {
     if (!rigid->motion) rigid->motion = NEW("rigid.motion", 2 * DIM_MAX * rigid->n, real);
     for (int k = 0; k < rigid->n; k++) {
@@ -91,7 +91,7 @@ void rigids_keep(struct rigid_set *rigid, real t)
     }
 }
 
-void rigids_mean(struct rigid_set *rigid)
+void rigids_average_velocities(struct rigid_set *rigid)
 {
     for (int k = 0; k < rigid->n; k++) {
         real *v = rigid->motion + 2 * DIM_MAX * k + DIM_MAX;
@@ -109,7 +109,7 @@ void rigids_velocity(const struct rigid_set *rigid, int k, real t, real dt, real
         v[d] += 0.5 * dt * (r->force[d] + r->weight[d]) / r->mass;
 }
 
-void rigids_kick(struct rigid_set *rigid, real t, real dt)
+void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt)
 {
     for (int k = 0; k < rigid->n; k++) rigids_velocity(rigid, k, t, dt, rigid->motion + 2 * DIM_MAX * k + DIM_MAX);
 }

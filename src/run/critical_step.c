@@ -41,15 +41,15 @@ void bond_body_stiffness(void *context, const real *u, real *y)
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) p->x[a][i] = p->X[a][i] + scale * u[a * p->n + i] / body->root[i];
-    if (body->loads) loads_mirror(body->loads, p);
+    if (body->loads) loads_update_images(body->loads, p);
     bond_forces(body->force, body->b, p, &bond_limit_never, NULL);
     for (int a = 0; a < p->dim; a++)
 #pragma omp parallel for schedule(static)
         for (int64_t i = 0; i < p->n; i++) y[a * p->n + i] = scale > 0 ? -p->f[a][i] / (scale * body->root[i]) : 0;
 }
 
-real critical_step_of(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
-                      real spacing)
+real critical_step_of_bonds(struct bonds *b, struct particles *p, bond_force_fn *force, const struct loads *loads,
+                            real spacing)
 {
     struct bond_body body = bond_body_make(b, p, force, loads, spacing);
     real *x[DIM_MAX];
@@ -106,14 +106,14 @@ real critical_step_of_lattice(const struct bond_source *source, bond_force_fn *f
         p.mass[i] = density * f->cell_volume;
         p.kind[i] = KIND_PD;
     }
-    particles_list(&p);
+    particles_update_lists(&p);
     cells_make(&cells, &p, f->cutoff * (1 + 1e-9));
     s.family.surface = SURFACE_NONE;
     s.cells = &cells, s.cracks = 0, s.voids = NULL, s.image = NULL;
     s.room = 0, s.neighbour_volume = NULL, s.surface = NULL;
     bonds_make(&b, NULL, &p, &s);
-    if (bound) *bound = bonds_critical_step_made(&b, &p);
-    real step = critical_step_of(&b, &p, force, NULL, f->spacing);
+    if (bound) *bound = bonds_critical_step_of_existing(&b, &p);
+    real step = critical_step_of_bonds(&b, &p, force, NULL, f->spacing);
     bonds_free(&b);
     cells_free(&cells);
     particles_free(&p);

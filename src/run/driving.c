@@ -49,7 +49,7 @@ static status starts_at_rest(const struct boundary *b, const struct particles *p
     return OK;
 }
 
-status driving_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start)
+status prescribed_motion_check(const struct loads *loads, const struct particles *p, const struct scene *s, bool start)
 {
     real wave_speed = 0;
     for (int m = 0; m < s->materials; m++) wave_speed = real_max(wave_speed, s->material[m].wave_speed);
@@ -57,22 +57,24 @@ status driving_check(const struct loads *loads, const struct particles *p, const
         const struct load *l = &loads->load[k];
         const struct boundary *b = l->boundary;
         if (b->kind != BOUNDARY_VELOCITY) continue;
-        TRY(status_at(b->place, position_dependent_on_grid(b, p, l)));
+        TRY(status_prepend_location(b->place, position_dependent_on_grid(b, p, l)));
         if (!b->displaces) continue;
-        if (start) TRY(status_at(b->place, starts_at_reference(b, p, l, s->spacing)));
+        if (start) TRY(status_prepend_location(b->place, starts_at_reference(b, p, l, s->spacing)));
         if (s->solver != SOLVER_EXPLICIT) continue;
-        TRY(status_at(b->place, starts_at_rest(b, p, l, s->spacing)));
-        const real speed = load_displacing_speed(l, p, s->duration);
+        TRY(status_prepend_location(b->place, starts_at_rest(b, p, l, s->spacing)));
+        const real speed = load_displacement_speed(l, p, s->duration);
         if (!(speed >= wave_speed)) continue;
         if (isinf(speed))
-            return status_at(b->place, status_set(REFUSED,
-                                                  "boundary %s: its displacement jumps, which no body follows; "
-                                                  "a ramp, a pulse or a table is expected as its time",
-                                                  b->name));
-        return status_at(b->place, status_set(REFUSED,
-                                              "boundary %s: its displacement grows by %.3g m/s, faster than the waves, "
-                                              "%.4g m/s; a longer time is expected for it, or a smaller one",
-                                              b->name, speed, wave_speed));
+            return status_prepend_location(b->place,
+                                           status_set(REFUSED,
+                                                      "boundary %s: its displacement jumps, which no body follows; "
+                                                      "a ramp, a pulse or a table is expected as its time",
+                                                      b->name));
+        return status_prepend_location(
+            b->place, status_set(REFUSED,
+                                 "boundary %s: its displacement grows by %.3g m/s, faster than the waves, "
+                                 "%.4g m/s; a longer time is expected for it, or a smaller one",
+                                 b->name, speed, wave_speed));
     }
     return OK;
 }

@@ -103,11 +103,11 @@ static void kinetic_block(const void *context, int64_t first, int64_t end, real 
 
 static struct movers movers_of(const struct particles *p) { return (struct movers){p->dim, p->mass, p->v, p->flag}; }
 
-real diagnostics_kinetic(const struct particles *p)
+real particles_kinetic_energy(const struct particles *p)
 {
     const struct movers m = movers_of(p);
     real kinetic;
-    team_sums(p->n, 1, kinetic_block, &m, &kinetic);
+    reproducible_sums(p->n, 1, kinetic_block, &m, &kinetic);
     return kinetic;
 }
 
@@ -143,10 +143,10 @@ static void kick_block(const void *context, int64_t first, int64_t end, real *su
     }
 }
 
-real diagnostics_kick(const struct particles *p, real *const *before, real dt)
+real particles_kick_energy(const struct particles *p, real *const *before, real dt)
 {
     real sum;
-    team_sums(p->n, 1, kick_block, &(struct kick){p, before, dt}, &sum);
+    reproducible_sums(p->n, 1, kick_block, &(struct kick){p, before, dt}, &sum);
     return sum;
 }
 
@@ -169,7 +169,7 @@ struct strain_sum {
     real (*compliance)[SYM_MAX * SYM_MAX]; /* [materials] C^-1 in symmetric components */
 };
 
-real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
+real point_mpm_share(const struct partial_stress *partial, int dim, int64_t i)
 {
     if (!partial || !partial->index || partial->index[i] < 0) return 1;
     const int n = symmetric_count(dim);
@@ -184,7 +184,7 @@ real point_own_share(const struct partial_stress *partial, int dim, int64_t i)
 static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
 {
     if (!s->p->out_of_plane) return 0;
-    return point_own_share(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
+    return point_mpm_share(s->partial, s->p->dim, i) * square(s->p->out_of_plane[i]) /
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
@@ -207,8 +207,8 @@ static real strain_term(const void *context, int64_t k)
     return 0.5 * sum * p->volume[i] + out_of_plane_energy(s, i);
 }
 
-real diagnostics_strain_of(const struct particles *p, const struct material *m, const struct partial_stress *partial,
-                           const int32_t *list, int64_t n)
+real points_strain_energy_of_list(const struct particles *p, const struct material *m,
+                                  const struct partial_stress *partial, const int32_t *list, int64_t n)
 {
     int materials = 0;
     for (int64_t k = 0; k < n; k++)
@@ -216,14 +216,14 @@ real diagnostics_strain_of(const struct particles *p, const struct material *m, 
     struct strain_sum s = {.p = p, .m = m, .partial = partial, .list = list};
     s.compliance = memory_new("diagnostics.compliance", materials, sizeof *s.compliance);
     for (int k = 0; k < materials; k++) material_compliance(&m[k], p->dim, s.compliance[k]);
-    real sum = team_sum(n, strain_term, &s);
+    real sum = reproducible_sum(n, strain_term, &s);
     memory_free(s.compliance);
     return sum;
 }
 
-real diagnostics_strain(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+real points_strain_energy(const struct particles *p, const struct material *m, const struct partial_stress *partial)
 {
-    return diagnostics_strain_of(p, m, partial, p->list_free, p->n_free);
+    return points_strain_energy_of_list(p, m, partial, p->list_free, p->n_free);
 }
 
 /* Returns the plastic work of the k-th listed particle: V times the integral of (sigma_y + H a) da [J]. */
@@ -236,24 +236,24 @@ static real plastic_term(const void *context, int64_t k)
     const real a = p->plastic_strain[i];
     if (a == 0) return 0;
     const real volume = p->flag[i] & FLAG_MESHED ? p->volume0[i] : p->volume[i];
-    return point_own_share(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
+    return point_mpm_share(s->partial, s->p->dim, i) * volume * (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
 }
 
-real diagnostics_plastic(const struct particles *p, const struct material *m, const struct partial_stress *partial)
+real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial)
 {
     if (!p->plastic_strain) return 0;
-    return team_sum(p->n_of[KIND_MPM], plastic_term,
-                    &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
+    return reproducible_sum(p->n_of[KIND_MPM], plastic_term,
+                            &(struct strain_sum){.p = p, .m = m, .partial = partial, .list = p->list[KIND_MPM]});
 }
 
-real diagnostics_momentum_of(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum)
+real particles_linear_momentum(const struct particles *p, const struct grid *const *nodes, int grids, real *momentum)
 {
     const struct movers m = movers_of(p);
     real sum[DIM_MAX + 1], more[DIM_MAX + 1];
-    team_sums(p->n, p->dim + 1, momentum_block, &m, sum);
+    reproducible_sums(p->n, p->dim + 1, momentum_block, &m, sum);
     for (int g = 0; g < grids && nodes[g]->n > 0; g++) {
         const struct movers n = {nodes[g]->dim, nodes[g]->mass, nodes[g]->velocity, NULL};
-        team_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
+        reproducible_sums(nodes[g]->n, p->dim + 1, momentum_block, &n, more);
         for (int k = 0; k <= p->dim; k++) sum[k] += more[k];
     }
     for (int d = 0; d < p->dim; d++) momentum[d] = sum[d];
@@ -262,7 +262,8 @@ real diagnostics_momentum_of(const struct particles *p, const struct grid *const
 
 /* The states are recomputed at the present positions: a step moves particles after its forces, and the stress in a
  * rotating body would otherwise contain the rotation of a step. */
-void run_stress(struct bonds *b, struct particles *p, const struct bond_source *s, const struct kernels *kernels)
+void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
+                         const struct kernels *kernels)
 {
     states_precompute(b, p, s);
     kernels->bond_stress(b, p);

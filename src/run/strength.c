@@ -2,7 +2,7 @@
  * themselves with their own trigger (point_trigger). */
 #include "run/make.h"
 
-void strength_found(struct elastic *elastic, const struct particles *p)
+void conversion_stress_lower(struct elastic *elastic, const struct particles *p)
 {
     for (int64_t i = 0; i < p->n && p->strength; i++) {
         struct elastic *m = &elastic[p->material[i]];

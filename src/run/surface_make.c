@@ -83,7 +83,7 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
 status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                         const struct loads *loads, const struct scene *s)
 {
-    const status made = surface_make(w, p, source, source->rotates);
+    const status made = surface_weights_make(w, p, source, source->rotates);
     if (made == OK) source->surface = w;
     return made == REFUSED && w->apart[0] >= 0 ? refuse_apart(s, p, loads, w->apart[0], w->apart[1]) : made;
 }

@@ -18,7 +18,7 @@ void csv_close(struct csv_file *c)
     c->file = NULL;
 }
 
-status csv_text(struct csv_file *c, bool *more, bool *comment)
+status csv_read_line(struct csv_file *c, bool *more, bool *comment)
 {
     while ((*more = fgets(c->text, sizeof c->text, c->file) != NULL)) {
         c->line++;
@@ -37,15 +37,15 @@ status csv_text(struct csv_file *c, bool *more, bool *comment)
     return ferror(c->file) ? status_set(REFUSED, "%s: cannot be read", c->path) : OK;
 }
 
-status csv_line(struct csv_file *c, bool *more)
+status csv_read_data_line(struct csv_file *c, bool *more)
 {
     bool comment = true;
     *more = true;
-    while (comment) TRY(csv_text(c, more, &comment));
+    while (comment) TRY(csv_read_line(c, more, &comment));
     return OK;
 }
 
-void csv_separate(struct csv_file *c)
+void csv_detect_separator(struct csv_file *c)
 {
     int commas = 0, tabs = 0;
     for (const char *at = c->text; *at; at++) commas += *at == ',', tabs += *at == '\t';
@@ -83,7 +83,7 @@ static char *csv_word(char *field, char **rest)
     return csv_trim(field);
 }
 
-char *csv_field(const struct csv_file *c, char **rest)
+char *csv_cut_field(const struct csv_file *c, char **rest)
 {
     char *field = *rest;
     if (field == NULL) return NULL;
@@ -94,7 +94,7 @@ char *csv_field(const struct csv_file *c, char **rest)
     return csv_trim(field);
 }
 
-char *csv_unit(char *name)
+char *csv_cut_unit(char *name)
 {
     char *end = name + strlen(name), *open = end;
     if (end > name && end[-1] == ']') open = strchr(name, '[');

@@ -13,7 +13,7 @@ struct csv_file {
     const char *path, *holds; /* path and contents of a line, for messages; kept by reference */
     FILE *file;
     int64_t line;   /* number of the current line, from 1 */
-    char separator; /* comma unless csv_separate finds another in the header; or a blank */
+    char separator; /* comma unless csv_detect_separator finds another in the header; or a blank */
     char text[CSV_LINE_LENGTH];
 };
 
@@ -24,20 +24,20 @@ void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text. Sets *more to false at the end of the file, and *comment to true
  * if the line begins with #. */
-status csv_text(struct csv_file *c, bool *more, bool *comment);
+status csv_read_line(struct csv_file *c, bool *more, bool *comment);
 
 /* Reads the next line that is neither blank nor a comment into c->text. Sets *more to false at the end of the file. */
-status csv_line(struct csv_file *c, bool *more);
+status csv_read_data_line(struct csv_file *c, bool *more);
 
 /* Sets the separator of the file from the current line: a semicolon or a tab if the line contains one, else a comma. */
-void csv_separate(struct csv_file *c);
+void csv_detect_separator(struct csv_file *c);
 
 /* Cuts the next field off *rest and returns it without surrounding blanks and double quotes; quoted text may contain
  * separators. Returns NULL at the end of the line. */
-char *csv_field(const struct csv_file *c, char **rest);
+char *csv_cut_field(const struct csv_file *c, char **rest);
 
 /* Cuts the unit off the name of a column, as in `time [us]` or `time (us)`, and returns it; "" if there is none. */
-char *csv_unit(char *name);
+char *csv_cut_unit(char *name);
 
 /* Returns REFUSED with a message that begins with `file:line:column: ` of a field of the current line. */
 status csv_fault(const struct csv_file *c, const char *field, const char *format, ...)

@@ -36,7 +36,7 @@ static void draft_free(struct draft *d)
 status draft_refuse(const struct draft *d, int body, const char *why)
 {
     const struct scene_body *b = &d->scene->body[body];
-    return status_at(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
+    return status_prepend_location(b->place, status_set(REFUSED, "body %s: %s", b->name, why));
 }
 
 static void draft_grow(struct draft *d)
@@ -184,7 +184,7 @@ static status fill_lattice(struct draft *d, int body)
     return OK;
 }
 
-status fill_place(const struct scene *s, int body, real *X)
+status fill_lattice_site(const struct scene *s, int body, real *X)
 {
     const struct draft d = {.scene = s};
     struct axis axis[DIM_MAX] = {{0}};
@@ -216,7 +216,7 @@ static status draft_make(struct draft *d)
     for (int body = 0; body < d->scene->bodies; body++) {
         const bool listed = d->scene->body[body].file != NULL;
         int64_t before = d->n;
-        TRY(listed ? fill_list(d, body) : fill_lattice(d, body));
+        TRY(listed ? draft_add_list(d, body) : fill_lattice(d, body));
         if (d->n == before && d->skipped == 0) return draft_empty(d, body, listed);
     }
     return OK;
@@ -232,7 +232,7 @@ static real spacing_of(const struct draft *d)
 {
     const struct scene *s = d->scene;
     if (s->spacing > 0) return s->spacing;
-    return pow(team_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
+    return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
 }
 
 /* Copies the draft to the particles, and sets velocity, mass and method from their bodies. optional: sum of WITH_*. */
@@ -316,21 +316,23 @@ static status check_distances(const struct particles *p, const struct draft *d, 
         real here[DIM_MAX];
         int32_t found;
         particle_place(p, i, here);
-        if (cells_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
+        if (cells_find_near(&cells, p, here, too_close * spacing, (int32_t)i, &found, 1) > 0 && i < first) first = i;
     }
     if (first < p->n) {
         particle_place(p, first, X);
-        cells_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
+        cells_find_near(&cells, p, X, too_close * spacing, (int32_t)first, &other, 1);
     }
     cells_free(&cells);
     if (first == p->n) return OK;
     const struct scene_body *one = &d->scene->body[p->body[first]], *two = &d->scene->body[p->body[other]];
     const char *place = (one > two ? one : two)->place;
     if (one == two)
-        return status_at(place, status_set(REFUSED, "body %s has two particles at one position: (%.6g, %.6g, %.6g) m",
-                                           one->name, X[0], X[1], X[2]));
-    return status_at(place, status_set(REFUSED, "bodies %s and %s have particles at one position: (%.6g, %.6g, %.6g) m",
-                                       one->name, two->name, X[0], X[1], X[2]));
+        return status_prepend_location(
+            place, status_set(REFUSED, "body %s has two particles at one position: (%.6g, %.6g, %.6g) m", one->name,
+                              X[0], X[1], X[2]));
+    return status_prepend_location(
+        place, status_set(REFUSED, "bodies %s and %s have particles at one position: (%.6g, %.6g, %.6g) m", one->name,
+                          two->name, X[0], X[1], X[2]));
 }
 
 /* ---- initial state ----------------------------------------------------------------------------------------------- */
@@ -344,7 +346,8 @@ static real start_slope(const struct scene_initial *s, int a, int b, const real 
     for (int d = 0; d < dim; d++) before[d] = after[d] = X[d];
     before[b] -= 0.5 * spacing, after[b] += 0.5 * spacing;
     const real slope =
-        (expression_at(&s->formula[a], after, dim, 0) - expression_at(&s->formula[a], before, dim, 0)) / spacing;
+        (expression_evaluate(&s->formula[a], after, dim, 0) - expression_evaluate(&s->formula[a], before, dim, 0)) /
+        spacing;
     return isfinite(slope) ? slope : 0;
 }
 
@@ -355,7 +358,7 @@ static void start_velocity(struct particles *p, int64_t i, const struct scene_in
 {
     const int dim = p->dim;
     for (int a = 0; a < dim; a++) {
-        const real here = s->formula[a].n > 0 ? expression_at(&s->formula[a], X, dim, 0) : 1;
+        const real here = s->formula[a].n > 0 ? expression_evaluate(&s->formula[a], X, dim, 0) : 1;
         p->v[a][i] = s->velocity[a] * here + dot(&s->velocity_gradient[a * dim], arm, dim);
         for (int b = 0; b < dim; b++) {
             real *gradient = p->gradient[a * dim + b];
@@ -422,7 +425,7 @@ static status check_initial(const struct scene *s, const struct scene_initial *i
         inverted |= !(stretch > 0);
     }
     if (growth > 0 && !inverted) return OK;
-    return status_at(
+    return status_prepend_location(
         initial->place,
         status_set(REFUSED, "its displacement gradient turns the body inside out; strains near 1e-3 are usual"));
 }

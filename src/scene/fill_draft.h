@@ -25,6 +25,6 @@ status draft_add(struct draft *d, const real *X, real volume, int material, int 
 status draft_refuse(const struct draft *d, int body, const char *why);
 
 /* Appends the particles of a body from its list. REFUSED if the list cannot be read or is invalid. */
-status fill_list(struct draft *d, int body);
+status draft_add_list(struct draft *d, int body);
 
 #endif

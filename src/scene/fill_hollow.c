@@ -15,7 +15,7 @@ static bool cell_inside(const struct grid *box, const struct region *shape, int6
     return true;
 }
 
-void fill_whole(struct hollow *h, const struct scene *s, int body)
+void fill_mark_whole_cells(struct hollow *h, const struct scene *s, int body)
 {
     h->whole = NEW("hollow.whole", h->box.n, uint8_t);
 #pragma omp parallel for schedule(dynamic, 4096)

@@ -118,7 +118,7 @@ static void take_lattice(struct draft *d, int64_t first)
     }
 }
 
-status fill_list(struct draft *d, int body)
+status draft_add_list(struct draft *d, int body)
 {
     const int64_t first = d->n;
     struct particle_list list;

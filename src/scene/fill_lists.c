@@ -196,13 +196,14 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
             : c->s->dim == 2 ? ", times the thickness"
                              : "",
             volume_guess(v->filled));
-    if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && team_memory() > 0 && bytes > (real)team_memory())
+    if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && machine_memory_size() > 0 &&
+        bytes > (real)machine_memory_size())
         return refuse_list(c,
                            "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need "
                            "some %.2g GB of the %.2g GB at hand (%s); particles of the list are %.4g m apart: a "
                            "particles.spacing of this size is expected",
-                           v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)team_memory() * 1e-9,
-                           team_memory_limit(), v->apart);
+                           v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)machine_memory_size() * 1e-9,
+                           machine_memory_limit_name(), v->apart);
     return OK;
 }
 

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 
 #include "base/input.h"
-#include "base/last_words.h"
+#include "base/crash_message.h"
 #include "base/memory.h"
 #include "base/team.h"
 #include "particle_list_parts.h"
@@ -44,25 +44,25 @@ real **column_array(struct particle_list *l, int column)
     }
 }
 
-bool column_idle(int column, int dim)
+bool column_is_unused(int column, int dim)
 {
     return column <= COLUMN_VZ && column % DIM_MAX >= dim; /* x, y, z, vx, vy, vz */
 }
 
-void note_add(struct particle_list_head *head, const char *between, const char *what)
+void list_note_append(struct particle_list_head *head, const char *between, const char *what)
 {
     const size_t used = strlen(head->note);
     snprintf(head->note + used, sizeof head->note - used, "%s%.40s", used ? between : "", what);
 }
 
-void note_columns(struct particle_list_head *head, const bool *has)
+void list_note_columns(struct particle_list_head *head, const bool *has)
 {
     head->material = has[COLUMN_MATERIAL], head->mass = has[COLUMN_MASS] || has[COLUMN_DENSITY];
     head->volumes = has[COLUMN_VOLUME];
-    if (head->note[0]) note_add(head, " ", "not read");
-    if (head->unnamed) note_add(head, "; ", "read as x y z block_id volume");
-    if (head->block) note_add(head, "; ", "block_id is the material, counted from 1");
-    if (!has[COLUMN_VOLUME]) note_add(head, "; ", "no volumes: each that of the spacing");
+    if (head->note[0]) list_note_append(head, " ", "not read");
+    if (head->unnamed) list_note_append(head, "; ", "read as x y z block_id volume");
+    if (head->block) list_note_append(head, "; ", "block_id is the material, counted from 1");
+    if (!has[COLUMN_VOLUME]) list_note_append(head, "; ", "no volumes: each that of the spacing");
 }
 
 void particle_list_free(struct particle_list *l)
@@ -74,7 +74,7 @@ void particle_list_free(struct particle_list *l)
     *l = (struct particle_list){0};
 }
 
-const char *value_fault(int column, real value)
+const char *column_value_fault(int column, real value)
 {
     if (!isfinite(value)) return "is not a finite number";
     if (column >= COLUMN_VOLUME && column <= COLUMN_DENSITY && value <= 0) return "must be larger than 0";
@@ -94,12 +94,12 @@ bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_
 
 enum { PARTICLE_NUMBERS = 40 }; /* memory of a particle of a run without bonds [numbers] */
 
-status list_affordable(const char *path, int64_t n)
+status list_check_memory(const char *path, int64_t n)
 {
     const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
-    if (team_memory() <= 0 || bytes <= (real)team_memory()) return OK;
+    if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
     return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had (%s)", path, (real)n,
-                      1e-9 * bytes, 1e-9 * (real)team_memory(), team_memory_limit());
+                      1e-9 * bytes, 1e-9 * (real)machine_memory_size(), machine_memory_limit_name());
 }
 
 /* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
@@ -139,7 +139,7 @@ static status table_check(const struct table *t, const char *path, const char *n
     if (stat(path, &about) != 0 || t->rows / ROWS_PER_BYTE_MOST > about.st_size)
         return status_set(REFUSED, "%s: %s claims %lld entries, more than a file of its size holds", path, name,
                           (long long)t->rows);
-    return list_affordable(path, t->rows);
+    return list_check_memory(path, t->rows);
 }
 
 /* Returns true if the numbers of a dataset are in this file, not in external or virtual ones. */
@@ -191,7 +191,7 @@ static status table_take(struct particle_list *l, int column, const struct table
     *column_array(l, column) = array;
     for (int64_t i = 0; i < l->n; i++) {
         array[i] = t->value[i * t->columns + k] * t->factor;
-        const char *fault = value_fault(column, array[i]);
+        const char *fault = column_value_fault(column, array[i]);
         if (fault != NULL)
             return status_set(REFUSED, "%s: entry %lld: %s: %g %s", path, (long long)i, list_quantity[column].name,
                               array[i], fault);
@@ -234,7 +234,8 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
                        (long long)t.columns, (long long)l->n, count);
     else if (!unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
-    if (t.columns > count) note_add(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
+    if (t.columns > count)
+        list_note_append(&l->head, ", ", column == COLUMN_X ? "further positions" : "further velocities");
     for (int k = 0; k < count && s == OK; k++) s = table_take(l, column + k, &t, k, path);
     memory_free(t.value);
     return s;
@@ -254,7 +255,7 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
         TRY(hdf5_column(l, file, path, sets[k].name, sets[k].column, sets[k].column == COLUMN_VX ? l->dim : 1));
         has[sets[k].column] = true;
     }
-    note_columns(&l->head, has);
+    list_note_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
     return status_set(REFUSED, "%s: mass beside density; one of the two fixes the other", path);
 }
@@ -263,8 +264,8 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
 static status hdf5_read(struct particle_list *l, const char *path)
 {
     status s;
-    input_remember(path);
-    last_words_reading(path);
+    input_register(path);
+    crash_message_set_file(path);
     H5E_BEGIN_TRY /* one message per fault: the error stack of HDF5 is not printed */
     {
         hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -272,7 +273,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
         if (file >= 0) H5Fclose(file);
     }
     H5E_END_TRY;
-    last_words_reading(NULL);
+    crash_message_set_file(NULL);
     return s;
 }
 
@@ -295,7 +296,7 @@ static int list_format(const char *path)
     return NO_LIST;
 }
 
-bool particle_list_named(const char *path) { return list_format(path) != NO_LIST; }
+bool is_particle_list_name(const char *path) { return list_format(path) != NO_LIST; }
 
 /* Reads a list of any format. head: true to read only the column names. */
 static status list_read(struct particle_list *l, const char *path, int dim, bool head)
@@ -313,7 +314,7 @@ static status list_read(struct particle_list *l, const char *path, int dim, bool
 
 status particle_list_read(struct particle_list *l, const char *path, int dim) { return list_read(l, path, dim, false); }
 
-status particle_list_look(struct particle_list_head *head, const char *path, int dim)
+status particle_list_read_head(struct particle_list_head *head, const char *path, int dim)
 {
     struct particle_list l;
     TRY(list_read(&l, path, dim, true));

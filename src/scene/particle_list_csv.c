@@ -47,7 +47,7 @@ static int column_named(const char *name, int dim)
                                   : COLUMN_NONE;
     for (int k = 0; k < COLUMNS; k++)
         if (strcasecmp(name, list_quantity[k].name) == 0) found = k;
-    return found == COLUMN_NONE || column_idle(found, dim) ? COLUMN_NONE : found;
+    return found == COLUMN_NONE || column_is_unused(found, dim) ? COLUMN_NONE : found;
 }
 
 /* Finds whether a column `weight` is a mass or a volume, by its unit. REFUSED for another unit. */
@@ -64,7 +64,7 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
-    const char *unit = csv_unit(name);
+    const char *unit = csv_cut_unit(name);
     int k = column_named(name, l->dim);
     if (c->fields == FIELDS_MAX) return csv_fault(&c->in, name, "more than %d columns", FIELDS_MAX);
     if (strpbrk(name, "\"'"))
@@ -72,7 +72,7 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
                          name);
     if (strcasecmp(name, "weight") == 0) TRY(weight_column(c, name, unit, &k));
     if (k == COLUMN_NONE)
-        note_add(&l->head, ", ", *name ? name : "a column without a name");
+        list_note_append(&l->head, ", ", *name ? name : "a column without a name");
     else if (has[k])
         return csv_fault(&c->in, name, "column %s is named twice", list_quantity[k].name);
     else if (!unit_factor(&c->factor[c->fields], unit, list_quantity[k].unit, what, sizeof what))
@@ -89,7 +89,7 @@ static status csv_column(struct csv *c, char *name, struct particle_list *l, boo
 static void header_separate(struct csv *c)
 {
     char *text = c->in.text, *to = text;
-    csv_separate(&c->in);
+    csv_detect_separator(&c->in);
     if (strchr(text, c->in.separator) || !strpbrk(text + strspn(text, " "), " ")) return;
     c->in.separator = ' ';
     bool inside = false;
@@ -108,14 +108,14 @@ static status header_read(struct csv *c, struct particle_list *l)
     const char *const names = l->dim == 1 ? "x,volume" : l->dim == 2 ? "x,y,volume" : "x,y,z,volume";
     header_separate(c);
     char *rest = c->in.text;
-    for (char *name; (name = csv_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
+    for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL;) TRY(csv_column(c, name, l, has));
     for (int k = 0; k < l->dim; k++)
         if (!has[k])
             return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
                              list_quantity[k].name, names);
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
         return csv_fault(&c->in, c->in.text, "mass beside density; one of the two fixes the other");
-    note_columns(&l->head, has);
+    list_note_columns(&l->head, has);
     return OK;
 }
 
@@ -147,8 +147,8 @@ static int header_count(const char *names, int dim, bool *all)
     strcpy(trial.in.text, names);
     header_separate(&trial);
     char *rest = trial.in.text;
-    for (char *name; (name = csv_field(&trial.in, &rest)) != NULL; n++) {
-        csv_unit(name);
+    for (char *name; (name = csv_cut_field(&trial.in, &rest)) != NULL; n++) {
+        csv_cut_unit(name);
         has[column_named(name, dim)] = true;
     }
     *all = true;
@@ -180,7 +180,7 @@ static void header_unify(char *names, const char *entry, int dim)
     strcpy(blank, names);
     strcpy(values, entry);
     tabs_to_blanks(blank);
-    while (csv_field(&by_blanks, &rest)) n++;
+    while (csv_cut_field(&by_blanks, &rest)) n++;
     if (header_count(blank, dim, &all) == n && all) strcpy(names, blank);
 }
 
@@ -223,7 +223,7 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
     const int64_t line = c->in.line;
     bool more;
     strcpy(names, c->in.text);
-    TRY(csv_line(&c->in, &more));
+    TRY(csv_read_data_line(&c->in, &more));
     if (more) return header_elsewhere(c, l, names, line);
     strcpy(c->in.text, names);
     return header_read(c, l);
@@ -238,7 +238,7 @@ static status csv_header(struct csv *c, struct particle_list *l)
     int64_t line = 0;
     bool more, comment = true;
     while (comment) {
-        TRY(csv_text(&c->in, &more, &comment));
+        TRY(csv_read_line(&c->in, &more, &comment));
         if (!more) return status_set(REFUSED, "%s: empty; the first line names the columns: x,y,z,volume", c->in.path);
         if (!comment || *names) continue;
         header_bare(c->in.text);
@@ -260,7 +260,7 @@ static status csv_grow(struct csv *c, struct particle_list *l)
 {
     if (l->n < c->room) return OK;
     int64_t room = c->room > 0 ? 2 * c->room : 1024;
-    TRY(list_affordable(c->in.path, room / 2));
+    TRY(list_check_memory(c->in.path, room / 2));
     for (int k = 0; k < c->fields; k++) {
         if (c->column[k] == COLUMN_NONE) continue;
         real **array = column_array(l, c->column[k]);
@@ -298,7 +298,7 @@ static status csv_value(const struct csv *c, struct particle_list *l, int k, con
         return csv_fault(&c->in, field, "%s: '%.40s' is not a number%s", name, field,
                          strchr(field, ',') ? "; numbers have a point, not a comma" : "");
     value = value * c->factor[k] - c->first[k];
-    const char *fault = value_fault(column, value);
+    const char *fault = column_value_fault(column, value);
     if (fault != NULL)
         return csv_fault(&c->in, field, "%s: %.40s %s", name, field,
                          c->first[k] ? "must be a whole number from 1 to 256" : fault);
@@ -311,7 +311,7 @@ static status csv_entry(struct csv *c, struct particle_list *l)
 {
     char *rest = c->in.text;
     for (int k = 0; k < c->fields; k++) {
-        const char *field = csv_field(&c->in, &rest);
+        const char *field = csv_cut_field(&c->in, &rest);
         if (field == NULL) return csv_fault(&c->in, c->in.text, "%d values; the header names %d columns", k, c->fields);
         if (c->column[k] != COLUMN_NONE) TRY(csv_value(c, l, k, field));
     }
@@ -327,7 +327,7 @@ static status csv_entries(struct csv *c, struct particle_list *l, bool head)
     TRY(csv_header(c, l));
     if (head) return OK;
     for (bool more = true;; c->pending = false) {
-        if (!c->pending) TRY(csv_line(&c->in, &more));
+        if (!c->pending) TRY(csv_read_data_line(&c->in, &more));
         if (!more) return OK;
         if (l->n >= PARTICLES_MAX) return status_set(REFUSED, "%s: more than %d particles", c->in.path, PARTICLES_MAX);
         TRY(csv_grow(c, l));

@@ -34,24 +34,24 @@ extern const struct list_quantity list_quantity[COLUMNS];
 real **column_array(struct particle_list *l, int column);
 
 /* Returns true for a component of position or velocity along an axis that a space of `dim` dimensions does not have. */
-bool column_idle(int column, int dim);
+bool column_is_unused(int column, int dim);
 
 /* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
-const char *value_fault(int column, real value);
+const char *column_value_fault(int column, real value);
 
 /* Writes the factor from `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. Returns false if `unit`
  * is none of this kind, and writes the rest of a sentence to what[room]. */
 bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room);
 
 /* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
-void note_add(struct particle_list_head *head, const char *between, const char *what);
+void list_note_append(struct particle_list_head *head, const char *between, const char *what);
 
 /* Sets the members of head, and completes its note, from the columns of the file. has: true for a column of the file
  * [COLUMNS]. */
-void note_columns(struct particle_list_head *head, const bool *has);
+void list_note_columns(struct particle_list_head *head, const bool *has);
 
 /* REFUSED if n particles of a run need more memory than the machine has. */
-status list_affordable(const char *path, int64_t n);
+status list_check_memory(const char *path, int64_t n);
 
 /* Reads a particle list from a CSV file as particle_list_read does. head: true to read only the column names. */
 status list_csv_read(struct particle_list *l, const char *path, bool head);

@@ -22,7 +22,7 @@ static status read_space(struct reader *r, const struct node *root)
 status scene_from_tree(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
-    TRY(expect(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    TRY(expect_kind(r, root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     TRY(check_keys(r, root, ""));
     TRY(read_space(r, root));
     TRY(read_regions(r, root));
@@ -35,13 +35,13 @@ status scene_from_tree(struct reader *r, const struct node *root)
     resolve_safety(r, root);
     resolve_lists(r, root);
     resolve_frames(s);
-    TRY(check_size(r, root));
+    TRY(check_particle_count(r, root));
     TRY(read_cracks(r, root));
     TRY(read_initials(r, root));
     TRY(read_boundaries(r, root));
     TRY(check_friction(r, root));
     TRY(check_absorbing(r, root));
-    TRY(check_bearing(r, root));
+    TRY(check_supported_loads(r, root));
     TRY(check_joined(r, root));
     TRY(read_probes(r, root));
     TRY(read_frame_regions(r, root));

@@ -1,5 +1,5 @@
 /* Reads parts of a body that consist of another material. Bonds between parts act as springs in series
- * (bonds/bonds.c: pairs_make); in state-based models each end uses the modulus of its own material. */
+ * (bonds/bonds.c: pair_table_make); in state-based models each end uses the modulus of its own material. */
 #include "base/memory.h"
 #include "scene_internal.h"
 
@@ -22,7 +22,7 @@ int scene_material_at(const struct scene *s, const struct scene_body *b, const r
     return material;
 }
 
-bool scene_body_has(const struct scene_body *b, int material)
+bool scene_body_has_material(const struct scene_body *b, int material)
 {
     bool has = b->material == material || b->list.material;
     for (int k = 0; k < b->parts; k++) has |= b->part[k].material == material;

@@ -41,7 +41,7 @@ static real longest_side(const real *from, const real *to, int dim)
 
 /* Estimates the number of particles from the bounding boxes of the bodies. REFUSED for more than 2e9, the limit of
  * 32-bit indices and of memory. */
-status check_size(struct reader *r, const struct node *root)
+status check_particle_count(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     real total = 0, longest = 0, from[DIM_MAX], to[DIM_MAX];
@@ -50,17 +50,18 @@ status check_size(struct reader *r, const struct node *root)
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
         for (int d = 0; d < s->dim; d++) count *= real_max(1, (to[d] - from[d]) / s->spacing);
         if (count > PLACES_OF_FILES && s->body[b].shape.n > 0 && s->body[b].shape.solid[0].hull)
-            return status_at(s->body[b].place,
-                             status_set(REFUSED,
-                                        "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; "
-                                        "check its unit, and for faces far from the others",
-                                        s->body[b].name, longest_side(from, to, s->dim), count));
+            return status_prepend_location(
+                s->body[b].place,
+                status_set(REFUSED,
+                           "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; "
+                           "check its unit, and for faces far from the others",
+                           s->body[b].name, longest_side(from, to, s->dim), count));
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
     if (total <= 2e9) return OK;
     const struct node *spacing = scene_check_below(root, "particles", "spacing");
     return fault(r, spacing, "%s would make about %.1e particles; 2e9 is the most (a body is %.4g m long)",
-                 shown(r, spacing), total, longest);
+                 node_shown(r, spacing), total, longest);
 }
 
 /* REFUSED for friction where there is none. */
@@ -102,12 +103,12 @@ static status check_damping(struct reader *r, const struct node *root)
         return fault(r, damping, "a static equilibrium has no velocities; solver: explicit is expected");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
         return fault(r, levels, "%s levels have time steps of their own, and damping has one; 0 is expected",
-                     shown(r, levels));
+                     node_shown(r, levels));
     return OK;
 }
 
 /* REFUSED for loads that a static problem, or scattered particles, do not bear. */
-status check_bearing(struct reader *r, const struct node *root)
+status check_supported_loads(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
     const struct node *list = node_find(root, "boundary"), *n = list ? list->first : NULL;
@@ -128,7 +129,7 @@ status check_bearing(struct reader *r, const struct node *root)
             return fault(r, node_find(n, "rotation"),
                          "static solvers drive along straight lines; solver: explicit is "
                          "expected");
-        if (formula && load_displacement_known(load) != OK)
+        if (formula && load_check_displacement_known(load) != OK)
             return fault(r, node_find(n, "velocity"),
                          "static solvers need the displacement, which does not follow from a velocity that is a "
                          "formula of t; displacement is expected in its place");
@@ -142,7 +143,8 @@ static status check_steps(struct reader *r, const struct node *root)
     const struct scene *s = r->scene;
     const struct node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
-    return fault(r, step, "%s would take %.1e steps; 1e12 is the most", shown(r, step), s->duration / s->time_step);
+    return fault(r, step, "%s would take %.1e steps; 1e12 is the most", node_shown(r, step),
+                 s->duration / s->time_step);
 }
 
 /* REFUSED if mpm.origin is farther from 0 than particles may be. */
@@ -270,7 +272,7 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     if (s->irregularity > 0) return "it needs a regular lattice";
     if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
     for (int m = 0; m < s->materials; m++)
-        if (scene_body_has(&s->body[body], m) && material_yields(&s->material[m])) {
+        if (scene_body_has_material(&s->body[body], m) && material_yields(&s->material[m])) {
             if (!scene_in_steps(s)) return "materials that yield need the current frame";
             if (s->method != METHOD_MPM) return "its material yields, which load steps do with method: mpm or pd";
             if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
@@ -329,7 +331,7 @@ static status check_times(struct reader *r, const struct node *root)
                       *times = scene_check_below(root, "output", "times");
     if (every && (frames || times)) return fault_both(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
-        return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", shown(r, every),
+        return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", node_shown(r, every),
                      FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
@@ -357,12 +359,12 @@ static status check_model(struct reader *r, const struct node *root)
         return fault(r, surface, "moments needs a regular lattice in 2D or 3D; volume or none is expected");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
         return fault(r, surface, "with %s moments needs method: pd and pd.normalisation: bulk; none is expected",
-                     shown(r, model));
+                     node_shown(r, model));
     if (s->model == MODEL_BOND) return OK;
-    if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", shown(r, model));
+    if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", node_shown(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
         return fault(r, surface, "%s is for model bond; with %s pd.normalisation says what surfaces get",
-                     shown(r, surface), shown(r, model));
+                     node_shown(r, surface), node_shown(r, model));
     return OK;
 }
 
@@ -383,11 +385,11 @@ status check_solver(struct reader *r, const struct node *root)
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
             return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected",
-                         shown(r, solver), s->material[m].name);
+                         node_shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver, "%s has no steps for probe %s to measure; explicit is expected", shown(r, solver),
-                         s->probe[k].name);
+            return fault(r, solver, "%s has no steps for probe %s to measure; explicit is expected",
+                         node_shown(r, solver), s->probe[k].name);
     return OK;
 }
 

@@ -17,7 +17,7 @@ int character_of(const struct compile *c, const char *place)
     return characters;
 }
 
-bool compile_wrong(struct compile *c, const char *format, ...)
+bool compile_fail(struct compile *c, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);
@@ -26,10 +26,10 @@ bool compile_wrong(struct compile *c, const char *format, ...)
     return false;
 }
 
-struct named unit_named(const struct quantity *q)
+struct named quantity_unit_name(const struct quantity *q)
 {
     struct named n;
-    quantity_name(q->twice, n.text, sizeof n.text);
+    unit_name_text(q->twice, n.text, sizeof n.text);
     return n;
 }
 
@@ -38,41 +38,41 @@ static bool same_unit(const struct quantity *a, const struct quantity *b)
     return memcmp(a->twice, b->twice, sizeof a->twice) == 0;
 }
 
-bool is_plain(const struct quantity *q) { return same_unit(q, &(struct quantity){0}); }
+bool is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct quantity){0}); }
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
-        return compile_wrong(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
+        return compile_fail(c, "has more than %d numbers and operations", EXPRESSION_STEPS);
     c->step[c->steps++] = (struct expression_step){op, value};
     return true;
 }
 
 bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q)
 {
-    if (c->operands == EXPRESSION_STACK) return compile_wrong(c, "holds more than %d values open", EXPRESSION_STACK);
+    if (c->operands == EXPRESSION_STACK) return compile_fail(c, "holds more than %d values open", EXPRESSION_STACK);
     c->operand[c->operands++] = (struct operand){*q, op == EXPRESSION_NUMBER};
     return add_step(c, op, q->value);
 }
 
-struct operand *topmost(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
+struct operand *operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
 /* The result replaces the operands. It is evaluated here, without a step, if all operands are constant. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
     const bool two = expression_has_two(op);
-    struct operand *a = topmost(c, two), *b = topmost(c, 0);
+    struct operand *a = operand_from_top(c, two), *b = operand_from_top(c, 0);
     const bool constant = a->constant && b->constant, bare = a->q.bare && b->q.bare;
-    a->q.value = expression_operate(op, a->q.value, b->q.value);
+    a->q.value = expression_apply_operation(op, a->q.value, b->q.value);
     memcpy(a->q.twice, unit->twice, sizeof a->q.twice);
     a->q.bare = bare;
     c->operands -= two;
     a->constant = constant;
     if (!constant) return add_step(c, op, 0);
     c->steps -= two ? 2 : 1;
-    if (!isfinite(a->q.value)) return compile_wrong(c, "has a part that is no finite number");
+    if (!isfinite(a->q.value)) return compile_fail(c, "has a part that is no finite number");
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
@@ -82,25 +82,25 @@ static bool is_nothing(const struct operand *o) { return o->constant && o->q.bar
 /* Gives the two topmost operands one unit. */
 bool equal_units(struct compile *c, const char *word, const char *at)
 {
-    struct quantity *a = &topmost(c, 1)->q, *b = &topmost(c, 0)->q;
-    if (is_nothing(topmost(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
-    if (is_nothing(topmost(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
+    struct quantity *a = &operand_from_top(c, 1)->q, *b = &operand_from_top(c, 0)->q;
+    if (is_nothing(operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
+    if (is_nothing(operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_wrong(c, "has %s and %s about %s (character %d); both are expected to have one unit",
-                         unit_named(a).text, unit_named(b).text, word, character_of(c, at));
+    return compile_fail(c, "has %s and %s about %s (character %d); both are expected to have one unit",
+                        quantity_unit_name(a).text, quantity_unit_name(b).text, word, character_of(c, at));
 }
 
 static bool unit_in_bounds(struct compile *c, const struct quantity *q)
 {
     for (int k = 0; k < 3; k++)
         if (q->twice[k] > POWER_MOST || q->twice[k] < -POWER_MOST)
-            return compile_wrong(c, "has a power of a unit beyond %d", POWER_MOST / 2);
+            return compile_fail(c, "has a power of a unit beyond %d", POWER_MOST / 2);
     return true;
 }
 
 bool add_minus(struct compile *c)
 {
-    const struct quantity unit = topmost(c, 0)->q;
+    const struct quantity unit = operand_from_top(c, 0)->q;
     return add_operation(c, EXPRESSION_MINUS, &unit);
 }
 
@@ -108,17 +108,17 @@ bool add_sum(struct compile *c, char sign, const char *at)
 {
     const char word[2] = {sign, 0};
     if (!equal_units(c, word, at)) return false;
-    const struct quantity unit = topmost(c, 1)->q;
+    const struct quantity unit = operand_from_top(c, 1)->q;
     return add_operation(c, sign == '+' ? EXPRESSION_ADD : EXPRESSION_SUBTRACT, &unit);
 }
 
 bool add_product(struct compile *c, char sign, const char *at)
 {
-    struct quantity unit = topmost(c, 1)->q;
-    const struct operand *b = topmost(c, 0);
+    struct quantity unit = operand_from_top(c, 1)->q;
+    const struct operand *b = operand_from_top(c, 0);
     for (int k = 0; k < 3; k++) unit.twice[k] += sign == '*' ? b->q.twice[k] : -b->q.twice[k];
     if (sign == '/' && b->constant && b->q.value == 0)
-        return compile_wrong(c, "divides by 0 (character %d)", character_of(c, at));
+        return compile_fail(c, "divides by 0 (character %d)", character_of(c, at));
     return unit_in_bounds(c, &unit) && add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
@@ -128,10 +128,10 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     for (int k = 0; k < 3; k++) {
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
-            return compile_wrong(c,
-                                 "has %s to a power (character %d) that makes no unit; whole and half powers of m, "
-                                 "kg and s do",
-                                 unit_named(&topmost(c, 1)->q).text, place);
+            return compile_fail(c,
+                                "has %s to a power (character %d) that makes no unit; whole and half powers of m, "
+                                "kg and s do",
+                                quantity_unit_name(&operand_from_top(c, 1)->q).text, place);
         unit->twice[k] = (int)twice;
     }
     return true;
@@ -140,17 +140,17 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
 /* b must have no unit, and must be constant if a has a unit. */
 bool add_power(struct compile *c, const char *at)
 {
-    const struct operand *b = topmost(c, 0);
-    struct quantity unit = topmost(c, 1)->q;
+    const struct operand *b = operand_from_top(c, 0);
+    struct quantity unit = operand_from_top(c, 1)->q;
     const int place = character_of(c, at);
     const bool two = b->constant && b->q.value == 2;
-    if (!is_plain(&b->q))
-        return compile_wrong(c, "has %s as a power (character %d); a plain number is expected there",
-                             unit_named(&b->q).text, place);
-    if (!is_plain(&unit) && !b->constant)
-        return compile_wrong(c, "has %s to a power that varies (character %d); a given number is expected there",
-                             unit_named(&unit).text, place);
-    if (!is_plain(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
+    if (!is_dimensionless(&b->q))
+        return compile_fail(c, "has %s as a power (character %d); a plain number is expected there",
+                            quantity_unit_name(&b->q).text, place);
+    if (!is_dimensionless(&unit) && !b->constant)
+        return compile_fail(c, "has %s to a power that varies (character %d); a given number is expected there",
+                            quantity_unit_name(&unit).text, place);
+    if (!is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
     return add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);
 }

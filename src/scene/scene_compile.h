@@ -28,7 +28,7 @@ struct compile {
 };
 
 /* Writes a fault to c->what and returns false. */
-bool compile_wrong(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+bool compile_fail(struct compile *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Returns the number of the character at `place` in c->text, from 1. */
 int character_of(const struct compile *c, const char *place);
@@ -39,13 +39,13 @@ struct named {
 };
 
 /* Returns the unit of q as text for a message. */
-struct named unit_named(const struct quantity *q);
+struct named quantity_unit_name(const struct quantity *q);
 
 /* Returns true if q has no dimension. */
-bool is_plain(const struct quantity *q);
+bool is_dimensionless(const struct quantity *q);
 
 /* Returns the operand `below` entries under the top of the stack. */
-struct operand *topmost(struct compile *c, int below);
+struct operand *operand_from_top(struct compile *c, int below);
 
 /* Adds a step that pushes a value: a number, a variable, or a coordinate or the time. The functions add_* return false
  * on failure, with the fault in c->what. */

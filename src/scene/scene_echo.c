@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "base/memory_stream.h"
 
-void begin(struct writer *w, const char *key)
+void write_key(struct writer *w, const char *key)
 {
     fprintf(w->out, "%*s%s%s:", w->indent - (w->dash ? 2 : 0), "", w->dash ? "- " : "", key);
     w->dash = false;
@@ -171,7 +171,7 @@ static bool has_value(const struct key *k, const void *base, const void *place)
     return true;
 }
 
-const void *scene_echo_place_of(const struct key *k, const void *base)
+const void *key_value_address(const struct key *k, const void *base)
 {
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
@@ -194,7 +194,7 @@ static void write_series(struct writer *w)
 {
     const struct scene *s = w->scene;
     if (s->n_series == 0) return;
-    begin(w, "regions");
+    write_key(w, "regions");
     fputc('\n', w->out);
     w->indent += 4;
     for (int k = 0; k < s->n_series; k++) {
@@ -209,35 +209,35 @@ void write_group(struct writer *w, const char *group, const void *base)
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_in(k, group) || is_left_out(k, group, base)) continue;
+        if (!key_is_directly_below(k, group) || is_left_out(k, group, base)) continue;
         if (k->type == KEY_MAP) {
-            begin(w, key_leaf(k));
+            write_key(w, key_leaf(k));
             fputc('\n', w->out);
             w->indent += 2;
             write_group(w, k->path, base);
             if (strcmp(k->path, "output") == 0) write_series(w);
             w->indent -= 2;
         }
-        if (!has_value(k, base, scene_echo_place_of(k, base))) continue;
-        begin(w, key_leaf(k));
+        if (!has_value(k, base, key_value_address(k, base))) continue;
+        write_key(w, key_leaf(k));
         fputc(' ', w->out);
-        write_value(w, k, scene_echo_place_of(k, base));
+        write_value(w, k, key_value_address(k, base));
         fprintf(w->out, "%s%s\n", k->unit ? "  # " : "", unit_rows[k->unit].symbol);
     }
 }
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
-void begin_item(struct writer *w)
+void write_item(struct writer *w)
 {
     w->indent = 4;
     w->dash = true;
 }
 
 /* Writes a mapping below an item of a list. */
-void write_part(struct writer *w, const char *key, const char *group, const void *base)
+void write_mapping(struct writer *w, const char *key, const char *group, const void *base)
 {
-    begin(w, key);
+    write_key(w, key);
     fputc('\n', w->out);
     w->indent += 2;
     write_group(w, group, base);
@@ -253,11 +253,11 @@ static void write_materials(struct writer *w)
     for (int k = 0; k < s->materials; k++) {
         struct material m = s->material[k];
         if (!isnan(m.energy_release_rate)) m.critical_stretch = NAN; /* follows from energy_release_rate */
-        begin_item(w);
+        write_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
-        if (material_viscous(&m)) write_part(w, "viscosity", "material.viscosity", &m);
-        if (m.scatter.given) write_part(w, "scatter", "material.scatter", &m.scatter);
+        if (material_viscous(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
+        if (m.scatter.given) write_mapping(w, "scatter", "material.scatter", &m.scatter);
     }
 }
 
@@ -266,7 +266,7 @@ static void write_materials(struct writer *w)
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;
-    begin(w, key);
+    write_key(w, key);
     fputc(' ', w->out);
     write_quoted(w, whole ? whole : file);
     if (contents) fprintf(w->out, "  # contents %016" PRIx64, contents);
@@ -277,7 +277,7 @@ void write_file_name(struct writer *w, const char *key, const char *file, uint64
 static void write_body_parts(struct writer *w, const struct scene_body *b)
 {
     if (!b->parts) return;
-    begin(w, "parts");
+    write_key(w, "parts");
     fputc('\n', w->out);
     for (int k = 0; k < b->parts; k++) {
         w->indent = 8, w->dash = true;
@@ -290,7 +290,7 @@ static void write_bodies(struct writer *w)
     const struct scene *s = w->scene;
     fputs("bodies:\n", w->out);
     for (int k = 0; k < s->bodies + s->rigids; k++) {
-        begin_item(w);
+        write_item(w);
         write_group(w, "bodies", &s->body[k]);
         if (s->body[k].file) write_file_name(w, "particles", s->body[k].file, s->body[k].contents);
         write_body_parts(w, &s->body[k]);
@@ -303,8 +303,8 @@ static void write_interfaces(struct writer *w)
     if (s->interfaces) fputs("interfaces:\n", w->out);
     for (int k = 0; k < s->interfaces; k++) {
         const struct scene_interface *face = &s->interface[k];
-        begin_item(w);
-        begin(w, "bodies");
+        write_item(w);
+        write_key(w, "bodies");
         fputs(" [", w->out);
         write_quoted(w, s->body[face->body[0]].name);
         fputs(", ", w->out);
@@ -338,7 +338,7 @@ static void write_growths(struct writer *w)
     for (int k = 0; k < s->growths; k++) {
         struct growth_rule g = s->growth[k];
         if (!g.probe[0]) g.toughness = NAN; /* without a meaning if there is no probe */
-        begin_item(w);
+        write_item(w);
         write_group(w, "growth", &g);
     }
 }
@@ -348,11 +348,11 @@ static void write_initials(struct writer *w)
     const struct scene *s = w->scene;
     if (s->initials) fputs("initial:\n", w->out);
     for (int k = 0; k < s->initials; k++) {
-        begin_item(w);
+        write_item(w);
         const struct scene_initial *one = &s->initial[k];
         write_group(w, "initial", one);
         if (one->sets_velocity) write_formulas(w, "velocity", one->velocity, one->formula);
-        if (one->sets_pulse) write_part(w, "pulse", "initial.pulse", one);
+        if (one->sets_pulse) write_mapping(w, "pulse", "initial.pulse", one);
     }
 }
 

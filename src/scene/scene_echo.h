@@ -16,10 +16,10 @@ struct writer {
 };
 
 /* Begins a line: writes indentation, the dash of a list item if it is due, and `key:`. */
-void begin(struct writer *w, const char *key);
+void write_key(struct writer *w, const char *key);
 
 /* Begins an item of a list; the dash is written with its first key. */
-void begin_item(struct writer *w);
+void write_item(struct writer *w);
 
 /* Writes a number so that it reads back to identical bits. */
 void write_real(struct writer *w, real value);
@@ -34,13 +34,13 @@ void write_list(struct writer *w, const real *value, int n);
 void write_value(struct writer *w, const struct key *k, const void *place);
 
 /* Returns the address of the value of key k in `base`, the struct of its group. */
-const void *scene_echo_place_of(const struct key *k, const void *base);
+const void *key_value_address(const struct key *k, const void *base);
 
 /* Writes all keys of a group with their values in the struct `base`, one per line. */
 void write_group(struct writer *w, const char *group, const void *base);
 
 /* Writes `key:` and below it all keys of a group as a mapping. */
-void write_part(struct writer *w, const char *key, const char *group, const void *base);
+void write_mapping(struct writer *w, const char *key, const char *group, const void *base);
 
 /* Writes a key with the absolute path of a file, so that the scene runs from any folder, and the checksum of its
  * contents. */

@@ -9,7 +9,7 @@ static void write_keys(struct writer *w, const char *group, const void *base, co
 {
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_in(k, group) || !k->place) continue;
+        if (!key_is_directly_below(k, group) || !k->place) continue;
         if (k->has && !*((const bool *)base + (k->has - 1))) continue;
         fprintf(w->out, "%s%s: ", between, key_leaf(k));
         write_value(w, k, (const char *)base + (k->place - 1));

@@ -51,7 +51,7 @@ static void skip(struct compile *c)
 
 static bool keep(struct compile *c, const char *text, size_t length)
 {
-    if (c->used + length > EXPRESSION_TEXT) return compile_wrong(c, "is longer than %d characters", EXPRESSION_TEXT);
+    if (c->used + length > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
     memcpy(c->kept + c->used, text, length);
     c->used += length;
     c->kept[c->used] = '\0';
@@ -88,13 +88,13 @@ static size_t name_length(const char *c)
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
-        return compile_wrong(c, "ends where %s is expected%s", expected,
-                             c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
+        return compile_fail(c, "ends where %s is expected%s", expected,
+                            c->depth > 0 ? " (in a list a formula with a comma needs quotes)" : "");
     size_t length = name_length(c->at);
     if (length == 0) length = 1;
     while (((unsigned char)c->at[length] & 0xC0) == 0x80) length++;
-    return compile_wrong(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30), c->at,
-                         character_of(c, c->at), expected);
+    return compile_fail(c, "has %.*s at character %d, where %s is expected", (int)(length < 30 ? length : 30), c->at,
+                        character_of(c, c->at), expected);
 }
 
 /* ---- grammar ----------------------------------------------------------------------------------------------------- */
@@ -104,7 +104,7 @@ static bool compile_sum(struct compile *c);
 static bool deeper(struct compile *c, int levels)
 {
     if (c->depth + levels <= DEPTH_MOST) return true;
-    return compile_wrong(c, "is nested deeper than %d levels", DEPTH_MOST);
+    return compile_fail(c, "is nested deeper than %d levels", DEPTH_MOST);
 }
 
 static bool compile_brackets(struct compile *c)
@@ -120,17 +120,17 @@ static bool compile_brackets(struct compile *c)
 
 static bool apply_function(struct compile *c, const struct function *f, const char *at)
 {
-    struct quantity unit = topmost(c, 0)->q;
+    struct quantity unit = operand_from_top(c, 0)->q;
     const bool two = f->rule == SAME || f->rule == ANGLE;
     if (two && !equal_units(c, f->name, at)) return false;
-    if (two) unit = topmost(c, 1)->q;
-    if (f->rule == PLAIN && !is_plain(&unit))
-        return compile_wrong(c, "takes %s of %s (character %d); a plain number is expected there, as (t/5us)", f->name,
-                             unit_named(&unit).text, character_of(c, at));
+    if (two) unit = operand_from_top(c, 1)->q;
+    if (f->rule == PLAIN && !is_dimensionless(&unit))
+        return compile_fail(c, "takes %s of %s (character %d); a plain number is expected there, as (t/5us)", f->name,
+                            quantity_unit_name(&unit).text, character_of(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
-            return compile_wrong(c, "takes sqrt of %s (character %d), which has no unit", unit_named(&unit).text,
-                                 character_of(c, at));
+            return compile_fail(c, "takes sqrt of %s (character %d), which has no unit", quantity_unit_name(&unit).text,
+                                character_of(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
     return add_operation(c, f->op, &unit);
@@ -168,9 +168,9 @@ static bool compile_coordinate(struct compile *c, char name)
     struct quantity q = {.twice = {2, 0, 0}};
     if (name == 't') q.twice[0] = 0, q.twice[2] = 2;
     if (!(c->of & (name == 't' ? EXPRESS_TIME : EXPRESS_SPACE)))
-        return compile_wrong(c, "contains %c, which has no meaning in this key", name);
+        return compile_fail(c, "contains %c, which has no meaning in this key", name);
     if (name != 't' && name - 'x' >= c->r->dim)
-        return compile_wrong(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
+        return compile_fail(c, "contains %c; space %s does not have it", name, space_names[c->r->scene->space]);
     return add_leaf(c, name == 't' ? EXPRESSION_T : (enum expression_op)(EXPRESSION_X + name - 'x'), &q);
 }
 
@@ -187,20 +187,20 @@ static bool compile_name(struct compile *c)
     const char *at = c->at;
     const size_t length = name_length(at);
     char name[NAME_MOST + 1];
-    if (length > NAME_MOST) return compile_wrong(c, "has a name of more than %d letters", NAME_MOST);
+    if (length > NAME_MOST) return compile_fail(c, "has a name of more than %d letters", NAME_MOST);
     snprintf(name, sizeof name, "%.*s", (int)length, at);
     c->at += length;
     skip(c);
     const struct function *f = function_named(name);
     if (*c->at == '(' && f) return compile_call(c, f, at);
     if (*c->at == '(')
-        return compile_wrong(c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
-                             character_of(c, at));
+        return compile_fail(c, "has an unknown function %s (character %d); `cleave help expression` lists them", name,
+                            character_of(c, at));
     if (f) return missing(c, "( and what it is of");
     if (length == 1 && strchr("xyzt", *name)) return compile_coordinate(c, *name);
     if (strcmp(name, "pi") == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
     c->at = at + length;
-    return quantity_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
+    return quantity_read_unit(&q, name) == length ? add_leaf(c, EXPRESSION_NUMBER, &q) : compile_variable(c, name, at);
 }
 
 /* Compiles a number with its unit. power: true for an exponent, which has no unit. */
@@ -209,15 +209,15 @@ static bool compile_number(struct compile *c, bool power)
     struct quantity q;
     const char *why = NULL;
     const size_t length = quantity_read(&q, c->at, !power, &why);
-    if (length == 0) return compile_wrong(c, "has no number at character %d: %s", character_of(c, c->at), why);
+    if (length == 0) return compile_fail(c, "has no number at character %d: %s", character_of(c, c->at), why);
     c->at += length;
     const char *rest = c->at + strspn(c->at, " ");
     const int letters = (int)name_length(rest);
     if (letters == 0) return add_leaf(c, EXPRESSION_NUMBER, &q);
-    return compile_wrong(c,
-                         "has an unknown unit %.*s (character %d); between a number and a name an operation is "
-                         "expected",
-                         letters < 30 ? letters : 30, rest, character_of(c, rest));
+    return compile_fail(c,
+                        "has an unknown unit %.*s (character %d); between a number and a name an operation is "
+                        "expected",
+                        letters < 30 ? letters : 30, rest, character_of(c, rest));
 }
 
 /* Compiles a number, a name with or without brackets, or a bracketed expression. */
@@ -228,7 +228,7 @@ static bool compile_primary(struct compile *c, bool power)
     if (*c->at == '(') return compile_brackets(c);
     if (name_length(c->at)) return compile_name(c);
     if (isdigit((unsigned char)*c->at) || *c->at == '.') return compile_number(c, power);
-    const size_t unit = quantity_unit(&q, c->at); /* the sign micro is no ASCII letter */
+    const size_t unit = quantity_read_unit(&q, c->at); /* the sign micro is no ASCII letter */
     c->at += unit;
     return unit ? add_leaf(c, EXPRESSION_NUMBER, &q) : missing(c, "a number");
 }
@@ -280,7 +280,7 @@ static bool compile_sum(struct compile *c)
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
-    if (strlen(c->text) > EXPRESSION_TEXT) return compile_wrong(c, "is longer than %d characters", EXPRESSION_TEXT);
+    if (strlen(c->text) > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
     if (!compile_sum(c)) return false;
     return *c->at == '\0' ? keep_to(c, c->at) : missing(c, "an operation");
 }
@@ -302,7 +302,7 @@ static bool number_constant(const struct node *n, const struct key *k, struct ex
     char what[256];
     real value;
     if (!number_read(&value, n->text, k->unit, false, what, sizeof what)) return false;
-    expression_constant(e, value, n->text);
+    expression_make_constant(e, value, n->text);
     return true;
 }
 
@@ -312,13 +312,13 @@ status read_expression(struct reader *r, const struct key *k, const struct node 
     struct compile c = {.r = r, .of = of, .text = n->text, .what = what, .room = sizeof what};
     const struct unit_row *unit = &unit_rows[k->unit];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is no expression; %s is expected, as %s", shown(r, n), unit->name, unit->example);
+        return fault(r, n, "%s is no expression; %s is expected, as %s", node_shown(r, n), unit->name, unit->example);
     if (number_constant(n, k, e)) return OK;
-    if (!compile_text(&c)) return fault(r, n, "%s %s", shown(r, n), what);
+    if (!compile_text(&c)) return fault(r, n, "%s %s", node_shown(r, n), what);
     const struct operand *result = &c.operand[0];
     if (!quantity_fits(&result->q, k->unit, what, sizeof what) ||
         (result->constant && !quantity_bounded(result->q.value, k->unit, what, sizeof what)))
-        return fault(r, n, "%s %s", shown(r, n), what);
+        return fault(r, n, "%s %s", node_shown(r, n), what);
     expression_make(e, c.step, c.steps, c.kept);
     return OK;
 }
@@ -337,10 +337,10 @@ const char *reserved_word(const char *name)
     if (strlen(name) == 1 && strchr("xyzt", *name)) return *name == 't' ? "the time" : "a coordinate";
     if (strcmp(name, "pi") == 0 || strcmp(name, "inf") == 0) return "a number";
     const size_t length = strlen(name), digit = length > 1 && strchr("23", name[length - 1]) ? 1 : 0;
-    return quantity_unit(&q, name) == length - digit ? "a unit" : NULL;
+    return quantity_read_unit(&q, name) == length - digit ? "a unit" : NULL;
 }
 
-void scene_help_expressions(FILE *out)
+void scene_print_expressions(FILE *out)
 {
     fputs("Expressions: wherever a scene has a number, and as loads that vary in space and time.\n\n"
           "    variables: {a: 3 mm, n: 4, b: 2*a + 1 mm, E: 190 GPa, nu: 0.3}\n"

@@ -34,7 +34,7 @@ status file_bytes(const char *path, char **bytes, size_t *length)
     return status_set(REFUSED, "%s: longer than 16 MiB; long data belong into a particle list", path);
 }
 
-const char *file_of(const struct reader *r, int origin)
+const char *origin_file_name(const struct reader *r, int origin)
 {
     return origin <= ORIGIN_INCLUDED ? r->included[ORIGIN_INCLUDED - origin] : r->name;
 }
@@ -47,18 +47,18 @@ int folder_length(const char *path)
 
 status read_path(struct reader *r, const struct node *n, const char *what, char **path, uint64_t *contents)
 {
-    const char *from = file_of(r, n->origin);
+    const char *from = origin_file_name(r, n->origin);
     const size_t folder = (size_t)folder_length(from), length = strlen(n->text);
     if (n->kind != NODE_SCALAR || length == 0)
-        return fault(r, n, "%s is no file name; %s is expected", shown(r, n), what);
+        return fault(r, n, "%s is no file name; %s is expected", node_shown(r, n), what);
     *path = NEW("file name", folder + length + 1, char);
     if (r->files && folder > 0 && n->text[0] != '/') {
         memcpy(*path, from, folder);
         memcpy(*path + folder, n->text, length + 1);
-        if (access(*path, R_OK) == 0) return file_contents(*path, contents);
+        if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
     }
     memcpy(*path, n->text, length + 1);
     if (!r->files) return OK;
-    if (access(*path, R_OK) == 0) return file_contents(*path, contents);
-    return fault(r, n, "%s cannot be read; %s in the scene's folder is expected", shown(r, n), what);
+    if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
+    return fault(r, n, "%s cannot be read; %s in the scene's folder is expected", node_shown(r, n), what);
 }

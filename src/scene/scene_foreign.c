@@ -198,7 +198,7 @@ static const struct foreign *foreign_row(const char *word)
     return NULL;
 }
 
-bool foreign_text(const char *word, const char *group, char *text, size_t room)
+bool foreign_word_advice(const char *word, const char *group, char *text, size_t room)
 {
     const struct foreign *row = foreign_row(word);
     if (!row) return false;
@@ -213,7 +213,7 @@ bool foreign_text(const char *word, const char *group, char *text, size_t room)
     return true;
 }
 
-const char *foreign_paths(const char *word)
+const char *foreign_word_keys(const char *word)
 {
     const struct foreign *row = foreign_row(word);
     return row ? row->paths : NULL;

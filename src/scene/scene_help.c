@@ -122,7 +122,7 @@ static void path_of_table(const char *key, char *path, size_t room)
         if (*c == '\0') break;
     }
     path[used] = '\0';
-    text_harmless(path);
+    text_replace_controls(path);
 }
 
 bool key_is_below(const struct key *k, const char *path)
@@ -154,7 +154,7 @@ bool scene_has_key(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);
-    bool has = path_now(path) || foreign_paths(path);
+    bool has = key_present_name(path) || foreign_word_keys(path);
     for (int k = 0; k < keys_count && !has; k++) has = key_is_below(&keys[k], path) || has_leaf(&keys[k], path);
     return has;
 }
@@ -170,8 +170,8 @@ static void print_key(FILE *out, const struct key *k)
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];
-    if (foreign_text(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
-    for (const char *c = foreign_paths(word); *c; c += strspn(c, " ")) {
+    if (foreign_word_advice(word, "", text, sizeof text)) fprintf(out, "%s: %s\n", word, text);
+    for (const char *c = foreign_word_keys(word); *c; c += strspn(c, " ")) {
         const size_t length = strcspn(c, " ");
         snprintf(path, sizeof path, "%.*s", (int)length, c);
         int found = 0;
@@ -183,15 +183,15 @@ static void help_foreign(FILE *out, const char *word)
     }
 }
 
-status scene_help(FILE *out, const char *key)
+status scene_print_help(FILE *out, const char *key)
 {
     char path[128] = "";
     int found = 0, leaves = 0;
     if (key) path_of_table(key, path, sizeof path);
-    const char *now = path_now(path);
+    const char *now = key_present_name(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_below(&keys[k], path);
-    if (found == 0 && foreign_paths(path)) return help_foreign(out, path), OK;
+    if (found == 0 && foreign_word_keys(path)) return help_foreign(out, path), OK;
     for (int k = 0; k < keys_count && found == 0; k++)
         if (has_leaf(&keys[k], path)) print_key(out, &keys[k]), leaves++;
     if (leaves > 0) return OK;
@@ -225,7 +225,7 @@ static void troff(FILE *out, const char *text)
     }
 }
 
-void scene_manual_keys(FILE *out)
+void scene_print_manual_keys(FILE *out)
 {
     char facts[640];
     for (int k = 0; k < keys_count; k++) {
@@ -259,7 +259,7 @@ static void override_path(FILE *out, const char *path)
     }
 }
 
-void scene_override_keys(FILE *out)
+void scene_print_override_keys(FILE *out)
 {
     for (int k = 0; k < keys_count; k++) {
         if (keys[k].type >= KEY_MAP && keys[k].type != KEY_HAND) continue;

@@ -61,7 +61,7 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
     if (!r->bounded || r->cutting)
         return fault(r, n,
                      "belongs to an image that is the shape of a body; here values, such as 100-255, is expected");
-    TRY(expect(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
+    TRY(expect_kind(r, n, NODE_MAP, "a mapping of grey values to materials, as {0: void, 1-255: rock}"));
     bool *in = NEW("grey values", GREY_MAX + 1, bool);
     status s = OK;
     p->ranges = 0;
@@ -106,7 +106,7 @@ static int material_called(const struct scene *s, const char *name)
 static status read_grey_part(struct reader *r, const struct node *solid, const struct node *entry, struct scene_body *b)
 {
     const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;
-    if (material < 0) return fault(r, entry, "there is no material %s; void leaves it out", shown(r, entry));
+    if (material < 0) return fault(r, entry, "there is no material %s; void leaves it out", node_shown(r, entry));
     struct node *copy = node_copy(r, solid, solid->parent, "materials"), *image = node_find(copy, "image");
     struct node *values = arena_new(r, sizeof *values);
     *values = (struct node){.kind = NODE_SCALAR,

@@ -83,7 +83,7 @@ static int length_of(const struct chain *chain)
 /* Returns the path of an included file, relative to the folder of the including file. */
 static char *path_from(struct reader *r, const struct node *n)
 {
-    const char *from = file_of(r, n->origin);
+    const char *from = origin_file_name(r, n->origin);
     const size_t folder = *n->text == '/' ? 0 : (size_t)folder_length(from), length = strlen(n->text);
     char *path = arena_new(r, folder + length + 1);
     memcpy(path, from, folder);
@@ -100,14 +100,15 @@ static status include_file(struct reader *r, const struct node *n, const struct 
     char *text, *path;
     size_t length;
     if (n->kind != NODE_SCALAR || is_empty(n))
-        return fault(r, n, "%s is no file name; a scene is expected", shown(r, n));
-    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", shown(r, n));
+        return fault(r, n, "%s is no file name; a scene is expected", node_shown(r, n));
+    if (!r->files) return fault(r, n, "%s is not read here; a scene without includes is expected", node_shown(r, n));
     path = path_from(r, n);
     if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
-        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", shown(r, n));
-    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", shown(r, n));
+        return fault(r, n, "%s cannot be read; a scene in the folder of this one is expected", node_shown(r, n));
+    if (is_open(chain, &file)) return fault(r, n, "%s includes itself, or this scene it", node_shown(r, n));
     if (length_of(chain) == CHAIN_MOST)
-        return fault(r, n, "%s is the last of more than %d scenes that include each other", shown(r, n), CHAIN_MOST);
+        return fault(r, n, "%s is the last of more than %d scenes that include each other", node_shown(r, n),
+                     CHAIN_MOST);
     if (r->includes == INCLUDED_MOST) return fault(r, n, "more than %d scenes are included", INCLUDED_MOST);
     const int origin = ORIGIN_INCLUDED - r->includes;
     r->included[r->includes++] = path;
@@ -116,7 +117,7 @@ static status include_file(struct reader *r, const struct node *n, const struct 
     memory_free(text);
     TRY(read);
     if (!*root) return fault_mark(r, origin, 1, 1, "empty; a scene begins with keys such as space and duration");
-    TRY(expect(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
+    TRY(expect_kind(r, *root, NODE_MAP, "a mapping of keys to values, as a scene is"));
     TRY(tree_rename(r, *root));
     struct node *name = node_find(*root, "name");
     if (name) node_remove(*root, name);

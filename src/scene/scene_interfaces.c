@@ -64,7 +64,7 @@ static status interface_strength(struct reader *r, const struct node *n, struct 
     struct material between = a->young < b->young ? *a : *b;
     between.young = 2 * a->young * b->young / (a->young + b->young);
     between.energy_release_rate = face->energy_release_rate;
-    material_derive(&between, s->space);
+    material_compute_constants(&between, s->space);
     face->critical_stretch = scene_critical_stretch(s, &between);
     return OK;
 }

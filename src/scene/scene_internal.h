@@ -95,13 +95,13 @@ status tree_rename(struct reader *r, struct node *root);
 
 /* Returns the present name of the path of an override, `path` itself if it is current, and notes a replacement in the
  * scene. */
-const char *path_renamed(struct reader *r, const char *path);
+const char *path_present_name(struct reader *r, const char *path);
 
 /* Returns the present name of a key of an earlier version; NULL if `path` is no such key. */
-const char *path_now(const char *path);
+const char *key_present_name(const char *path);
 
 /* Returns the name of the file from which a node was read; the scene file for an override (scene_files.c). */
-const char *file_of(const struct reader *r, int origin);
+const char *origin_file_name(const struct reader *r, int origin);
 
 /* Returns the length of the folder at the beginning of a path, with its final slash; 0 if there is none. */
 int folder_length(const char *path);
@@ -113,7 +113,7 @@ status file_bytes(const char *path, char **bytes, size_t *length);
 status tree_set(struct reader *r, struct node *root, const char *key, const char *value);
 
 /* Returns the node at a path of keys without lists; NULL if the scene does not give it. */
-const struct node *tree_at(const struct node *root, const char *path);
+const struct node *tree_find(const struct node *root, const char *path);
 
 /* Parses the text of a scene and applies includes and overrides (scene.c). */
 status scene_tree(struct reader *r, const char *text, size_t length, struct node **root);
@@ -124,7 +124,8 @@ status scene_from_tree(struct reader *r, const struct node *root);
 struct pilot_wish;
 /* Reads the requirements of a scene with `method: auto` on pilot runs, from its tree and its text (scene_wish.c). The
  * caller zeroes w. */
-status wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w);
+status pilot_wish_read(struct reader *r, const struct node *root, const char *text, size_t length,
+                       struct pilot_wish *w);
 
 /* ---- numbers and units (scene_units.c) --------------------------------------------------------------------------- */
 
@@ -147,7 +148,7 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
 
 /* Sets q to 1 of the unit whose symbol is at the beginning of a text. Returns the length of the symbol; 0 if there is
  * none. */
-size_t quantity_unit(struct quantity *q, const char *text);
+size_t quantity_read_unit(struct quantity *q, const char *text);
 
 /* Returns true if q is of this unit or has none. Else writes the rest of a sentence to what[room], as number_read. */
 bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room);
@@ -157,7 +158,7 @@ bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t 
 bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
 
 /* Writes a unit for messages: `a length`, or `in m^2 s^-1` if it has no name. */
-void quantity_name(const int twice[3], char *text, size_t room);
+void unit_name_text(const int twice[3], char *text, size_t room);
 
 /* Writes a unit in the form in which scenes give it, such as ` m^2 s^-1`. */
 void unit_text(const int twice[3], char *text, size_t room);
@@ -259,7 +260,7 @@ bool key_is_below(const struct key *k, const char *path);
 void key_facts(const struct key *k, char *text, size_t room);
 
 /* Returns true if k is directly below `group` ("" for the top). */
-bool key_in(const struct key *k, const char *group);
+bool key_is_directly_below(const struct key *k, const char *group);
 
 /* Returns the key `leaf` directly below `group`, or NULL. */
 const struct key *key_find(const char *group, const char *leaf);
@@ -271,11 +272,11 @@ const struct key *key_nearest(const char *group, const char *leaf);
 
 /* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note
  * that Cleave has none. Returns false, and writes nothing, for unknown words. */
-bool foreign_text(const char *word, const char *group, char *text, size_t room);
+bool foreign_word_advice(const char *word, const char *group, char *text, size_t room);
 
 /* Returns the keys equivalent to a word of another program, separated by spaces, perhaps none; NULL for unknown words.
  */
-const char *foreign_paths(const char *word);
+const char *foreign_word_keys(const char *word);
 
 /* ---- values (scene_value.c) -------------------------------------------------------------------------------------- */
 
@@ -298,7 +299,7 @@ status fault_missing(struct reader *r, const struct node *map, const struct key 
 status fault_both(const struct reader *r, const struct node *a, const struct node *b);
 
 /* Returns the value of a node as one short, printable line for messages, in the arena or static. */
-const char *shown(struct reader *r, const struct node *n);
+const char *node_shown(struct reader *r, const struct node *n);
 
 /* Returns a text as one short, printable line for messages, in the arena. */
 const char *shown_text(struct reader *r, const char *text);
@@ -313,7 +314,7 @@ int word_index(const char *words, const char *text);
 status check_keys(struct reader *r, const struct node *map, const char *group);
 
 /* REFUSED if n is not of this kind; `what` completes the sentence "... is not ". */
-status expect(struct reader *r, const struct node *n, enum node_kind kind, const char *what);
+status expect_kind(struct reader *r, const struct node *n, enum node_kind kind, const char *what);
 
 /* Reads all keys of a group that the table alone can read into the struct `base`. `map` NULL: defaults only; missing
  * keys are reported at `where`. */
@@ -401,7 +402,7 @@ void resolve_safety(struct reader *r, const struct node *root);
 status resolve_contact(struct reader *r, const struct node *root);
 
 /* REFUSED if the bodies hold more particles than 32-bit indices can count. Call it after the bodies are read. */
-status check_size(struct reader *r, const struct node *root);
+status check_particle_count(struct reader *r, const struct node *root);
 
 /* Reads the interfaces and joins their bodies (scene_interfaces.c). */
 status read_interfaces(struct reader *r, const struct node *root);
@@ -420,7 +421,7 @@ status check_friction(struct reader *r, const struct node *root);
 status check_absorbing(struct reader *r, const struct node *root);
 
 /* REFUSED for loads that static solvers or irregular lattices do not support. */
-status check_bearing(struct reader *r, const struct node *root);
+status check_supported_loads(struct reader *r, const struct node *root);
 
 /* Resolves frames left at auto. Call it after the bodies are read. */
 void resolve_frames(struct scene *s);

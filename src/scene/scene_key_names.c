@@ -9,7 +9,7 @@ const char *key_leaf(const struct key *k)
     return dot ? dot + 1 : k->path;
 }
 
-bool key_in(const struct key *k, const char *group)
+bool key_is_directly_below(const struct key *k, const char *group)
 {
     size_t length = strlen(group);
     if (k->type == KEY_GROUP) return false;
@@ -20,7 +20,7 @@ bool key_in(const struct key *k, const char *group)
 const struct key *key_find(const char *group, const char *leaf)
 {
     for (int k = 0; k < keys_count; k++)
-        if (key_in(&keys[k], group) && strcmp(key_leaf(&keys[k]), leaf) == 0) return &keys[k];
+        if (key_is_directly_below(&keys[k], group) && strcmp(key_leaf(&keys[k]), leaf) == 0) return &keys[k];
     return NULL;
 }
 
@@ -29,7 +29,7 @@ const struct key *key_nearest(const char *group, const char *leaf)
     const struct key *nearest = NULL;
     int least = 1000;
     for (int k = 0; k < keys_count; k++) {
-        if (!key_in(&keys[k], group)) continue;
+        if (!key_is_directly_below(&keys[k], group)) continue;
         int distance = edit_distance(key_leaf(&keys[k]), leaf);
         if (distance < least) nearest = &keys[k], least = distance;
     }

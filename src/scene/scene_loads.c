@@ -16,7 +16,7 @@ static status read_profile(struct reader *r, const struct node *n, struct profil
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "uniform") == 0)) return OK;
     if (n->kind != NODE_MAP)
         return fault(r, n, "%s is no profile; uniform or a mapping such as {sine: {wavelength: 1 m}} is expected",
-                     shown(r, n));
+                     node_shown(r, n));
     TRY(check_keys(r, n, "boundary.profile"));
     if (n->n != 1) return fault(r, n, "has %d keys; sine is expected", n->n);
     f->kind = PROFILE_SINE;
@@ -33,7 +33,7 @@ static status read_axis(struct reader *r, const struct node *n, const char *text
 {
     *axis = word_index("x|y|z", text);
     if (n->kind != NODE_SCALAR || *axis < 0 || *axis >= r->dim)
-        return fault(r, n, "%s is no axis of space %s; %s is expected", shown(r, n), space_names[r->scene->space],
+        return fault(r, n, "%s is no axis of space %s; %s is expected", node_shown(r, n), space_names[r->scene->space],
                      r->dim == 1   ? "x"
                      : r->dim == 2 ? "x or y"
                                    : "x, y or z");
@@ -49,10 +49,11 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
         return OK;
     }
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", shown(r, n));
+        return fault(r, n, "%s is no list of axes; all or a list such as [x, y] is expected", node_shown(r, n));
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_axis(r, c, c->text, &axis));
-        if (b->components >> axis & 1) return fault(r, c, "%s is given twice; each axis is expected once", shown(r, c));
+        if (b->components >> axis & 1)
+            return fault(r, c, "%s is given twice; each axis is expected once", node_shown(r, c));
         b->components |= (uint8_t)(1 << axis);
     }
     return OK;
@@ -114,7 +115,7 @@ static status read_velocity(struct reader *r, const struct node *n, struct bound
     } else if (n->kind == NODE_SCALAR && r->dim == 1) {
         TRY(read_component(r, n, b, 0));
     } else {
-        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", shown(r, n),
+        return fault(r, n, "%s does not fit space %s; a list of %d is expected, as %s", node_shown(r, n),
                      space_names[r->scene->space], r->dim, examples[b->displaces][r->dim - 1]);
     }
     return b->components ? OK
@@ -133,7 +134,7 @@ status read_axis_of(struct reader *r, const struct node *n, const char *group, r
     if (!list) return fault_missing(r, n, k);
     if (r->dim == 2) return fault(r, list, "is z in a plane space; leave it out");
     if (list->kind != NODE_LIST || list->n != DIM_MAX)
-        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", shown(r, list));
+        return fault(r, list, "%s is no axis; three numbers such as [0, 0, 1] are expected", node_shown(r, list));
     for (const struct node *c = list->first; c; c = c->next) {
         struct key plain = *k;
         plain.unit = UNIT_NONE;
@@ -174,7 +175,7 @@ static status read_absorbing(struct reader *r, const struct node *map, const str
     const struct node *time = node_find(map, "time");
     if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; leave the boundary out where no wave shall leave", shown(r, n));
+    return fault(r, n, "%s is not true; leave the boundary out where no wave shall leave", node_shown(r, n));
 }
 
 /* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
@@ -185,7 +186,7 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
     if (!n) return fault_missing(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
-        return fault(r, n, "%s is no face in space %s; %s is expected", shown(r, n), space_names[r->scene->space],
+        return fault(r, n, "%s is no face in space %s; %s is expected", node_shown(r, n), space_names[r->scene->space],
                      r->dim == 1   ? "x+ or x-"
                      : r->dim == 2 ? "x+, x-, y+ or y-"
                                    : word_list(r, k->words));
@@ -246,7 +247,7 @@ static status check_time_unit(struct reader *r, const struct node *kind, const s
     return fault(r, kind,
                  "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
                  "unit, is expected",
-                 shown(r, kind));
+                 node_shown(r, kind));
 }
 
 /* Reads the value of a boundary condition by its kind. REFUSED for keys that have no meaning with its kind. */
@@ -288,7 +289,7 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
 static status read_boundary(struct reader *r, const struct node *n, struct boundary *b)
 {
     const struct node *kind;
-    TRY(expect(r, n, NODE_MAP, "a mapping of keys to values"));
+    TRY(expect_kind(r, n, NODE_MAP, "a mapping of keys to values"));
     TRY(check_keys(r, n, "boundary"));
     TRY(kind_of_boundary(r, n, &kind));
     TRY(read_group(r, n, n, "boundary", b));
@@ -349,7 +350,7 @@ static status kind_of_probe(struct reader *r, const struct node *n, enum probe_k
         word.key = n->text, word.next = NULL;
         TRY(check_keys(r, &list, "probes"));
     } else {
-        TRY(expect(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
+        TRY(expect_kind(r, n, NODE_MAP, "a probe such as tip or point: {at: [..]}"));
         TRY(check_keys(r, n, "probes"));
         if (n->n != 1) return fault(r, n, "has %d keys; a probe is one kind with its keys below it", n->n);
         if (n->first->kind != NODE_SCALAR || *n->first->text) *map = n->first;
@@ -410,7 +411,7 @@ static status check_sif(struct reader *r, const struct node *n, const struct nod
     const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
     if (p->inner >= outer)
         return fault(r, node_find(map, "inner"), "%s is not less than outer, %.6g m; about half of it is usual",
-                     shown(r, node_find(map, "inner")), outer);
+                     node_shown(r, node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
     return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");

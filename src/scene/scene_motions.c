@@ -59,7 +59,7 @@ static status read_mirror_image(struct reader *r, const struct node *n, struct s
 
 static status read_pattern(struct reader *r, const struct node *n, struct solid_motion *m)
 {
-    TRY(expect(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
+    TRY(expect_kind(r, n, NODE_MAP, "a pattern such as grid: {count: [..], step: [..]}"));
     TRY(check_keys(r, n, "solid.pattern"));
     if (n->n != 1) return fault(r, n, "has %d keys; a pattern is one of grid and ring", n->n);
     const struct node *form = n->first;
@@ -69,7 +69,7 @@ static status read_pattern(struct reader *r, const struct node *n, struct solid_
     for (int d = 0; d < (ring ? 1 : r->dim); d++)
         if (m->count[d] != round(m->count[d]))
             return fault(r, node_find(form, "count"), "%s is not a whole number; the number of copies is expected",
-                         shown(r, node_find(form, "count")));
+                         node_shown(r, node_find(form, "count")));
     if (!ring) return OK;
     if (!m->has_angle) m->angle = 2 * 3.14159265358979323846 / m->count[0];
     return read_turning_axis(r, form, m);
@@ -97,7 +97,8 @@ status read_motions(struct reader *r, const struct node *n, struct solid *s)
         struct solid_motion m = {0};
         if (!is_motion(c)) continue;
         TRY(read_motion(r, c, s, &m));
-        if (!solid_move(s, &m, r->dim)) return fault(r, c, "makes more than %d copies; fewer are fine", IMAGES_MOST);
+        if (!solid_add_motion(s, &m, r->dim))
+            return fault(r, c, "makes more than %d copies; fewer are fine", IMAGES_MOST);
     }
     return OK;
 }

@@ -123,19 +123,19 @@ status read_variables(struct reader *r, const struct node *root)
     char what[256];
     r->variables = 0;
     if (!map || (map->kind == NODE_SCALAR && *map->text == '\0')) return OK;
-    TRY(expect(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
+    TRY(expect_kind(r, map, NODE_MAP, "a mapping such as {a: 3 mm, b: 2*a}"));
     if (map->n > k->range.most) return fault(r, map, "has %d variables; up to %g are expected", map->n, k->range.most);
     r->variable = arena_new(r, (size_t)(map->n + 1) * sizeof *r->variable);
     for (const struct node *n = map->first; n; n = n->next) {
         TRY(check_variable_name(r, n));
-        TRY(expect(r, n, NODE_SCALAR, "a number or an expression"));
+        TRY(expect_kind(r, n, NODE_SCALAR, "a number or an expression"));
         for (int v = 0; v < r->variables; v++)
             if (strcmp(r->variable[v].n->key, n->key) == 0)
                 return fault(r, n, "given twice, first in line %d; keep one", r->variable[v].n->line);
         r->variable[r->variables++] = (struct variable){.n = n};
     }
     for (struct variable *v = r->variable; v < r->variable + r->variables; v++)
-        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", shown(r, v->n), what);
+        if (!evaluate(r, v, what, sizeof what)) return fault(r, v->n, "%s %s", node_shown(r, v->n), what);
     return check_overrides(r, root);
 }
 

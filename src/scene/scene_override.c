@@ -149,7 +149,7 @@ static status scene_override_entry_of(struct reader *r, struct node *map, const 
     if (empty) map->kind = NODE_MAP;
     if (map->kind != NODE_MAP)
         return fault(r, &at, "%s holds %s, not keys; `cleave help` shows the path of every key",
-                     map->key ? shown_text(r, map->key) : "the item", shown(r, map));
+                     map->key ? shown_text(r, map->key) : "the item", node_shown(r, map));
     if (strspn(at.key, "0123456789") == length) {
         at.key = map->key;
         return fault(r, &at, "is no list in this scene; %.*s has no meaning", (int)length, key);
@@ -174,7 +174,7 @@ static void replace(struct node *n, const struct node *value)
 static status override_one(struct reader *r, struct node *root, int origin)
 {
     const struct scene_override *o = &r->override[origin];
-    const char *path = path_renamed(r, o->key), *key = NULL;
+    const char *path = path_present_name(r, o->key), *key = NULL;
     size_t length = 0;
     int index;
     struct node *n = root, *value;
@@ -212,7 +212,7 @@ status tree_set(struct reader *r, struct node *root, const char *key, const char
     return override_one(r, root, r->overrides++);
 }
 
-const struct node *tree_at(const struct node *root, const char *path)
+const struct node *tree_find(const struct node *root, const char *path)
 {
     char leaf[64];
     const struct node *n = root;

@@ -38,7 +38,7 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
     const struct node *poisson = node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
-    return fault(r, poisson, "%s is impossible with bonds, which have %s in space %s; %s", shown(r, poisson),
+    return fault(r, poisson, "%s is impossible with bonds, which have %s in space %s; %s", node_shown(r, poisson),
                  s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
                  material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
@@ -55,7 +55,7 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
     }
     if (m->yield_tangent < m->young) return OK;
     return fault(r, tangent ? tangent : hardening, "%s is no slope below young; a tangent modulus is expected",
-                 shown(r, tangent ? tangent : hardening));
+                 node_shown(r, tangent ? tangent : hardening));
 }
 
 /* Uses a closed form, or for the model with rotations (mospd) the work that separates the lattice. */
@@ -66,7 +66,7 @@ real scene_critical_stretch(const struct scene *s, const struct material *m)
     struct family f = {.volume = s->volume, .shells = s->shells, .influence = s->influence};
     const struct state_modulus modulus = state_modulus_of(m, s->space, true);
     family_make(&f, s->space, s->spacing, s->horizon, scene_section(s));
-    return sqrt(m->energy_release_rate / family_separation(&f, &modulus, !s->bulk));
+    return sqrt(m->energy_release_rate / family_separation_work(&f, &modulus, !s->bulk));
 }
 
 /* Reads the scatter of strength. REFUSED for a material without strength, and if the parameter of the distribution
@@ -128,7 +128,7 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
                      "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
                      "the key model",
                      s->model == MODEL_OSPD ? "ospd" : "mospd");
-    material_derive(m, s->space);
+    material_compute_constants(m, s->space);
     if (!isnan(m->energy_release_rate)) m->critical_stretch = scene_critical_stretch(s, m);
     if (m->critical_stretch > 0) return OK;
     return fault(r, n, "its critical stretch is too small for a number; a larger energy_release_rate is expected");
@@ -160,10 +160,11 @@ status read_materials(struct reader *r, const struct node *root)
 static status read_file(struct reader *r, const struct node *n, struct scene_body *b)
 {
     fault_place(r, n, b->place, sizeof b->place);
-    if (n->kind != NODE_SCALAR || !particle_list_named(n->text))
-        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected", shown(r, n));
+    if (n->kind != NODE_SCALAR || !is_particle_list_name(n->text))
+        return fault(r, n, "%s is no particle list; a file name that ends in .csv or .h5 is expected",
+                     node_shown(r, n));
     TRY(read_path(r, n, "a particle list", &b->file, &b->contents));
-    return r->files ? particle_list_look(&b->list, b->file, r->dim) : OK;
+    return r->files ? particle_list_read_head(&b->list, b->file, r->dim) : OK;
 }
 
 /* REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
@@ -441,7 +442,7 @@ static status read_frame_region(struct reader *r, const struct node *n, int numb
                          one->name);
     if (s->duration / one->every > FRAMES_MOST)
         return fault(r, node_find(n, "every"), "%s makes more than %d frames; at least %.3g s is expected",
-                     shown(r, node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
+                     node_shown(r, node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }
 

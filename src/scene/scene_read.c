@@ -37,7 +37,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     struct node *root;
     TRY(scene_tree(r, text, length, &root));
     const struct node *method = auto_method(root);
-    if (method && wish) return wish_read(r, root, text, length, wish);
+    if (method && wish) return pilot_wish_read(r, root, text, length, wish);
     if (method)
         return fault(r, method,
                      "auto is resolved by the pilot runs of `cleave run`; write a method and "
@@ -93,8 +93,8 @@ status scene_read(struct scene *s, const char *path, const struct scene_override
     return scene_file_read(s, path, override, overrides, NULL);
 }
 
-status scene_read_or_wish(struct scene *s, struct pilot_wish *w, const char *path,
-                          const struct scene_override *override, int overrides)
+status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
+                                const struct scene_override *override, int overrides)
 {
     *w = (struct pilot_wish){0};
     return scene_file_read(s, path, override, overrides, w);

@@ -33,7 +33,7 @@ static bool is_top(const struct key *k, bool *has_keys)
     return !strchr(k->path, '.');
 }
 
-void scene_reference(FILE *out)
+void scene_print_reference(FILE *out)
 {
     bool has_keys;
     fputs("# All keys of a scene\n\n"

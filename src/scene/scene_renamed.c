@@ -24,7 +24,7 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Adds a pair of names to the note that engine_warn prints. */
+/* Adds a pair of names to the note that engine_warn_of_input prints. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);
@@ -34,14 +34,14 @@ static void renamed_note(struct scene *s, int k)
     snprintf(s->renamed + used, sizeof s->renamed - used, "%s%s", used ? ", " : "", pair);
 }
 
-const char *path_now(const char *path)
+const char *key_present_name(const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++)
         if (!strcmp(path, renamed[k].old)) return renamed[k].now;
     return NULL;
 }
 
-const char *path_renamed(struct reader *r, const char *path)
+const char *path_present_name(struct reader *r, const char *path)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
         if (strcmp(path, renamed[k].old) != 0) continue;
@@ -54,8 +54,8 @@ const char *path_renamed(struct reader *r, const char *path)
 status tree_rename(struct reader *r, struct node *root)
 {
     for (int k = 0; k < (int)COUNT_OF(renamed); k++) {
-        struct node *old = (struct node *)tree_at(root, renamed[k].old);
-        const struct node *now = tree_at(root, renamed[k].now);
+        struct node *old = (struct node *)tree_find(root, renamed[k].old);
+        const struct node *now = tree_find(root, renamed[k].now);
         if (!old) continue;
         if (now) return fault_both(r, now, old);
         const char *dot = strrchr(renamed[k].now, '.'), *leaf = dot ? dot + 1 : renamed[k].now;
@@ -63,7 +63,7 @@ status tree_rename(struct reader *r, struct node *root)
         renamed_note(r->scene, k);
     }
     for (int k = 0; k < (int)COUNT_OF(removed); k++) {
-        const struct node *n = tree_at(root, removed[k].path);
+        const struct node *n = tree_find(root, removed[k].path);
         if (n) return fault(r, n, "%s", removed[k].what);
     }
     return OK;

@@ -59,7 +59,7 @@ static void write_required(FILE *out, const char *group, const char *begin)
 {
     const char *between = begin;
     for (int k = 0; k < keys_count; k++) {
-        if (!key_in(&keys[k], group) || strcmp(keys[k].fallback, "required") != 0) continue;
+        if (!key_is_directly_below(&keys[k], group) || strcmp(keys[k].fallback, "required") != 0) continue;
         fprintf(out, "%s\"%s\"", between, key_leaf(&keys[k]));
         between = ", ";
     }
@@ -73,7 +73,7 @@ static void write_object(FILE *out, const char *group);
 static bool has_children(const char *group)
 {
     bool any = false;
-    for (int k = 0; k < keys_count; k++) any |= key_in(&keys[k], group);
+    for (int k = 0; k < keys_count; k++) any |= key_is_directly_below(&keys[k], group);
     return any;
 }
 
@@ -207,7 +207,7 @@ static void write_members(FILE *out, const char *group)
     const char *between = "";
     fputs("\"type\": \"object\", \"additionalProperties\": false, \"properties\": {", out);
     for (int k = 0; k < keys_count; k++) {
-        if (!key_in(&keys[k], group)) continue;
+        if (!key_is_directly_below(&keys[k], group)) continue;
         fprintf(out, "%s\n", between);
         write_property(out, &keys[k]);
         between = ",";
@@ -238,7 +238,7 @@ static const char definitions[] =
     "\"minItems\": 1, \"items\": {\"$ref\": \"#/definitions/solid\"}}]},\n"
     "\"solid\": ";
 
-status scene_schema(FILE *out)
+status scene_print_schema(FILE *out)
 {
     fputs("{\"$schema\": \"http://json-schema.org/draft-07/schema#\", \"title\": \"scene of cleave\",\n", out);
     fputs(definitions, out);

@@ -112,7 +112,7 @@ static real spacing_given(struct reader *r, const struct node *n)
 {
     real spacing = NAN;
     while (n->parent) n = n->parent;
-    const struct node *given = tree_at(n, "particles.spacing");
+    const struct node *given = tree_find(n, "particles.spacing");
     const struct key *k = key_find("particles", "spacing");
     if (given && k && read_number(r, k, given, &spacing) == OK) return spacing;
     return NAN;
@@ -163,7 +163,7 @@ static status read_unit(struct reader *r, const struct node *n, struct shape_wor
     if (!unit) return OK;
     snprintf(text, sizeof text, "1 %.40s", unit->text);
     if (unit->kind == NODE_SCALAR && number_read(&words->scale, text, UNIT_LENGTH, false, what, sizeof what)) return OK;
-    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", shown(r, unit));
+    return fault(r, unit, "%s is no unit of length; mm, m, um, .. is expected, or scale: 25.4 mm", node_shown(r, unit));
 }
 
 /* ---- surfaces and meshes ----------------------------------------------------------------------------------------- */
@@ -174,7 +174,7 @@ static status read_mesh_set(struct reader *r, const struct node *n, const struct
                             const struct geometry *g, struct solid *s)
 {
     const struct node *within = node_find(n, "within");
-    const struct geometry_set *set = words->set[0] ? geometry_find(g, words->set) : NULL;
+    const struct geometry_set *set = words->set[0] ? geometry_find_set(g, words->set) : NULL;
     char names[200] = "";
     for (int k = 0; k < g->sets && strlen(names) < 120; k++) {
         strcat(names, k ? ", " : "");

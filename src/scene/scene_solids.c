@@ -133,7 +133,7 @@ static status read_shape(struct reader *r, const struct node *n, const struct so
         return check_solid(r, n, s);
     }
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; write all: true", shown(r, n));
+    return fault(r, n, "%s is not true; write all: true", node_shown(r, n));
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -143,16 +143,16 @@ static status region_called(struct reader *r, const struct node *n, const struct
 {
     const struct node *nearest = NULL, *map = r->dim == r->scene->dim ? r->regions : r->sections;
     const char *word = r->dim == r->scene->dim ? "region" : "section";
-    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", shown(r, n), word);
+    if (n->kind != NODE_SCALAR) return fault(r, n, "%s is no name; one of %ss is expected", node_shown(r, n), word);
     if (!map)
-        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", shown(r, n), word,
-                     word, shown(r, n));
+        return fault(r, n, "%s is no solid, and no %s has a name; %ss: {%s: {box: ..}} is expected", node_shown(r, n),
+                     word, word, node_shown(r, n));
     for (const struct node *c = map->first; c; c = c->next) {
         *called = c;
         if (strcmp(c->key, n->text) == 0) return OK;
         if (!nearest || edit_distance(c->key, n->text) < edit_distance(nearest->key, n->text)) nearest = c;
     }
-    return fault(r, n, "there is no %s %s; the nearest is %s", word, shown(r, n), nearest->key);
+    return fault(r, n, "there is no %s %s; the nearest is %s", word, node_shown(r, n), nearest->key);
 }
 
 /* Reads the region of a name in place of the reference. REFUSED if the region refers to itself. */
@@ -161,7 +161,7 @@ static status read_called(struct reader *r, const struct node *n, struct region 
     struct naming here = {.outer = r->naming};
     TRY(region_called(r, n, &here.region));
     for (const struct naming *k = r->naming; k; k = k->outer)
-        if (k->region == here.region) return fault(r, n, "region %s is part of itself", shown(r, n));
+        if (k->region == here.region) return fault(r, n, "region %s is part of itself", node_shown(r, n));
     r->naming = &here;
     const status read = read_solids(r, here.region, region, false);
     r->naming = here.outer;
@@ -202,7 +202,7 @@ static status names_find(struct reader *r, const struct node *root, const char *
 {
     *map = node_find(root, key);
     if (!*map) return OK;
-    TRY(expect(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
+    TRY(expect_kind(r, *map, NODE_MAP, "a mapping of names to solids, as {grip: {box: ..}}"));
     return (*map)->n > 0 ? OK : fault(r, *map, "has no region; a name and its solids are expected");
 }
 
@@ -262,7 +262,7 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
     const struct node *child = NULL;
     const struct solid_word *word = NULL;
     int solids = 0;
-    TRY(expect(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
+    TRY(expect_kind(r, n, NODE_MAP, "a solid such as box: {from: [..], to: [..]}"));
     TRY(check_keys(r, n, "solid"));
     for (const struct node *c = n->first; c; c = c->next)
         if (!is_motion(c)) child = c, solids++;
@@ -281,7 +281,7 @@ static status read_solid(struct reader *r, const struct node *n, struct solid *s
     else
         TRY(read_operation(r, n, child, s));
     TRY(read_motions(r, n, s));
-    if (solid_effort(s) <= EFFORT_MOST) return OK;
+    if (solid_query_cost(s) <= EFFORT_MOST) return OK;
     return fault(r, n, "makes more than %g solids with its copies; fewer are expected", EFFORT_MOST);
 }
 
@@ -299,7 +299,7 @@ static status read_solids(struct reader *r, const struct node *n, struct region 
     }
     if (region->solid[0].subtract)
         return fault(r, n, "subtracts from nothing; the first solid must be added, for a region perhaps all: true");
-    region_index(region, r->dim);
+    region_build_index(region, r->dim);
     return OK;
 }
 
@@ -366,7 +366,7 @@ static status read_crack_place(struct reader *r, const struct node *n, struct cr
 {
     static const char *const first[] = {"at", "from", "polygon"}, *const form[] = {"at", "from and to", "polygon"};
     const char *word = first[r->dim - 1];
-    TRY(expect(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
+    TRY(expect_kind(r, n, NODE_MAP, "a crack such as {from: [..], to: [..]}"));
     TRY(check_keys(r, n, "cracks"));
     for (const struct node *k = n->first; k; k = k->next)
         if (strcmp(k->key, word) != 0 && strcmp(k->key, "width") != 0 && (r->dim != 2 || strcmp(k->key, "to") != 0))
@@ -400,7 +400,7 @@ static void take_slits(struct scene *s, const struct region *shape)
         for (int m = 0; m < (a->images > 0 ? a->images : 1) && a->kind == SOLID_HULL && !a->subtract; m++) {
             const struct placement *to = a->images > 0 ? &a->image[m] : &there;
             int first = s->cracks;
-            for (geometry_slits(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
+            for (geometry_find_slits(a->hull, &s->crack, &s->cracks); first < s->cracks; first++)
                 for (int c = 0; c < s->crack[first].n; c++) {
                     real X[DIM_MAX];
                     array_copy(X, s->crack[first].corner[c], DIM_MAX, sizeof *X);

@@ -10,15 +10,16 @@ static status check_steps_motion(struct reader *r, const struct node *root)
     const struct node *solver = node_find(root, "solver"), *cracks = node_find(root, "growth");
     for (int k = 0; k < s->rigids; k++)
         if (s->body[s->bodies + k].mass > 0)
-            return status_at(s->body[s->bodies + k].place,
-                             status_set(REFUSED,
-                                        "rigid body %s flies (it has a mass), and load steps have no inertia; a "
-                                        "velocity, or solver: explicit, is expected",
-                                        s->body[s->bodies + k].name));
+            return status_prepend_location(
+                s->body[s->bodies + k].place,
+                status_set(REFUSED,
+                           "rigid body %s flies (it has a mass), and load steps have no inertia; a "
+                           "velocity, or solver: explicit, is expected",
+                           s->body[s->bodies + k].name));
     if (s->growths > 0)
         return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed need solver: explicit");
     if (s->contact_friction > 0)
-        return fault(r, tree_at(root, "contact.friction"),
+        return fault(r, tree_find(root, "contact.friction"),
                      "friction has no energy to be in equilibrium with; 0, or "
                      "solver: explicit, is expected");
     for (int k = 0; k < s->initials; k++)
@@ -40,7 +41,7 @@ static status check_steps_loads(struct reader *r, const struct node *root)
         if (s->boundary[b].follow)
             return fault(r, node_find(n, "follow"),
                          "load steps have loads on the reference state only; false, or solver: explicit, is expected");
-        TRY(status_at(s->boundary[b].place, load_displacement_known(&s->boundary[b])));
+        TRY(status_prepend_location(s->boundary[b].place, load_check_displacement_known(&s->boundary[b])));
     }
     return OK;
 }
@@ -73,11 +74,11 @@ status check_load_steps(struct reader *r, const struct node *root)
     TRY(check_steps_loads(r, root));
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
-        return fault(r, tree_at(root, "steps.then"),
+        return fault(r, tree_find(root, "steps.then"),
                      "a release in time belongs to control load: %s follows the crack while it is unstable",
                      opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
-        return fault(r, tree_at(root, "steps.path"),
+        return fault(r, tree_find(root, "steps.path"),
                      "hoop leads the tips of cracks; bonds, or auto, is expected on a line");
     if (!opening || (s->steps.has_from && s->steps.has_to && s->steps.opening > 0)) return check_steps_loaded(r, root);
     return fault(r, steps,

@@ -22,11 +22,12 @@ static status read_table(struct reader *r, const struct node *n, struct time_fun
     f->value = NEW("time table", n->n, real);
     for (const struct node *row = n->first; row; row = row->next) {
         if (row->kind != NODE_LIST || row->n != 2)
-            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", shown(r, row));
+            return fault(r, row, "%s is not a pair; [time, factor] is expected, as [5 us, 1]", node_shown(r, row));
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-            return fault(r, row->first, "%s does not lie after the time before; times ascend", shown(r, row->first));
+            return fault(r, row->first, "%s does not lie after the time before; times ascend",
+                         node_shown(r, row->first));
         f->n++;
     }
     return OK;
@@ -65,7 +66,7 @@ static status column_take(struct time_columns *c, int k, char *name, const char 
 {
     char what[160];
     real one;
-    char *unit = csv_unit(name), number[UNIT_LONGEST_NAME + 2];
+    char *unit = csv_cut_unit(name), number[UNIT_LONGEST_NAME + 2];
     const bool time = strcasecmp(name, "time") == 0 || strcasecmp(name, "t") == 0;
     if (!time && *wanted && strcmp(name, wanted) != 0) return OK;
     if (strlen(unit) >= UNIT_LONGEST_NAME) return csv_fault(&c->in, name, "its unit is too long");
@@ -89,10 +90,10 @@ static status time_columns_find(struct time_columns *c, const char *wanted)
     int k = 0;
     char *rest = c->in.text;
     c->time = c->value = -1;
-    TRY(csv_line(&c->in, &more));
+    TRY(csv_read_data_line(&c->in, &more));
     if (!more) return status_set(REFUSED, "%s: empty; a header such as time [us], value is expected", c->in.path);
-    csv_separate(&c->in);
-    for (char *name; (name = csv_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
+    csv_detect_separator(&c->in);
+    for (char *name; (name = csv_cut_field(&c->in, &rest)) != NULL; k++) TRY(column_take(c, k, name, wanted));
     c->all = k;
     if (c->time < 0)
         return csv_fault(&c->in, c->in.text, "no column is called time; a header such as time [us], value is expected");
@@ -120,7 +121,7 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
 {
     int k = 0, found = 0;
     char *rest = line, *time = line;
-    for (char *field; (field = csv_field(&c->in, &rest)) != NULL; k++) {
+    for (char *field; (field = csv_cut_field(&c->in, &rest)) != NULL; k++) {
         if (k == c->all)
             return csv_fault(&c->in, field,
                              "more values than the %d columns of the header; numbers have a point, not "
@@ -147,7 +148,7 @@ static status time_entries(struct time_columns *c, struct time_function *f, cons
 {
     TRY(time_columns_find(c, wanted));
     for (bool more;; f->n++) {
-        TRY(csv_line(&c->in, &more));
+        TRY(csv_read_data_line(&c->in, &more));
         if (!more) break;
         if (f->n == TIMES_MAX) return csv_fault(&c->in, c->in.text, "more than %d times", TIMES_MAX);
         GROW("time table", f->t, f->n + 1);
@@ -165,7 +166,7 @@ static status read_time_file(struct reader *r, const struct node *map, struct bo
     const struct node *column = node_find(map, "column");
     if (!n) return fault(r, column, "has no meaning without file; the name of a CSV file is expected");
     if (column && (column->kind != NODE_SCALAR || !*column->text || strlen(column->text) >= sizeof b->time_column))
-        return fault(r, column, "%s is no name of a column", shown(r, column));
+        return fault(r, column, "%s is no name of a column", node_shown(r, column));
     if (column) snprintf(b->time_column, sizeof b->time_column, "%s", column->text);
     b->time.kind = TIME_TABLE;
     TRY(read_path(r, n, "a CSV file of time and value", &b->time_file, &b->time_contents));
@@ -185,7 +186,7 @@ status read_time(struct reader *r, const struct node *n, struct boundary *b)
     const char *forms = "constant, step, pulse, ramp, table or file";
     struct time_function *f = &b->time;
     if (!n || (n->kind == NODE_SCALAR && strcmp(n->text, "constant") == 0)) return OK;
-    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", shown(r, n), forms);
+    if (n->kind != NODE_MAP) return fault(r, n, "%s is no function of time; %s is expected", node_shown(r, n), forms);
     TRY(check_keys(r, n, "boundary.time"));
     if (node_find(n, "file") || node_find(n, "column")) {
         for (const struct node *other = n->first; other; other = other->next)

@@ -185,7 +185,7 @@ static size_t unit_length(struct measure *sum, const char *text)
     return sum->ten % 2 == 0 ? (size_t)(end - text) : 0;
 }
 
-void quantity_name(const int twice[3], char *text, size_t room)
+void unit_name_text(const int twice[3], char *text, size_t room)
 {
     static const char *const symbol[] = {"m", "kg", "s"};
     const struct unit_row *row = unit_of(twice);
@@ -395,7 +395,7 @@ static size_t factor_length(const char *text, real *factor, bool *is_time)
     return 0;
 }
 
-size_t quantity_unit(struct quantity *q, const char *text)
+size_t quantity_read_unit(struct quantity *q, const char *text)
 {
     struct measure m;
     const size_t length = isdigit((unsigned char)*text) ? 0 : symbol_length(text);
@@ -450,7 +450,7 @@ bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t 
     const bool same = q->twice[0] == twice[0] && q->twice[1] == twice[1] && q->twice[2] == twice[2];
     char name[64], wrong[80];
     if (same || q->bare) return true;
-    quantity_name(q->twice, name, sizeof name);
+    unit_name_text(q->twice, name, sizeof name);
     snprintf(wrong, sizeof wrong, "is %s", name);
     return complain(c, wrong, unit);
 }
@@ -471,7 +471,7 @@ const char *number_text(char text[32], real value)
 
 /* ---- cleave help units ------------------------------------------------------------------------------------------- */
 
-void scene_help_units(FILE *out)
+void scene_print_units(FILE *out)
 {
     fputs(
         "A number without a unit is SI. A unit follows it, with or without a blank: 0.5 mm, 190GPa, 1/3.\n\nsymbols   ",

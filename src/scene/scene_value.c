@@ -23,12 +23,12 @@ const char *shown_text(struct reader *r, const char *text)
         cut--; /* keep whole UTF-8 characters */
     char *copy = arena_new(r, cut + 4);
     memcpy(copy, text, cut);
-    text_harmless(copy);
+    text_replace_controls(copy);
     if (cut < length) memcpy(copy + cut, "...", 3);
     return copy;
 }
 
-const char *shown(struct reader *r, const struct node *n)
+const char *node_shown(struct reader *r, const struct node *n)
 {
     if (n->kind == NODE_LIST) return "a list";
     if (n->kind == NODE_MAP) return "a mapping";
@@ -54,7 +54,7 @@ static void node_name(const struct node *n, char *name, size_t room)
 static void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
 {
     if (origin < 0) {
-        snprintf(text, room, "%.300s:%d:%d", file_of(r, origin), line, column);
+        snprintf(text, room, "%.300s:%d:%d", origin_file_name(r, origin), line, column);
         return;
     }
     snprintf(text, room, "-s %.100s=%.100s", r->override[origin].key, r->override[origin].value);
@@ -161,7 +161,7 @@ int word_index(const char *words, const char *text)
 static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
 {
     char instead[400];
-    if (foreign_text(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
+    if (foreign_word_advice(n->key, group, instead, sizeof instead)) return fault(r, n, "unknown key; %s", instead);
     const struct key *nearest = key_nearest(group, n->key);
     const char *leaf = nearest ? key_leaf(nearest) : "";
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
@@ -187,15 +187,15 @@ status check_keys(struct reader *r, const struct node *map, const char *group)
     return OK;
 }
 
-status expect(struct reader *r, const struct node *n, enum node_kind kind, const char *what)
+status expect_kind(struct reader *r, const struct node *n, enum node_kind kind, const char *what)
 {
-    return n->kind == kind ? OK : fault(r, n, "%s is not %s", shown(r, n), what);
+    return n->kind == kind ? OK : fault(r, n, "%s is not %s", node_shown(r, n), what);
 }
 
 status expect_list(struct reader *r, const struct key *k, const struct node *n)
 {
     int least = (int)k->range.least, most = (int)k->range.most;
-    TRY(expect(r, n, NODE_LIST, "a list"));
+    TRY(expect_kind(r, n, NODE_LIST, "a list"));
     if (n->n >= least && n->n <= most) return OK;
     return fault(r, n, "has %d items; %d to %d are expected", n->n, least, most);
 }
@@ -210,11 +210,11 @@ static status check_range(struct reader *r, const struct key *k, const struct no
     if (!range->given) return OK;
     bool low = range->open ? !(value > range->least) : !(value >= range->least);
     if (!low && value <= range->most) return OK;
-    if (low && k->low) return fault(r, n, "%s %s", shown(r, n), k->low);
+    if (low && k->low) return fault(r, n, "%s %s", node_shown(r, n), k->low);
     const struct unit_row *unit = &unit_rows[k->unit];
     const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
     bool bounded = isfinite(range->most);
-    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s", shown(r, n), name,
+    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s", node_shown(r, n), name,
                  range->open ? "above" : "from", number_text(least, range->least),
                  bounded       ? (range->open ? " up to " : " to ")
                  : range->open ? ""
@@ -226,7 +226,7 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
 {
     char what[256];
     if (n->kind != NODE_SCALAR)
-        return fault(r, n, "%s is not a number; %s is expected, as %s", shown(r, n), unit_rows[k->unit].name,
+        return fault(r, n, "%s is not a number; %s is expected, as %s", node_shown(r, n), unit_rows[k->unit].name,
                      unit_rows[k->unit].example);
     if (k->type == KEY_REAL && k->words && strcmp(n->text, k->words) == 0) {
         *value = k->word_value;
@@ -234,7 +234,7 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
     if (!number_of_text(r, value, n->text, k->unit, infinite, what, sizeof what))
-        return fault(r, n, "%s %s", shown(r, n), what);
+        return fault(r, n, "%s %s", node_shown(r, n), what);
     return check_range(r, k, n, *value);
 }
 
@@ -244,10 +244,10 @@ static status read_whole(struct reader *r, const struct node *n, real *value)
     char what[256];
     real number;
     if (!number_of_text(r, &number, n->text, UNIT_NONE, false, what, sizeof what))
-        return fault(r, n, "%s %s", shown(r, n), what);
+        return fault(r, n, "%s %s", node_shown(r, n), what);
     *value = round(number);
     if (fabs(number - *value) <= 1e-9 * (1 + fabs(number))) return OK;
-    return fault(r, n, "%s is %g; a whole number is expected", shown(r, n), number);
+    return fault(r, n, "%s is %g; a whole number is expected", node_shown(r, n), number);
 }
 
 /* Reads a whole number in decimal digits; out of 32 bits it is clamped, and the range refuses it. */
@@ -262,7 +262,7 @@ static status read_int(struct reader *r, const struct key *k, const struct node 
     }
     size_t digits = strspn(c, "0123456789");
     if (n->kind != NODE_SCALAR || digits == 0 || c[digits] != '\0' || (*c == '0' && digits > 1))
-        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", shown(r, n));
+        return fault(r, n, "%s is not a whole number; digits alone are expected, as 20", node_shown(r, n));
     errno = 0;
     long long number = strtoll(n->text, NULL, 10);
     if (errno || number > INT32_MAX || number < INT32_MIN) number = *n->text == '-' ? INT32_MIN : INT32_MAX;
@@ -283,13 +283,13 @@ static status read_seed(struct reader *r, const struct node *n, uint64_t *value)
     else
         errno = EINVAL;
     if (errno == 0) return OK;
-    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", shown(r, n));
+    return fault(r, n, "%s is no seed; a whole number from 0 to 18446744073709551615 is expected", node_shown(r, n));
 }
 
 static status read_flag(struct reader *r, const struct node *n, bool *value)
 {
     int word = n->kind == NODE_SCALAR ? word_index("false|true", n->text) : -1;
-    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", shown(r, n));
+    if (word < 0) return fault(r, n, "%s is neither true nor false; write true or false", node_shown(r, n));
     *value = word == 1;
     return OK;
 }
@@ -298,7 +298,7 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
 {
     const char *words = word_list(r, k->words);
     int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
-    if (word < 0) return fault(r, n, "%s is unknown; %s is expected", shown(r, n), words);
+    if (word < 0) return fault(r, n, "%s is unknown; %s is expected", node_shown(r, n), words);
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;
     return OK;
@@ -327,12 +327,12 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
         *bits = *bits << 1 | 1;
     if (*bits) return OK;
     if (n->kind != NODE_LIST || n->n == 0)
-        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", shown(r, n), words);
+        return fault(r, n, "%s is unknown; none, all or a list of %s is expected", node_shown(r, n), words);
     for (const struct node *c = n->first; c; c = c->next) {
         int word = c->kind == NODE_SCALAR ? word_index(k->words, c->text) : -1;
         if (word < 0) {
             const char *near = word_near(r, k->words, c->text);
-            return fault(r, c, "%s is unknown%s%s; %s is expected", shown(r, c), near ? "; the nearest is " : "",
+            return fault(r, c, "%s is unknown%s%s; %s is expected", node_shown(r, c), near ? "; the nearest is " : "",
                          near ? near : "", words);
         }
         *bits |= 1u << word;
@@ -344,9 +344,9 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
 static status read_any_text(struct reader *r, const struct node *n, char *name)
 {
     const size_t length = strlen(n->text);
-    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", shown(r, n));
+    if (n->kind != NODE_SCALAR || length == 0) return fault(r, n, "%s is no text", node_shown(r, n));
     if (length >= NAME_MAX_LENGTH)
-        return fault(r, n, "%s is too long; at most %d characters are expected", shown(r, n), NAME_MAX_LENGTH - 1);
+        return fault(r, n, "%s is too long; at most %d characters are expected", node_shown(r, n), NAME_MAX_LENGTH - 1);
     memset(name, 0, NAME_MAX_LENGTH);
     memcpy(name, n->text, length);
     return OK;
@@ -358,7 +358,7 @@ static status read_name(struct reader *r, const struct node *n, char *name)
     size_t length = strlen(n->text), fine = 0;
     while (isalnum((unsigned char)n->text[fine]) || n->text[fine] == '_' || n->text[fine] == '-') fine++;
     if (n->kind == NODE_SCALAR && length > 0 && fine == length && n->text[0] != '-') return read_any_text(r, n, name);
-    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", shown(r, n));
+    return fault(r, n, "%s is no name; letters, digits, _ and - are expected, and no - first", node_shown(r, n));
 }
 
 /* ---- lists of numbers -------------------------------------------------------------------------------------------- */
@@ -377,7 +377,7 @@ status read_point(struct reader *r, const struct key *k, const struct node *n, r
     if (r->dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, point);
     const char *space = space_shown(r);
     if (n->kind != NODE_LIST)
-        return fault(r, n, "%s is not a list; %d components are expected in %s", shown(r, n), r->dim, space);
+        return fault(r, n, "%s is not a list; %d components are expected in %s", node_shown(r, n), r->dim, space);
     if (n->n != r->dim) return fault(r, n, "has %d components; %d are expected in %s", n->n, r->dim, space);
     for (const struct node *c = n->first; c; c = c->next) TRY(read_number(r, k, c, &point[d++]));
     return OK;
@@ -390,7 +390,7 @@ static status read_matrix(struct reader *r, const struct key *k, const struct no
     if (dim == 1 && n->kind == NODE_SCALAR) return read_number(r, k, n, matrix);
     bool rows = n->kind == NODE_LIST && n->n == dim && n->first->kind == NODE_LIST;
     if (!rows && (n->kind != NODE_LIST || n->n != dim * dim))
-        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", shown(r, n), dim, dim);
+        return fault(r, n, "%s is not a matrix; %d rows of %d numbers are expected", node_shown(r, n), dim, dim);
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(rows ? read_point(r, k, c, &matrix[entry]) : read_number(r, k, c, &matrix[entry]));
         entry += rows ? dim : 1;
@@ -403,13 +403,13 @@ enum { SERIES_MOST = 100000 };
 /* Reads a list of ascending numbers. */
 static status read_series(struct reader *r, const struct key *k, const struct node *n, struct number_list *series)
 {
-    TRY(expect(r, n, NODE_LIST, "a list"));
+    TRY(expect_kind(r, n, NODE_LIST, "a list"));
     if (n->n < 1 || n->n > SERIES_MOST) return fault(r, n, "has %d items; 1 to %d are expected", n->n, SERIES_MOST);
     series->value = NEW("scene series", n->n, real);
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
         if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
-            return fault(r, c, "%s does not lie after the one before; they ascend", shown(r, c));
+            return fault(r, c, "%s does not lie after the one before; they ascend", node_shown(r, c));
         series->n++;
     }
     return OK;
@@ -419,7 +419,7 @@ static status read_series(struct reader *r, const struct key *k, const struct no
 
 static status fault_reference(struct reader *r, const struct node *n, const char *what, const char *nearest)
 {
-    return fault(r, n, "there is no %s %s; the nearest is %s", what, shown(r, n), nearest);
+    return fault(r, n, "there is no %s %s; the nearest is %s", what, node_shown(r, n), nearest);
 }
 
 /* Finds the index of the material of this name. REFUSED with the nearest name. */
@@ -452,7 +452,7 @@ static status scene_value_read_body(struct reader *r, const struct node *n, int 
             return fault(r, n,
                          "%s is rigid; a body with particles is expected (rigid ones have a velocity, a mass "
                          "and a force of their own)",
-                         shown(r, n));
+                         node_shown(r, n));
     return fault_reference(r, n, "body", b[nearest].name);
 }
 
@@ -507,11 +507,11 @@ static status read_fallback(struct reader *r, const struct node *where, const st
 
 status read_group(struct reader *r, const struct node *where, const struct node *map, const char *group, void *base)
 {
-    if (map) TRY(expect(r, map, NODE_MAP, "a mapping of keys to values"));
+    if (map) TRY(expect_kind(r, map, NODE_MAP, "a mapping of keys to values"));
     if (map) TRY(check_keys(r, map, group));
     for (int i = 0; i < keys_count; i++) {
         const struct key *k = &keys[i];
-        if (!key_in(k, group)) continue;
+        if (!key_is_directly_below(k, group)) continue;
         const struct node *n = node_find(map, key_leaf(k));
         if (k->type == KEY_MAP)
             TRY(read_group(r, n ? n : where, n, k->path, base));

@@ -18,7 +18,7 @@ static status figure_read(struct reader *r, const struct node *of, char *figure,
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= room || strpbrk(of->text, " ,/"))
         return fault(r, of, "%s is no figure of summary.json; its names are joined by points, as in crack.start_time",
-                     shown(r, of));
+                     node_shown(r, of));
     snprintf(figure, room, "%s", of->text);
     return OK;
 }
@@ -26,7 +26,7 @@ static status figure_read(struct reader *r, const struct node *of, char *figure,
 /* Reads `accuracy`, a share or {of, within, budget}, into figure, within and budget. */
 static status accuracy_read(struct reader *r, const struct node *root, struct pilot_wish *w)
 {
-    const struct node *n = tree_at(root, "accuracy");
+    const struct node *n = tree_find(root, "accuracy");
     w->within = WITHIN_USUAL, w->budget = BUDGET_USUAL, w->figure[0] = '\0';
     if (!n) return OK;
     if (n->kind != NODE_MAP) return read_number(r, key_find("accuracy", "within"), n, &w->within);
@@ -60,11 +60,11 @@ static status provisional_read(struct reader *r, const char *text, size_t length
     own.scene = s;
     status read = scene_tree(&own, text, length, &root);
     for (size_t k = 0; k < COUNT_OF(dropped) && read == OK; k++)
-        if (tree_at(root, dropped[k])) read = tree_set(&own, root, dropped[k], "");
-    const struct node *space = read == OK ? tree_at(root, "space") : NULL;
+        if (tree_find(root, dropped[k])) read = tree_set(&own, root, dropped[k], "");
+    const struct node *space = read == OK ? tree_find(root, "space") : NULL;
     const bool line = space && strcmp(space->text, "line") == 0,
                bonds = read == OK && (material_key(root, "yield_stress") || material_key(root, "viscosity"));
-    if (read == OK && !tree_at(root, "particles.spacing"))
+    if (read == OK && !tree_find(root, "particles.spacing"))
         read = tree_set(&own, root, "particles.spacing", number_text(number, spacing));
     if (read == OK) read = tree_set(&own, root, "method", method);
     if (read == OK) read = tree_set(&own, root, "solver", "explicit");
@@ -86,7 +86,7 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
 {
     TRY(provisional_read_any(r, text, length, s, 1));
-    const real spacing = given ? 0 : spacing_coarse(s);
+    const real spacing = given ? 0 : spacing_that_resolves(s);
     if (spacing > 0) {
         scene_free(s);
         TRY(provisional_read_any(r, text, length, s, spacing));
@@ -99,18 +99,18 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-status wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w)
+status pilot_wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w)
 {
-    const struct node *model = tree_at(root, "model"), *solver = tree_at(root, "solver");
-    const bool given = tree_at(root, "particles.spacing");
-    if (tree_at(root, "steps"))
-        return fault(r, tree_at(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
+    const struct node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");
+    const bool given = tree_find(root, "particles.spacing");
+    if (tree_find(root, "steps"))
+        return fault(r, tree_find(root, "method"), "auto does not do load steps (steps); pd, or adaptive, is expected");
     TRY(accuracy_read(r, root, w));
     TRY(provisional_scene(r, text, length, &w->provisional, given));
     if (given) w->spacing = w->provisional.spacing;
     if (model) snprintf(w->model, sizeof w->model, "%s", model->text);
     w->at_rest = solver && strcmp(solver->text, "explicit") != 0;
-    w->has_accuracy = tree_at(root, "accuracy") != NULL;
+    w->has_accuracy = tree_find(root, "accuracy") != NULL;
     w->wanted = true;
     return OK;
 }

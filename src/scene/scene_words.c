@@ -4,12 +4,12 @@
 #include "base/edit_distance.h"
 #include "scene_internal.h"
 
-bool word_length(real *value, const char *text, char *what, size_t room)
+bool length_read(real *value, const char *text, char *what, size_t room)
 {
     return number_read(value, text, UNIT_LENGTH, false, what, room);
 }
 
-bool word_time(real *value, const char *text, char *what, size_t room)
+bool time_read(real *value, const char *text, char *what, size_t room)
 {
     return number_read(value, text, UNIT_TIME, false, what, room);
 }

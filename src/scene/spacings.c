@@ -188,7 +188,7 @@ static double spacing_for(const struct scene *s, double particles)
     return pow(volume / particles, 1.0 / s->dim);
 }
 
-real spacing_coarse(const struct scene *s)
+real spacing_that_resolves(const struct scene *s)
 {
     double h = load_spacing(s);
     for (int b = 0; b < s->bodies; b++) h = fmin(h, body_spacing(s, &s->body[b].shape));

@@ -58,13 +58,13 @@ const struct simd_set simd_sets[] = {
 };
 const int simd_set_count = COUNT_OF(simd_sets);
 
-/* The kernels in use, under their own names. With simd_in_use the only selection of the program that is stored outside
- * of a run. */
+/* The kernels in use, under their own names. With simd_current_kernels the only selection of the program that is stored
+ * outside of a run. */
 #define DEFINE(name) __typeof__(&*name) name;
 KERNELS(DEFINE)
 static const struct simd_set *in_use;
 
-void simd_use(const struct simd_set *set)
+void simd_set_kernels(const struct simd_set *set)
 {
     INVARIANT(set->runs());
 #define TAKE(name) name = set->kernels->name;
@@ -72,7 +72,7 @@ void simd_use(const struct simd_set *set)
     in_use = set;
 }
 
-const struct simd_set *simd_in_use(void) { return in_use; }
+const struct simd_set *simd_current_kernels(void) { return in_use; }
 
 /* Lists the names of all sets, or of the supported ones (running), as in "avx2, portable". Returns text. */
 static const char *names(bool running, char *text, size_t size)
@@ -97,7 +97,7 @@ status simd_start(void)
     if (!widest)
         return status_set(REFUSED, "this build has kernels for other processors alone: %s; `make` builds the others",
                           names(false, text, sizeof text));
-    simd_use(wanted && wanted->runs() ? wanted : widest);
+    simd_set_kernels(wanted && wanted->runs() ? wanted : widest);
     if (!asked || in_use == wanted) return OK;
     if (!wanted)
         return status_set(REFUSED, "CLEAVE_SIMD=%s: no such set of kernels; there are: %s", asked,

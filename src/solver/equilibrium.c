@@ -100,7 +100,7 @@ static void dot_block(const void *context, int64_t first, int64_t end, real *sum
 /* Computes the product of a and b over free components, sum[0], and over held components, sum[1]. */
 static void dots(const struct equilibrium *q, const struct field *a, const struct field *b, real sum[2])
 {
-    team_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
+    reproducible_sums(q->n, 2, dot_block, &(struct product){q, a, b}, sum);
 }
 
 static real dot_free(const struct equilibrium *q, const struct field *a, const struct field *b)
@@ -135,7 +135,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
 static real dot_all(const struct equilibrium *q, const struct field *a, const struct field *b)
 {
     real sum;
-    team_sums(q->n, 1, plain_block, &(struct product){q, a, b}, &sum);
+    reproducible_sums(q->n, 1, plain_block, &(struct product){q, a, b}, &sum);
     return sum;
 }
 
@@ -156,7 +156,7 @@ static real difference_step(const struct equilibrium *q, const struct field *inc
 /* Computes out = K in at u with forces f: the decrease of forces along `in`, over its length. */
 static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
 {
-    const real most = solver_largest(in, q->dim, q->n);
+    const real most = solver_largest_component(in, q->dim, q->n);
     const real step = most > 0 ? difference_step(q, in, most) : 0;
     combine(q, &q->at, 1, &q->u, step, in);
     forces_at(q, &q->at, out);
@@ -170,7 +170,7 @@ static void stiffness(struct equilibrium *q, const struct field *in, struct fiel
  * difference. */
 static void strain_note(struct equilibrium *q, const struct field *d, real curvature)
 {
-    const real most = solver_largest(d, q->dim, q->n);
+    const real most = solver_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
@@ -194,7 +194,7 @@ static void equilibrium_measure(struct equilibrium *q)
 /* Computes the residual r = f - K x on free components, for the motion of supports and the initial guess x. */
 static void residual_of_guess(struct equilibrium *q)
 {
-    if (solver_largest(&q->x, q->dim, q->n) == 0) {
+    if (solver_largest_component(&q->x, q->dim, q->n) == 0) {
         combine(q, &q->r, 1, &q->f, 0, &q->f);
     } else {
         stiffness(q, &q->x, &q->q);
@@ -246,7 +246,7 @@ static void advance_block(const void *context, int64_t first, int64_t end, real 
 /* Extends x along d, a direction of negative stiffness, by a rotation of at most TURN_MOST. */
 static void follow_negative(struct equilibrium *q)
 {
-    const real most = solver_largest(&q->d, q->dim, q->n);
+    const real most = solver_largest_component(&q->d, q->dim, q->n);
     if (most > 0) combine(q, &q->x, 1, &q->x, TURN_MOST * turning_width(q, &q->d, most) / most, &q->d);
 }
 
@@ -275,7 +275,7 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
             break;
         }
         strain_note(q, &q->d, curvature);
-        team_sums(q->n, 1, advance_block, &(struct step){q, rz / curvature}, &left2);
+        reproducible_sums(q->n, 1, advance_block, &(struct step){q, rz / curvature}, &left2);
     }
 }
 
@@ -293,7 +293,7 @@ static void forces_along(struct equilibrium *q, real share)
  * prescribed increment is made in full. Stores the position in z and its forces in q. */
 static real line_search(struct equilibrium *q, real left, bool prescribed)
 {
-    const real push = dot_free(q, &q->f, &q->x), most = solver_largest(&q->x, q->dim, q->n);
+    const real push = dot_free(q, &q->f, &q->x), most = solver_largest_component(&q->x, q->dim, q->n);
     real share = q->reach > 0 && !prescribed && most > q->reach ? q->reach / most : 1, low = 0, high = 0, at_low = push;
     for (int k = 0; k < EVALUATIONS_MOST; k++) {
         forces_along(q, share);
@@ -380,7 +380,7 @@ static bool laws_settle(struct equilibrium *q)
 
 status equilibrium_find(struct equilibrium *q, const struct field *increment, bool moved)
 {
-    bool prescribed = moved && solver_largest(increment, q->dim, q->n) > 0;
+    bool prescribed = moved && solver_largest_component(increment, q->dim, q->n) > 0;
     combine(q, &q->x, prescribed, increment, 0, increment);
     combine(q, &q->before, 1, &q->f, 0, &q->f);
     real supports = prescribed ? 0.5 * dot_held(q, increment) : 0;

@@ -65,7 +65,7 @@ static status finest_make(struct level *l, const struct block_matrix *a, const u
     }
     for (int64_t i = 0; i < l->n; i++)
         if (l->scale[i] <= STIFFNESS_LEAST * most || (held[i] & all) == all) l->scale[i] = 0;
-    level_invert(l);
+    level_invert_blocks(l);
     return OK;
 }
 
@@ -111,7 +111,7 @@ static void coarse_diagonal(struct level *l)
     for (int64_t i = 0; i < l->n; i++)
         for (int64_t q = l->first[i]; q < l->first[i + 1]; q++)
             if (l->column[q] == i) array_copy(l->diagonal + i * size, l->block + q * size, size, sizeof(real));
-    level_invert(l);
+    level_invert_blocks(l);
 }
 
 /* Builds the next level; returns false if it would not have clearly fewer nodes. */
@@ -121,13 +121,13 @@ static bool coarsen(struct multigrid *m)
     level_aggregate(l);
     if (l->coarse == 0 || l->coarse > 0.7 * (real)l->n) return false;
     *next = (struct level){0};
-    level_modes(l, next);
-    level_transfer(l);
+    level_make_modes(l, next);
+    level_make_transfer(l);
     level_galerkin(l, next);
     level_unconstrained(l, next);
     coarse_diagonal(next);
     level_vectors(next);
-    level_largest(next);
+    level_estimate_largest(next);
     m->levels++;
     return true;
 }
@@ -144,7 +144,7 @@ status multigrid_make(struct multigrid **out, const struct block_matrix *a, real
     }
     finest_modes(&m->level[0], position);
     level_vectors(&m->level[0]);
-    level_largest(&m->level[0]);
+    level_estimate_largest(&m->level[0]);
     while (m->levels < LEVELS_MOST) {
         const struct level *l = &m->level[m->levels - 1];
         if (m->levels > 1 && l->n * l->width <= DENSE) break;

@@ -157,7 +157,7 @@ static void members_list(const struct level *l, int64_t *first, int32_t *member)
     memory_free(at);
 }
 
-void level_modes(struct level *l, struct level *next)
+void level_make_modes(struct level *l, struct level *next)
 {
     const int w = l->width, m = l->modes;
     int64_t *first = NEW("multigrid.members", l->coarse + 1, int64_t);

@@ -35,7 +35,7 @@ static void block_invert(const real *a, real *inverse, int w, unsigned held, rea
         for (int k = j + 1; k < w; k++) inverse[j * w + k] = inverse[k * w + j];
 }
 
-void level_invert(struct level *l)
+void level_invert_blocks(struct level *l)
 {
     const int size = l->width * l->width;
     l->inverse = NEW("multigrid.inverse", l->n * size, real);
@@ -124,7 +124,7 @@ static void lanczos_scale(struct level *l, real *sum)
             for (int c = 0; c < w; c++) d += l->inverse[(i * w + a) * w + c] * l->t[i * w + c];
             l->d[i * w + a] = d;
         }
-    team_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
+    reproducible_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
 }
 
 /* Computes y = -(d + a x + b y)/length and swaps x and y. */
@@ -138,7 +138,7 @@ static void lanczos_turn(struct level *l, real a, real b, real length)
 
 /* Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x = x . t with
  * t = K x. */
-void level_largest(struct level *l)
+void level_estimate_largest(struct level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];
     int n = 0;
@@ -156,5 +156,5 @@ void level_largest(struct level *l)
         a[n] = along = -sum[0];
         b[n] = length = sqrt(real_max(0, sum[1] - square(a[n]) - (n > 0 ? square(b[n - 1]) : 0)));
     }
-    l->largest = n > 0 ? real_max(1, LANCZOS_SHORT * largest_of_tridiagonal(a, b, n)) : 1;
+    l->largest = n > 0 ? real_max(1, LANCZOS_SHORT * tridiagonal_largest_eigenvalue(a, b, n)) : 1;
 }

@@ -104,7 +104,7 @@ static inline real pivot_least(const struct level *l, int64_t i)
 
 /* Computes l->inverse, the inverse of the diagonal block of each node of a level. Pivots without stiffness
  * (pivot_least) are replaced by the mean stiffness l->scale. */
-void level_invert(struct level *l);
+void level_invert_blocks(struct level *l);
 
 /* Finds the nodes of the next coarser level that belong to fragments without constrained nodes, from those of level l,
  * and stores them in next->unconstrained. */
@@ -112,7 +112,7 @@ void level_unconstrained(const struct level *l, struct level *next);
 
 /* Estimates l->largest, the largest eigenvalue of D^-1 K with the matrix K of level l and its diagonal blocks D, from
  * below by Lanczos iterations. */
-void level_largest(struct level *l);
+void level_estimate_largest(struct level *l);
 
 /* Groups the nodes of level l with their neighbours in the matrix into aggregates, each of which becomes a node of the
  * next coarser level: sets l->aggregate and l->coarse, the number of aggregates. */
@@ -120,11 +120,11 @@ void level_aggregate(struct level *l);
 
 /* Makes the rigid motions of the nodes of level l orthonormal within each aggregate (l->tentative), and sets number,
  * width, scale and rigid motions of the nodes of the next coarser level. */
-void level_modes(struct level *l, struct level *next);
+void level_make_modes(struct level *l, struct level *next);
 
 /* Computes the prolongation l->down from the next coarser level to level l, and its transpose l->up, the restriction:
  * the orthonormal rigid motions of aggregates, smoothed by one step with the matrix scaled by its diagonal. */
-void level_transfer(struct level *l);
+void level_make_transfer(struct level *l);
 
 /* Computes the matrix of the next coarser level by the Galerkin product: l->up times the matrix of level l times
  * l->down. */

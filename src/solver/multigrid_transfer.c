@@ -107,7 +107,7 @@ static void transfer_transpose(const struct level *l, const struct transfer *p, 
     memory_free(from);
 }
 
-void level_transfer(struct level *l)
+void level_make_transfer(struct level *l)
 {
     const real step = 4 / (3 * l->largest);
     down_pattern(l);

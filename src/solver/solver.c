@@ -6,11 +6,11 @@
 
 void solver_bond_force(const struct static_body *body)
 {
-    loads_mirror(body->loads, body->part);
+    loads_update_images(body->loads, body->part);
     bond_forces(body->force, body->bonds, body->part, &bond_limit_never, NULL);
 }
 
-real solver_largest(const struct field *v, int dim, int64_t n)
+real solver_largest_component(const struct field *v, int dim, int64_t n)
 {
     real most = 0;
     for (int d = 0; d < dim; d++) {
@@ -29,7 +29,7 @@ real solver_largest(const struct field *v, int dim, int64_t n)
 void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio)
 {
     struct particles *p = body->part;
-    const real most = solver_largest(in, p->dim, p->n);
+    const real most = solver_largest_component(in, p->dim, p->n);
     const real s = most > 0 ? TANGENT_STRAIN / (strain_ratio * most) : 0;
     for (int sign = 1; sign >= -1; sign -= 2) {
 #pragma omp parallel for schedule(static)
@@ -57,13 +57,13 @@ static void solver_force_block(const void *context, int64_t first, int64_t end, 
         for (int64_t i = first; i < end; i++) sum[f->held[i] >> d & 1] += square(f->part->f[d][i]);
 }
 
-void solver_norms(const struct solver *s, const struct particles *p, real *norm)
+void solver_force_norms(const struct solver *s, const struct particles *p, real *norm)
 {
-    team_sums(p->n, 2, solver_force_block, &(struct constrained_forces){p, s->held}, norm);
+    reproducible_sums(p->n, 2, solver_force_block, &(struct constrained_forces){p, s->held}, norm);
     norm[0] = sqrt(norm[0]), norm[1] = sqrt(norm[1]);
 }
 
-void solver_scale(struct solver *s, real reaction, real left)
+void solver_set_residual(struct solver *s, real reaction, real left)
 {
     s->scale = real_max(s->applied, reaction);
     /* without loads the scale is the initial residual */
@@ -72,9 +72,9 @@ void solver_scale(struct solver *s, real reaction, real left)
     s->residual = rests ? 0 : left / s->scale;
 }
 
-void solver_measure(struct solver *s, const struct particles *p)
+void solver_compute_residual(struct solver *s, const struct particles *p)
 {
     real norm[2];
-    solver_norms(s, p, norm);
-    solver_scale(s, norm[1], norm[0]);
+    solver_force_norms(s, p, norm);
+    solver_set_residual(s, norm[1], norm[0]);
 }

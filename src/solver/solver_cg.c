@@ -60,13 +60,13 @@ static void true_residual(struct solver *s, const struct static_body *body)
     struct particles *p = body->part;
     real energy;
     solver_tangent(body, &s->u, &s->q, s->u_ratio);
-    team_sums(s->n, 1, energy_block, s, &energy);
-    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / solver_largest(&s->u, s->dim, s->n);
+    reproducible_sums(s->n, 1, energy_block, s, &energy);
+    if (energy > 0) s->u_ratio = sqrt(energy / unit_energy(body)) / solver_largest_component(&s->u, s->dim, s->n);
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->f[d][i] = -s->q.of[d][i];
-    loads_static_force(body->loads, p);
-    solver_measure(s, p);
-    loads_static_hold(body->loads, p);
+    loads_add_static_forces(body->loads, p);
+    solver_compute_residual(s, p);
+    loads_collect_static_reactions(body->loads, p);
 }
 
 /* Sets r = part.f and restarts the search directions. */
@@ -78,7 +78,7 @@ static void restart(struct solver *s, const struct particles *p)
             s->r.of[d][i] = is_constrained(s, i, d) ? 0 : p->f[d][i];
             s->d.of[d][i] = s->r.of[d][i] / s->diagonal[i];
         }
-    team_sums(s->n, 2, residual_block, s, sum);
+    reproducible_sums(s->n, 2, residual_block, s, sum);
     s->rz = sum[0];
 }
 
@@ -105,7 +105,7 @@ static real solver_cg_advance(struct solver *s, real alpha)
             if (!is_constrained(s, i, d)) s->r.of[d][i] -= alpha * s->q.of[d][i];
         }
     }
-    team_sums(s->n, 2, residual_block, s, sum);
+    reproducible_sums(s->n, 2, residual_block, s, sum);
     const real beta = sum[0] / s->rz;
     s->rz = sum[0];
     for (int d = 0; d < s->dim; d++) {
@@ -153,13 +153,13 @@ status cg_step(struct solver *s, const struct static_body *body, int64_t step, b
         if (s->rz == 0) return check(s, body, step, 0, done);
     }
     solver_tangent(body, &s->d, &s->q, s->strain_ratio);
-    team_sums(s->n, 1, curvature_block, s, &curvature);
+    reproducible_sums(s->n, 1, curvature_block, s, &curvature);
     if (!(curvature > 0))
         return status_set(FAILED,
                           "conjugate gradients at step %lld: the body moves without resistance: check that every part "
                           "is held, or bonded to a part that is held",
                           (long long)step);
-    s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest(&s->d, s->dim, s->n);
+    s->strain_ratio = sqrt(curvature / unit_energy(body)) / solver_largest_component(&s->d, s->dim, s->n);
     const real left = sqrt(solver_cg_advance(s, s->rz / curvature));
     s->residual = left / s->scale;
     const bool claimed = left <= 0.9 * body->tolerance * s->scale;

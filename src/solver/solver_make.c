@@ -54,7 +54,7 @@ static void make_diagonal(struct solver *s, const struct static_body *body)
     real most = 0;
     struct field kept = {{0}};
     for (int64_t r = 0; r < b->rows; r++) {
-        s->diagonal[b->particle[r]] = 0.25 * bonds_row_bound(b, p, r);
+        s->diagonal[b->particle[r]] = 0.25 * bonds_row_stiffness_bound(b, p, r);
         most = real_max(most, s->diagonal[b->particle[r]]);
     }
     for (int64_t i = 0; i < p->n; i++)
@@ -94,8 +94,8 @@ static void make_weights(struct solver *s, const struct static_body *body)
  * spacing per step: over as many steps as the body has spacings, supports strain bonds about as much as the body. */
 static int64_t supports_ramp(const struct solver *s, const struct static_body *body)
 {
-    const real most = solver_largest(&s->driven, s->dim, s->n);
-    return most > 0 ? 1 + (int64_t)(particles_longest(body->part) / body->spacing) : 0;
+    const real most = solver_largest_component(&s->driven, s->dim, s->n);
+    return most > 0 ? 1 + (int64_t)(particles_longest_edge(body->part) / body->spacing) : 0;
 }
 
 /* Computes the norm of the applied forces on free components, s->applied [N]. */
@@ -104,8 +104,8 @@ static void make_applied(struct solver *s, const struct static_body *body)
     struct particles *p = body->part;
     real norm[2];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
-    loads_static_force(body->loads, p);
-    solver_norms(s, p, norm);
+    loads_add_static_forces(body->loads, p);
+    solver_force_norms(s, p, norm);
     s->applied = norm[0];
     for (int d = 0; d < p->dim; d++) array_fill_bytes(p->f[d], 0, p->n, sizeof(real));
 }
@@ -156,7 +156,7 @@ static status loads_balanced(const struct static_body *body)
     for (int d = 0; d < body->part->dim; d++) TRY(force_balanced(l, d));
     if (body->part->dim != 2 || body->bodies != 1 || component_constrained(l, 0) || component_constrained(l, 1))
         return OK;
-    const real turning = loads_static_balance(l, body->part);
+    const real turning = loads_add_inertia_relief(l, body->part);
     if (turning <= TURNING_MOST) return OK;
     return status_set(REFUSED,
                       "nothing keeps the body from turning under loads whose moment is %.3g of what they could make; "
@@ -173,7 +173,7 @@ status solver_make(struct solver *s, const struct static_body *body, real ramp_t
     s->held = NEW("solver.held", s->n, uint8_t);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(p->v[d], 0, s->n, sizeof(real));
     field_make(&s->driven, s->dim, s->n);
-    loads_static_driven(body->loads, p, s->ramp_time, s->driven.of, s->held);
+    loads_static_displacements(body->loads, p, s->ramp_time, s->driven.of, s->held);
     TRY(loads_balanced(body));
     make_applied(s, body);
     return OK;

@@ -16,10 +16,10 @@ void solver_tangent(const struct static_body *body, const struct field *in, stru
 
 /* Computes the Euclidean norms of the forces p->f [N]: norm[0] over free components, norm[1] over constrained
  * components. */
-void solver_norms(const struct solver *s, const struct particles *p, real *norm);
+void solver_force_norms(const struct solver *s, const struct particles *p, real *norm);
 
-/* Computes residual and scale of a static solution (solver_scale) from the forces p->f: the norm over free components
- * is the residual force, over constrained components the reaction. */
-void solver_measure(struct solver *s, const struct particles *p);
+/* Computes residual and scale of a static solution (solver_set_residual) from the forces p->f: the norm over free
+ * components is the residual force, over constrained components the reaction. */
+void solver_compute_residual(struct solver *s, const struct particles *p);
 
 #endif

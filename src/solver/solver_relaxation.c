@@ -68,10 +68,10 @@ status relaxation_step(struct solver *s, const struct static_body *body, int64_t
     real sum[3];
     supports_move(s, p, step);
     solver_bond_force(body);
-    loads_static_force(body->loads, p);
-    solver_measure(s, p);
-    loads_static_hold(body->loads, p);
-    team_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
+    loads_add_static_forces(body->loads, p);
+    solver_compute_residual(s, p);
+    loads_collect_static_reactions(body->loads, p);
+    reproducible_sums(p->n, 3, damping_block, &(struct relaxing){s, p}, sum);
     /* forces are also small when a body oscillates through its equilibrium: the speed must be small, too */
     s->farthest = real_max(s->farthest, sqrt(sum[1]));
     *done = step >= s->ramp && s->residual <= body->tolerance &&

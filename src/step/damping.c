@@ -63,7 +63,7 @@ static void slow_block(const void *context, int64_t first, int64_t end, real *su
 /* Returns c dt of a step, at most EXPONENT_MOST [1]. */
 static real capped(real decay) { return real_min(decay, EXPONENT_MOST); }
 
-real damping_share(real decay) { return exp(-0.5 * capped(decay)); }
+real damping_factor(real decay) { return exp(-0.5 * capped(decay)); }
 
 /* Fills all[0] with the particles and all[1] with the nodes of the mesh; returns 2, or 1 if the mesh has no points.
  * factor: of their velocities [1]. */
@@ -83,23 +83,23 @@ static real slow_all(struct particles *p, const struct mesh *mesh, struct loads 
     const int kinds = damped_find(p, mesh, factor, all);
     for (int k = 0; k < kinds; k++) {
         real sum[DIM_MAX + 1];
-        team_sums(all[k].n, DIM_MAX + 1, slow_block, &all[k], sum);
+        reproducible_sums(all[k].n, DIM_MAX + 1, slow_block, &all[k], sum);
         for (int d = 0; d < p->dim; d++) l->impulse[d] -= sum[d];
         kinetic += sum[DIM_MAX];
     }
     for (int c = 0; c < square(p->dim) && p->gradient[c]; c++) /* velocity gradients of APIC */
         for (int64_t i = 0; i < p->n; i++) p->gradient[c][i] *= factor;
-    loads_mirror(l, p);
+    loads_update_images(l, p);
     return kinetic;
 }
 
-real damping_start(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+real damping_apply_first(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
-    const real share = damping_share(decay);
+    const real share = damping_factor(decay);
     return (1 - share) * slow_all(p, mesh, l, share);
 }
 
-void damping_keep(struct damping_state *s, const struct particles *p, const struct mesh *mesh)
+void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh)
 {
     struct damped all[2];
     const int kinds = damped_find(p, mesh, 1, all);
@@ -117,18 +117,18 @@ real damping_loss(const struct damping_state *s, const struct particles *p, cons
     const int kinds = damped_find(p, mesh, exp(-capped(decay)), all);
     for (int k = 0; k < kinds; k++) {
         all[k].before = s->before[k];
-        team_sums(all[k].n, 1, loss_block, &all[k], &sum), loss += sum;
+        reproducible_sums(all[k].n, 1, loss_block, &all[k], &sum), loss += sum;
     }
-    return loss / damping_share(decay);
+    return loss / damping_factor(decay);
 }
 
-real damping_last(real decay, real kinetic_before, real kinetic)
+real damping_last_loss(real decay, real kinetic_before, real kinetic)
 {
     const real grown = exp(capped(decay));
-    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_share(decay);
+    return (grown - 1) * (grown * kinetic_before + kinetic) / damping_factor(decay);
 }
 
-void damping_end(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
+void damping_apply(struct particles *p, const struct mesh *mesh, struct loads *l, real decay)
 {
     slow_all(p, mesh, l, exp(-capped(decay)));
 }

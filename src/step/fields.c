@@ -72,8 +72,8 @@ static void gradient_of_points(const struct particles *p, const struct bond_sour
     for (int k = 0; k < near->n; k++) {
         const int64_t j = near->at[k];
         const bool torn = p->kind[j] == KIND_PD && p->damage[j] > 0;
-        if (p->body[j] != p->body[i] || torn || cracks_part(source->crack, source->cracks, p, i, j) ||
-            voids_part(source->voids, p, i, j))
+        if (p->body[j] != p->body[i] || torn || cracks_separate_particles(source->crack, source->cracks, p, i, j) ||
+            void_separates_particles(source->voids, p, i, j))
             continue;
         gradient_add(&sum, p, i, j);
     }
@@ -100,7 +100,7 @@ static void gradients_make(const struct run *e, real **H)
             if (p->kind[i] == KIND_PD)
                 gradient_of_bonds(&e->bonds, p, i, H);
             else if (!in_mesh(e->frame, i)) {
-                near_find(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
+                particles_find_near(&near, &e->cells, p, i, NEAR_REACH * e->scene->spacing, false);
                 gradient_of_points(p, &e->source, &near, i, H);
             }
         memory_free(near.at);
@@ -165,7 +165,7 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
-void fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
+void frame_fields_compute(struct run *e, unsigned asked, struct frame_extra *extra)
 {
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;
     if (asked & (ASK_STRAIN | ASK_DENSITY)) gradients_make(e, extra->state.gradient);
@@ -178,7 +178,7 @@ void fields_make(struct run *e, unsigned asked, struct frame_extra *extra)
     if (asked & ASK_LEVEL) extra->more_state.level = point_levels_make(e->frame, e->scene);
 }
 
-void fields_free(struct frame_extra *extra)
+void frame_fields_free(struct frame_extra *extra)
 {
     for (int k = 0; k < DIM_MAX * DIM_MAX; k++) memory_free(extra->state.gradient[k]);
     memory_free(extra->state.plastic_work);

@@ -38,7 +38,7 @@ static int64_t due_step(const struct run_clock *clock, int64_t k, int64_t n)
     return common_step(clock, k * (clock->steps / n) + (k * (clock->steps % n) + n / 2) / n);
 }
 
-int64_t report_frames(const struct scene *s, const struct run_clock *clock)
+int64_t report_count_frames(const struct scene *s, const struct run_clock *clock)
 {
     const int64_t most = clock->steps / clock->stride;
     return s->frames < most ? s->frames : most;
@@ -49,7 +49,7 @@ int64_t report_frames(const struct scene *s, const struct run_clock *clock)
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
-    const int64_t n = report_frames(s, clock);
+    const int64_t n = report_count_frames(s, clock);
     if ((times->n == 0 && s->every == 0) || k < 1) return due_step(clock, k, n);
     const real time = k > n ? 0 : s->every > 0 ? real_min((real)k * s->every, s->duration) : times->value[k - 1];
     int64_t step = k <= n ? (int64_t)floor(time / clock->dt + 0.5) : clock->steps, last = clock->steps - (n - k);
@@ -87,7 +87,7 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
 /* Returns true if frame number `frames` of the body is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
-    return frames <= report_frames(s, clock) && step >= report_frame_step(s, clock, frames);
+    return frames <= report_count_frames(s, clock) && step >= report_frame_step(s, clock, frames);
 }
 
 /* Returns true if frame number `frames` of a region is due after `step` steps. If several frames are due in one
@@ -127,23 +127,23 @@ static status write_frames(struct run *e, unsigned due)
     unsigned asked = 0;
     status s = OK;
     if (e->frame->shown.part.n > 0) TRY(output_wait(out)); /* the writer may still read the points */
-    run_sync(e);
+    run_update_particles(e);
     TRY(frame_sound(&e->clock, &e->part));
     if (parts) fragments_find(&fragments, &e->bonds, &e->part);
     for (int k = 0; k <= out->n_series; k++)
         if (due >> k & 1) asked |= asked_of(e->scene, k);
     struct frame_extra extra = {.push = e->contact->push[0] ? e->contact->push : NULL, .fragment = fragments.of};
-    if (frame_hollow_points(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
+    if (frame_hollow_make_points(e->frame, &e->part, e->scene->material, asked & (ASK_STRAIN | ASK_DENSITY))) {
         extra.more = &e->frame->shown.part, extra.more_spacing = e->frame->shown.spacing;
         extra.spacing = e->scene->spacing;
     }
-    fields_make(e, asked, &extra);
+    frame_fields_compute(e, asked, &extra);
     for (int k = 0; k <= out->n_series && s == OK; k++) {
         if (!(due >> k & 1)) continue;
         extra.asked = asked_of(e->scene, k);
         s = output_frame_begin(out, k, &e->part, &extra, e->clock.t, e->clock.step, e->scene->text);
     }
-    fields_free(&extra);
+    frame_fields_free(&extra);
     fragments_free(&fragments);
     const struct observed seen = run_observed(e);
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
@@ -152,17 +152,17 @@ static status write_frames(struct run *e, unsigned due)
 /* Writes a checkpoint and stores the time that it took. */
 static status write_checkpoint(struct run *e)
 {
-    frame_sync(e->frame, &e->part, &e->loads);
-    e->report->last_checkpoint = team_clock();
+    frame_update_points(e->frame, &e->part, &e->loads);
+    e->report->last_checkpoint = wall_clock();
     TRY(checkpoint_write(e->report->out, e->scene->text, e->save, e));
-    e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, team_clock() - e->report->last_checkpoint);
+    e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, wall_clock() - e->report->last_checkpoint);
     return OK;
 }
 
 /* Returns true if the wall time left is less than twice the time of the longest checkpoint. */
 static bool wall_is_over(const struct scene *s, const struct run_report *report)
 {
-    return team_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
+    return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
 /* Warns of frames and profiles of a resumed run that are missing. FAILED if the frames cannot be read. */
@@ -171,7 +171,7 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
     char text[PATH_NAME_ROOM + 200];
     int lost;
     TRY(output_frames_check(out, &lost, text, sizeof text));
-    if (lost > 0) warnings_say(to, text);
+    if (lost > 0) warnings_add_and_print(to, text);
     profiles_check(probes, out, to);
     return OK;
 }
@@ -179,14 +179,14 @@ static status say_lost(struct output *out, const struct probes *probes, struct w
 status report_start(struct run *e)
 {
     struct run_report *r = e->report;
-    r->started = r->last_progress = r->last_checkpoint = team_clock();
+    r->started = r->last_progress = r->last_checkpoint = wall_clock();
     r->step_started = e->clock.step;
     r->loop_before = r->loop_seconds;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
     TRY(sample_start(e, resumed));
     if (!r->out) return OK;
-    contact_record(e->contact, &e->part);
+    contact_allocate_forces(e->contact, &e->part);
     if (resumed) return say_lost(r->out, &e->probing->probes, &e->warnings);
     profiles_remove(&e->probing->probes, r->out);
     TRY(write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) |
@@ -211,7 +211,7 @@ static void duration_text(char *text, size_t size, double seconds)
 static void progress(struct run *e, bool last)
 {
     bool terminal = isatty(STDERR_FILENO);
-    double now = team_clock();
+    double now = wall_clock();
     if (e->report->quiet ||
         (!last && now - e->report->last_progress < (terminal ? PROGRESS_SECONDS : PROGRESS_SECONDS_FILE)))
         return;
@@ -250,18 +250,18 @@ status report_step(struct run *e)
     r->particle_steps[KIND_MPM] += e->part.n_of[KIND_MPM];
     r->bond_visits += e->bonds.n;
     r->inactive += report_inactive_share(&e->bonds, &e->frame->mesh, &e->part);
-    timer_book(&e->timers, TIMER_SAMPLE);
+    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
     /* before the checkpoint, so that a finished run is complete */
-    if (last && !in_steps) sample_last(e);
+    if (last && !in_steps) sample_final(e);
     TRY(r->history_status);
     TRY(energy_check(e));
-    if (last) say_balance(e);
-    if (last || in_steps) say_yielding(r, &e->bonds, e->scene, &e->warnings);
+    if (last) warn_of_imbalance(e);
+    if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
     if (r->out) {
         const unsigned due = report_frames_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
-        if (stop || in_steps || team_clock() - r->last_checkpoint > e->scene->checkpoint_interval)
+        if (stop || in_steps || wall_clock() - r->last_checkpoint > e->scene->checkpoint_interval)
             TRY(write_checkpoint(e));
         if (stop && !last)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
@@ -269,7 +269,7 @@ status report_step(struct run *e)
                               (long long)e->clock.steps);
     }
     progress(e, false);
-    timer_book(&e->timers, TIMER_OUTPUT);
+    timer_add_elapsed(&e->timers, TIMER_OUTPUT);
     r->loop_seconds = r->loop_before - e->timers.spent[TIMER_OUTPUT];
     for (int k = 0; k < TIMERS; k++) r->loop_seconds += e->timers.spent[k];
     return OK;

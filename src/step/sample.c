@@ -56,7 +56,7 @@ static real inactive_since_sample(const struct run_clock *clock, struct run_repo
 }
 
 /* Returns true if angular momentum must be conserved: no boundary, rigid body or damping acts on the bodies. False
- * also with coarse cells, whose nodes diagnostics_spin does not read. */
+ * also with coarse cells, whose nodes diagnostics_angular_momentum does not read. */
 static bool is_free(const struct scene *s, const struct reference_frame *frame)
 {
     return s->dim > 1 && scene_moves(s) && s->boundaries == 0 && s->rigids == 0 && s->damping == 0 &&
@@ -155,10 +155,10 @@ static bool wants_stress(const struct scene *s)
     return false;
 }
 
-void run_sync(struct run *e)
+void run_update_particles(struct run *e)
 {
-    frame_sync(e->frame, &e->part, &e->loads);
-    run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    frame_update_points(e->frame, &e->part, &e->loads);
+    compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
 }
 
 /* Returns true if a probe reads the motion of particles, so that points of a mesh are synchronised. Damage and bonds
@@ -176,7 +176,7 @@ static bool wants_motion(const struct scene *s)
 /* Returns the kinetic energy of particles and of nodes of meshes [J]. */
 static real kinetic_now(const struct particles *p, const struct reference_frame *reference)
 {
-    return diagnostics_kinetic(p) + frame_kinetic(reference);
+    return particles_kinetic_energy(p) + frame_kinetic_energy(reference);
 }
 
 /* Lists the grids of the reference frame and of its coarse cells, whose nodes carry momentum; returns their number. */
@@ -193,7 +193,7 @@ static void momentum_now(const struct particles *p, const struct reference_frame
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(frame, nodes);
-    diagnostics_momentum_of(p, nodes, grids, momentum);
+    particles_linear_momentum(p, nodes, grids, momentum);
 }
 
 /* Interpolates the momentum of a sample linearly to its time t [s]. momentum: after the step on entry, at t on
@@ -209,21 +209,22 @@ static void sample_state(struct run *e)
 {
     const struct grid *nodes[LEVELS_MAX + 1];
     const int grids = meshes(e->frame, nodes);
-    if (wants_stress(e->scene)) run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
-    rigids_keep(e->rigid, e->clock.t);
+    if (wants_stress(e->scene)) compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+    rigids_store_motion(e->rigid, e->clock.t);
     diagnostics_momentum(e->diagnostics, &e->part, nodes, grids, e->loads.impulse);
     if (is_free(e->scene, e->frame))
-        diagnostics_spin(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
-                         e->scene->bodies);
-    tips_sample(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
+        diagnostics_angular_momentum(e->diagnostics, &e->part, e->frame->mesh.points > 0 ? &e->frame->mesh : NULL,
+                                     e->scene->bodies);
+    tips_update(&e->fracture->tips, &e->part, &e->cells, e->clock.t);
     struct observed o = run_observed(e);
     probes_sample(&e->probing->probes, &o);
 }
 
-real sample_strain(struct run *e)
+real sample_strain_energy(struct run *e)
 {
     return e->kernels.bond_energy(&e->bonds, &e->part) +
-           diagnostics_strain(&e->part, e->scene->material, &e->coupling->partial) + frame_strain(e->frame, &e->part);
+           points_strain_energy(&e->part, e->scene->material, &e->coupling->partial) +
+           frame_strain_energy(e->frame, &e->part);
 }
 
 /* Computes the energies of a sample at the present positions, except the kinetic energy [J]. */
@@ -232,8 +233,8 @@ static void sample_energies(struct run *e)
     const struct material *m = e->scene->material;
     e->report->sampling.pd = e->part.n_of[KIND_PD], e->report->sampling.bonds = e->bonds.n;
     e->report->sampling.energy = (struct energy){
-        .strain = sample_strain(e),
-        .plastic = bond_plastic_work(&e->bonds) + diagnostics_plastic(&e->part, m, &e->coupling->partial),
+        .strain = sample_strain_energy(e),
+        .plastic = bond_plastic_work(&e->bonds) + points_plastic_work(&e->part, m, &e->coupling->partial),
         .fracture = bonds_fracture_energy(&e->bonds),
         .contact = contact_energy(e->contact, &e->part),
         .damped = e->damped + contact_friction_work(e->contact),
@@ -247,7 +248,7 @@ static void sample_energies(struct run *e)
 static void sample_write(struct run *e, const struct velocity_time *now, real kinetic, real work)
 {
     struct sampling *sampling = &e->report->sampling;
-    if (wants_motion(e->scene)) frame_sync(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) frame_update_points(e->frame, &e->part, &e->loads);
     struct observed o = run_observed(e);
     probes_sample_end(&e->probing->probes, &o, now);
     if (scene_moves(e->scene)) {
@@ -257,10 +258,10 @@ static void sample_write(struct run *e, const struct velocity_time *now, real ki
     sampling->energy.kinetic = kinetic;
     e->stability->lost = !isfinite(energy_sum(&sampling->energy) + work);
     if (e->stability->lost) return; /* no line is written; energy_check reports the failure */
-    diagnostics_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
+    diagnostics_energy_balance(e->diagnostics, e->clock.t, &sampling->energy, work);
     fill_record(e);
     if (e->report->out && e->report->history_status == OK)
-        e->report->history_status = output_history(e->report->out, e->report->record);
+        e->report->history_status = output_write_history(e->report->out, e->report->record);
 }
 
 /* Stores the velocities at the start of a step if points are on the grid: grid forces reach points only as changes
@@ -275,13 +276,13 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
 }
 
 /* Returns the mean of the kinetic energies before and after a step minus 1/2 m v_before . v_after [J]
- * (diagnostics_kick). The part of absorbing faces, whose dashpots act during the kick, is subtracted. */
+ * (particles_kick_energy). The part of absorbing faces, whose dashpots act during the kick, is subtracted. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
     const real dt = e->grid->transfer.dt_velocity;
-    return diagnostics_kick(&e->part, grid ? e->report->sampling.before : NULL, dt) + mesh_kick(&e->frame->mesh, dt) +
-           levels_kick(&e->frame->levels, dt) - e->loads.absorbing.kick;
+    return particles_kick_energy(&e->part, grid ? e->report->sampling.before : NULL, dt) +
+           mesh_kick(&e->frame->mesh, dt) + levels_kick_energy(&e->frame->levels, dt) - e->loads.absorbing.kick;
 }
 
 void sample_begin(struct run *e)
@@ -292,13 +293,13 @@ void sample_begin(struct run *e)
     sampling->constraint_work = e->loads.constraint_work;
     sampling->absorbed = e->loads.absorbing.energy;
     if (!sampling->due && e->clock.step < e->clock.steps - 1) return;
-    if (wants_motion(e->scene)) frame_sync(e->frame, &e->part, &e->loads);
+    if (wants_motion(e->scene)) frame_update_points(e->frame, &e->part, &e->loads);
     if (sampling->due)
-        sample_state(e), rigids_meet(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
+        sample_state(e), rigids_warn_of_overlap(e->rigid, e->scene->spacing, e->clock.t, &e->warnings);
     else if (wants_stress(e->scene))
-        run_stress(&e->bonds, &e->part, &e->source, &e->kernels);
+        compute_bond_stress(&e->bonds, &e->part, &e->source, &e->kernels);
     struct observed o = run_observed(e);
-    probes_keep(&e->probing->probes, &o);
+    probes_store_motion(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
     sampling->t_velocity = o.t_velocity;
     momentum_now(&e->part, e->frame, sampling->momentum);
@@ -334,7 +335,7 @@ void sample_end(struct run *e)
 {
     struct sampling *sampling = &e->report->sampling;
     const bool first = e->clock.step == 0;
-    const real share = damping_share(e->scene->damping * e->clock.dt);
+    const real share = damping_factor(e->scene->damping * e->clock.dt);
     const struct velocity_time now = {e->clock.t + 0.5 * e->clock.dt, first ? 1 : 1 / share};
     if (!sampling->due) return;
     if (first) { /* the stored velocities are of t = 0, and nothing is damped yet */
@@ -348,12 +349,12 @@ void sample_end(struct run *e)
     sampling->energy.damped += e->grid->contact.begun;
     sampling->energy.absorbed = 0.5 * (sampling->absorbed + e->loads.absorbing.energy);
     const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
-    rigids_mean(e->rigid);
+    rigids_average_velocities(e->rigid);
     sample_write(e, &now, kinetic / share + rigid.step,
                  sampling->work + sampling->rigid_work + 0.5 * (sampling->constraint_work + e->loads.constraint_work));
 }
 
-void sample_rest(struct run *e)
+void sample_equilibrium(struct run *e)
 {
     sample_state(e);
     sample_energies(e);
@@ -404,10 +405,10 @@ static void reactions_add(struct loads *l, const struct grid *g)
 static void reactions_at_end(struct loads *l, const struct grid_method *grid, const struct reference_frame *frame,
                              const struct run_clock *clock)
 {
-    for (int k = 0; grid && k < grid->fields; k++) loads_react(l, &grid->field[k].grid, clock->dt);
+    for (int k = 0; grid && k < grid->fields; k++) loads_add_reactions(l, &grid->field[k].grid, clock->dt);
     if (frame->mesh.points == 0) return;
     reactions_add(l, &frame->mesh.grid);
-    for (int level = 1; level <= levels_due(&frame->levels, clock->step); level++)
+    for (int level = 1; level <= levels_highest_due(&frame->levels, clock->step); level++)
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
@@ -418,15 +419,15 @@ static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
     const real before = e->loads.constraint_work, kick = e->loads.absorbing.kick;
-    const real dt_velocity = e->clock.dt * damping_share(e->scene->damping * e->clock.dt);
+    const real dt_velocity = e->clock.dt * damping_factor(e->scene->damping * e->clock.dt);
     memory_archive_make(&accounts, ARCHIVE_ACCOUNTS);
     INVARIANT(loads_archive(&e->loads, &accounts.archive) == OK);
     e->loads.absorbing.idle = e->loads.ended = true;
-    loads_clear(&e->loads, &e->part);
+    loads_clear_forces(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &bond_limit_never, NULL);
     contact_force(e->contact, &e->part, 0);
-    loads_apply(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
-    if (e->frame->mesh.points > 0) frame_force(e->frame, &e->part, e->clock.step);
+    loads_complete_forces(&e->loads, &e->part, e->clock.t + 0.5 * e->clock.dt, e->clock.dt, dt_velocity);
+    if (e->frame->mesh.points > 0) frame_compute_forces(e->frame, &e->part, e->clock.step);
     const real power = power_now(&e->part, e->frame) + grid_power(e, e->clock.t + 0.5 * e->clock.dt);
     const real walls = power_of_walls(e->frame);
     *held = e->loads.constraint_work - before - e->clock.dt * walls;
@@ -442,30 +443,30 @@ static real power_last(struct run *e, real *held)
 
 /* Uses 1/2 m v- . v+ as the kinetic energy, as in all samples; v+ is the velocity after a kick by the forces at the
  * end, which no motion follows. */
-void sample_last(struct run *e)
+void sample_final(struct run *e)
 {
     real held = 0;
     states_precompute(&e->bonds, &e->part, &e->source);
-    frame_sync(e->frame, &e->part, &e->loads); /* positions, velocities and stresses of points of the mesh */
+    frame_update_points(e->frame, &e->part, &e->loads); /* positions, velocities and stresses of points of the mesh */
     sample_state(e);
     sample_energies(e);
     real kinetic = kinetic_now(&e->part, e->frame);
     const real before = kinetic;
-    const real decay = e->scene->damping * e->clock.dt, share = damping_share(decay), kick = e->clock.dt * share;
+    const real decay = e->scene->damping * e->clock.dt, share = damping_factor(decay), kick = e->clock.dt * share;
     if (scene_moves(e->scene)) kinetic += 0.5 * kick * power_last(e, &held);
-    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last(decay, before, kinetic);
+    if (e->clock.step > 0) e->report->sampling.energy.damped += damping_last_loss(decay, before, kinetic);
     e->report->sampling.energy.damped += e->grid->contact.begun;
     const struct rigid_energy rigid = rigids_energy(e->rigid, e->clock.dt);
     const struct velocity_time now = {e->clock.t - 0.5 * e->clock.dt, 1 / square(share)};
-    rigids_kick(e->rigid, e->clock.t, e->clock.dt);
+    rigids_extrapolate_velocities(e->rigid, e->clock.t, e->clock.dt);
     sample_write(e, &now, kinetic / share + rigid.last,
                  e->loads.work + e->loads.constraint_work + rigid.work + 0.5 * held);
 }
 
-void sample_probes(struct run *e)
+void sample_update_probes(struct run *e)
 {
     struct observed o = run_observed(e);
-    probes_step(&e->probing->probes, &o);
+    probes_update_step(&e->probing->probes, &o);
 }
 
 /* Warns that the first bonds of driven particles break, and names the first boundary that drives such particles.
@@ -487,10 +488,10 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
              "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
              "more; they count as crack.driven_bonds, not in crack.start_time and probes",
              name, others > 0 ? " and others" : "", when);
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
 }
 
-void sample_breaks(struct run *e, int64_t broken)
+void sample_record_breaks(struct run *e, int64_t broken)
 {
     /* a load step breaks bonds before its end, but is recorded at its end */
     const bool in_steps = scene_in_steps(e->scene);
@@ -502,9 +503,9 @@ void sample_breaks(struct run *e, int64_t broken)
         snprintf(when, sizeof when, "in load step %lld", (long long)e->clock.load_step);
     else
         snprintf(when, sizeof when, "at %.4g s", t);
-    if (diagnostics_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t))
+    if (diagnostics_record_breaks(e->diagnostics, &e->part, e->source.family.horizon, broken, t))
         say_torn(&e->warnings, &e->loads, &e->part, when);
-    if (scene_moves(e->scene)) sample_probes(e);
+    if (scene_moves(e->scene)) sample_update_probes(e);
     o.t = t;
-    if (in_steps && broken > 0) probes_breaks(&e->probing->probes, &o);
+    if (in_steps && broken > 0) probes_update_breaks(&e->probing->probes, &o);
 }

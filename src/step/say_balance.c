@@ -25,7 +25,7 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
         "bonds released %.3g J more than they held when they broke (energy.fracture %.3g): with model %s, particles "
         "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
         released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
 }
 
 #define SPIN_DOUBTFUL 0.01 /* relative error of angular momentum that is reported */
@@ -41,7 +41,7 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
              "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s",
              error < 0.095, 100 * error,
              apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "");
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
 }
 
 /* Returns true if interface damping acts and nothing else in a moving scene damps. */
@@ -59,14 +59,14 @@ static void say_damped(real share, struct warnings *to)
              "%.0f %% of the energy was damped beside bonds (energy.damped): interface_damping takes vibrations of "
              "some spacings, in small bodies all there are; interface_damping: 0 keeps them, as method pd does",
              100 * share);
-    warnings_say(to, text);
+    warnings_add_and_print(to, text);
 }
 
 /* Writes to text that the first bonds broke in a collision faster than fronts are resolved; returns false if that is
  * not so. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t room)
 {
-    const struct shock shock = shock_expected(s);
+    const struct shock shock = fastest_collision_expected(s);
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM) return false;
     snprintf(
         text, room,
@@ -77,7 +77,7 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
     return true;
 }
 
-void say_balance(struct run *e)
+void warn_of_imbalance(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
@@ -88,7 +88,7 @@ void say_balance(struct run *e)
     say_spin(w, apic, &e->warnings);
     say_released(e->scene, w, &e->warnings);
     if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
-    if (shock_text(e->scene, w, text, sizeof text)) warnings_say(&e->warnings, text);
+    if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
@@ -97,10 +97,10 @@ void say_balance(struct run *e)
         error < 0 && apic
             ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"
             : "");
-    warnings_say(&e->warnings, text);
+    warnings_add_and_print(&e->warnings, text);
 }
 
-void say_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to)
+void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to)
 {
     bool yields = false;
     if (r->yield_said || !b->plastic_path) return;

@@ -35,16 +35,16 @@ enum { MOMENTS = 256 };        /* samples of a function of time */
 /* Returns the largest speed of particles, or the largest velocity component of a node of the reference frame [m/s]. */
 static real fastest_now(const struct particles *p, const struct reference_frame *reference)
 {
-    const real moving = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                                 diagnostics_fastest(p, p->list_free, p->n_free));
+    const real moving = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                                 diagnostics_largest_speed(p, p->list_free, p->n_free));
     return reference->mesh.points > 0 ? real_max(moving, reference->speed) : moving;
 }
 
 void stability_make(struct stability *s, const struct particles *p)
 {
-    s->start_speed = real_max(diagnostics_fastest(p, p->list[KIND_PD], p->n_of[KIND_PD]),
-                              diagnostics_fastest(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
-    rise_note(&s->speed, 0, square(s->start_speed));
+    s->start_speed = real_max(diagnostics_largest_speed(p, p->list[KIND_PD], p->n_of[KIND_PD]),
+                              diagnostics_largest_speed(p, p->list[KIND_MPM], p->n_of[KIND_MPM]));
+    growth_rate_add_sample(&s->speed, 0, square(s->start_speed));
 }
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
@@ -54,7 +54,7 @@ static void factors(const struct time_function *f, real from, real to, real *mos
 {
     *most = *mean = 0;
     for (int k = 0; k < MOMENTS; k++) {
-        const real factor = fabs(time_function_at(f, from + (k + 0.5) / MOMENTS * (to - from)));
+        const real factor = fabs(time_function_value(f, from + (k + 0.5) / MOMENTS * (to - from)));
         *most = real_max(*most, factor);
         *mean += factor / MOMENTS;
     }
@@ -70,7 +70,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     real most, mean, fast2 = 0;
     if (b->kind == BOUNDARY_MIRROR || b->kind == BOUNDARY_ABSORBING) return 0;
     factors(&b->time, from, clock->t, &most, &mean);
-    if (b->displaces) return load_displacing_speed(load, p, clock->t + clock->dt);
+    if (b->displaces) return load_displacement_speed(load, p, clock->t + clock->dt);
     if (drives) return most * sqrt(dot(b->value, b->value, p->dim));
     for (int64_t k = 0; k < load->n; k++) {
         real a2 = 0;
@@ -84,7 +84,7 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
  * energy. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
-    const real kinetic = diagnostics_kinetic(p) + frame_kinetic(frame);
+    const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
     return !isfinite(kinetic) || given >= LOAD_SHARE_LEAST * kinetic;
 }
 
@@ -215,7 +215,7 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
 {
     real steps;
     char others[256];
-    const enum rise_rate rate = rise_rate(rise, e->clock.step, value, &steps);
+    const enum growth_rate rate = growth_rate(rise, e->clock.step, value, &steps);
     if (scene_in_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, room,
                  "in an equilibrium: find out where it comes from by more load steps (steps.number) or a smaller "
@@ -272,8 +272,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
     if (reference->mesh.points == 0 || (clock->step % INVERSION_STEPS != 0 && clock->step < clock->steps)) return OK;
     char what[48] = "a coarse cell";
     real X[DIM_MAX] = {0};
-    const int64_t i = mesh_inverted(&reference->mesh, p);
-    if (i == p->n && !levels_inverted(&reference->levels, X)) return OK;
+    const int64_t i = mesh_find_inverted_point(&reference->mesh, p);
+    if (i == p->n && !levels_find_inverted_cell(&reference->levels, X)) return OK;
     if (i < p->n) {
         particle_place(p, i, X);
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
@@ -291,21 +291,22 @@ static status formula_check(const struct loads *l, const struct particles *p, co
 {
     const real *impulse = l->impulse;
     if (!isfinite(impulse[0] + impulse[1] + impulse[2]))
-        for (int half = -3; half <= 2; half++) TRY(loads_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
-    return clock->step == clock->steps ? loads_finite(l, p, clock->t) : OK;
+        for (int half = -3; half <= 2; half++)
+            TRY(loads_check_finite(l, p, real_max(0, clock->t + 0.5 * half * clock->dt)));
+    return clock->step == clock->steps ? loads_check_finite(l, p, clock->t) : OK;
 }
 
 status stability_check(struct run *e)
 {
     const bool diverged = e->frame->mesh.points > 0 && !(e->frame->speed <= e->tables.wave_speed / sqrt(e->part.dim));
     TRY(formula_check(&e->loads, &e->part, &e->clock));
-    if (diverged) frame_sync_motion(e->frame, &e->part, &e->loads);
+    if (diverged) frame_update_point_motion(e->frame, &e->part, &e->loads);
     TRY(divergence_check(e, e->stability->diverged || e->part.n_grid_coupled > 0, diverged));
     TRY(inversion_check(&e->clock, &e->part, e->frame));
     TRY(contact_overlap_check(e));
     TRY(rigids_speed_check(e->rigid, e->scene, &e->clock));
     if (e->clock.step % RISE_STRIDE == 0)
-        rise_note(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
+        growth_rate_add_sample(&e->stability->speed, e->clock.step, square(fastest_now(&e->part, e->frame)));
     return OK;
 }
 
@@ -385,7 +386,7 @@ static bool say_stretched(const struct particles *p, const struct material *mate
             "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond some 10 %% "
             "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; use mpm.frame: reference",
             100 * strain, t, p->x[0][i]);
-        warnings_say(to, text);
+        warnings_add_and_print(to, text);
         return true;
     }
     return false;
@@ -405,7 +406,7 @@ status energy_check(struct run *e)
     const bool last = e->clock.step == e->clock.steps && !scene_at_rest(e->scene);
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
-    rise_note(&e->stability->excess, e->clock.step, excess);
+    growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
     if (!e->stability->stretched)
         e->stability->stretched = say_stretched(&e->part, e->scene->material, e->clock.t, &e->warnings);
     if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;

@@ -29,7 +29,7 @@ struct step {
 /* Sets the quantities of a step. */
 static struct step step_begin(struct run *e)
 {
-    const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_share(decay);
+    const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_factor(decay);
     const real dt_velocity = (e->clock.step == 0 ? 0.5 : 1) * dt * share;
     e->grid->transfer.dt_velocity = dt_velocity;
     return (struct step){.middle = e->clock.t + 0.5 * dt, decay, share, dt_velocity};
@@ -38,10 +38,10 @@ static struct step step_begin(struct run *e)
 /* Records broken bonds and converts material points near them to peridynamic particles. */
 static void conversion(struct run *e, struct step *now)
 {
-    const bool marked = conversion_mark(e);
-    sample_breaks(e, now->broken);
-    now->converted = conversion_pass(e, now->broken, marked, cracks_fade(e->fracture));
-    timer_book(&e->timers, TIMER_CONVERT);
+    const bool marked = conversion_prepare(e);
+    sample_record_breaks(e, now->broken);
+    now->converted = conversion_apply(e, now->broken, marked, cracks_fade_bonds(e->fracture));
+    timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
 /* Updates the pairs that may be in contact, and sets how peridynamic particles move in this step. */
@@ -51,14 +51,14 @@ static void motion_begin(struct run *e, struct step *now)
                    e->diagnostics->bonds_broken, e->coupling->conversion.converted + e->coupling->conversion.reverted);
     now->motion = (struct pd_motion){e->clock.dt, now->dt_velocity, e->tables.wave_speed, e->loads.loaded, false};
     e->grid->transfer.bonded = e->coupling->bonded; /* reversion may have reallocated the list */
-    timer_book(&e->timers, TIMER_CONVERT);
+    timer_add_elapsed(&e->timers, TIMER_CONVERT);
 }
 
 /* Sorts the points on the grid into cells. FAILED if points have left the grid and diverged. */
 static status sort(struct run *e)
 {
     bool lost;
-    TRY(grid_sort(e, &lost));
+    TRY(grid_sort_points(e, &lost));
     return lost ? divergence_check(e, true, false) : OK;
 }
 
@@ -68,7 +68,7 @@ static void zone_damp(struct run *e, struct step *now)
     now->damps = e->coupling->zone.points > 0 && e->coupling->damping_share > 0;
     if (!now->damps) return;
     e->damped += interface_damp_begin(&e->coupling->zone, &e->part, e->coupling->damping_share);
-    loads_mirror(&e->loads, &e->part); /* breaking bonds read the velocities of images */
+    loads_update_images(&e->loads, &e->part); /* breaking bonds read the velocities of images */
 }
 
 /* Stores the velocities before bulk damping. In the first step it also damps them by half a step; samples of t = 0
@@ -78,11 +78,11 @@ static void damping_begin(struct run *e, const struct step *now)
     real *const *before = e->report->sampling.before;
     if (!(now->decay > 0)) return;
     if (e->clock.step == 0) {
-        e->damped += damping_start(&e->part, &e->frame->mesh, &e->loads, now->decay);
+        e->damped += damping_apply_first(&e->part, &e->frame->mesh, &e->loads, now->decay);
         for (int d = 0; d < e->part.dim && before[d]; d++)
             for (int64_t i = 0; i < e->part.n; i++) before[d][i] *= now->share;
     }
-    damping_keep(e->damping, &e->part, &e->frame->mesh);
+    damping_store_velocities(e->damping, &e->part, &e->frame->mesh);
 }
 
 /* Returns true if nothing reads positions between forces and motion, as samples, growing cracks and viscosity do.
@@ -97,7 +97,7 @@ static bool sweep_moves(const struct scene *s, const struct run_report *report)
 /* Computes the forces of bonds and breaks the bonds beyond their limit; may move particles in the same sweep. */
 static void push_bonds(struct run *e, struct step *now)
 {
-    loads_clear(&e->loads, &e->part);
+    loads_clear_forces(&e->loads, &e->part);
     now->broken = bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit,
                               sweep_moves(e->scene, e->report) ? &now->motion : NULL);
 }
@@ -108,7 +108,7 @@ static void push_contact(struct run *e)
     e->contact->recorded =
         e->contact->push[0] && report_frames_due(e->report->out, e->scene, &e->clock, e->clock.step + 1) != 0;
     contact_force(e->contact, &e->part, e->clock.step > 0 ? e->clock.dt : 0);
-    contact_clock(e->contact, e->clock.t);
+    contact_update_times(e->contact, e->clock.t);
 }
 
 /* Moves the peridynamic particles that the sweep of bond forces has not moved: the loaded ones, or all. */
@@ -127,12 +127,13 @@ static void move_grid(struct run *e, const struct step *now)
 {
     const bool any = e->part.n_free + e->part.n_grid_coupled > 0;
     viscosity_to_stress(e->viscosity, &e->part, true);
-    grid_map(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
+    grid_map_points(e->grid, &e->part, &e->kernels, &e->timers); /* 1, 3: mass, momentum, force to nodes */
     viscosity_to_stress(e->viscosity, &e->part, false);
-    if (e->clock.step == 0) residual_keep(e->probing, e->scene, &e->part, e->grid);
+    if (e->clock.step == 0) residual_store(e->probing, e->scene, &e->part, e->grid);
     grid_step(e, now->middle); /* 3, 4, 6, 7 */
-    if (any && e->part.end_strain) partial_points_update(&e->coupling->partial, &e->part, e->scene->material);
-    if (any) timer_book(&e->timers, TIMER_GATHER);
+    if (any && e->part.end_strain)
+        bonded_points_strain_from_stress(&e->coupling->partial, &e->part, e->scene->material);
+    if (any) timer_add_elapsed(&e->timers, TIMER_GATHER);
     if (now->damps) e->damped += interface_damp_end(&e->coupling->zone, &e->part);
 }
 
@@ -140,19 +141,19 @@ static void move_grid(struct run *e, const struct step *now)
 static void move_frame(struct run *e, const struct step *now)
 {
     if (e->frame->mesh.points == 0) return;
-    frame_force(e->frame, &e->part, e->clock.step);
-    viscosity_push_nodes(e);
-    if (e->clock.step == 0) residual_keep_mesh(e->probing, e->scene, &e->frame->mesh);
-    frame_move(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
+    frame_compute_forces(e->frame, &e->part, e->clock.step);
+    viscosity_add_nodal_forces(e);
+    if (e->clock.step == 0) residual_store_mesh(e->probing, e->scene, &e->frame->mesh);
+    frame_move_nodes(e->frame, &e->part, &e->loads, &e->clock, now->middle, now->dt_velocity);
 }
 
 /* Adds the reactions of walls of the grids to supports, and sets the velocities of driven particles. */
 static void step_hold(struct run *e, const struct step *now)
 {
-    for (int k = 0; k < e->grid->fields; k++) loads_react(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
-    if (loads_hold(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
-    loads_mirror(&e->loads, &e->part);
-    timer_book(&e->timers, TIMER_GRID);
+    for (int k = 0; k < e->grid->fields; k++) loads_add_reactions(&e->loads, &e->grid->field[k].grid, now->dt_velocity);
+    if (loads_impose_motion(&e->loads, &e->part, now->middle, e->clock.dt)) e->grid->sort_needed = true;
+    loads_update_images(&e->loads, &e->part);
+    timer_add_elapsed(&e->timers, TIMER_GRID);
 }
 
 /* Ends the sample of t_n, applies bulk damping, and advances time and the step number. */
@@ -163,10 +164,10 @@ static void finish(struct run *e, const struct step *now)
     e->damped += loss;
     e->report->sampling.energy.damped += loss;
     sample_end(e);
-    if (damps) damping_end(&e->part, &e->frame->mesh, &e->loads, now->decay);
+    if (damps) damping_apply(&e->part, &e->frame->mesh, &e->loads, now->decay);
     e->clock.t = (real)(e->clock.step + 1) * e->clock.dt;
     e->clock.step++;
-    timer_book(&e->timers, TIMER_SAMPLE);
+    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
 }
 
 bool step_convert(struct run *e, int64_t broken)
@@ -195,7 +196,7 @@ status step(struct run *e)
 {
     struct step now = step_begin(e);
     if (e->coupling->approaches && e->clock.step == 0) conversion(e, &now); /* bodies that touch at the start */
-    revert(e);
+    reversion_apply_due(e);
     motion_begin(e, &now);
     sample_begin(e);
     TRY(sort(e));
@@ -203,19 +204,19 @@ status step(struct run *e)
     damping_begin(e, &now);
 
     push_bonds(e, &now); /* 2, 5 */
-    viscosity_push(e);
+    viscosity_add_forces(e);
     push_contact(e);
-    rigids_book(e->rigid, now.dt_velocity, e->loads.impulse);
-    loads_apply(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
-    timer_book(&e->timers, TIMER_BONDS);
+    rigids_add_impulse(e->rigid, now.dt_velocity, e->loads.impulse);
+    loads_complete_forces(&e->loads, &e->part, now.middle, e->clock.dt, now.dt_velocity);
+    timer_add_elapsed(&e->timers, TIMER_BONDS);
     sample_energy(e);
     now.broken += cracks_grow(e);
-    timer_book(&e->timers, TIMER_SAMPLE);
+    timer_add_elapsed(&e->timers, TIMER_SAMPLE);
 
     move_peridynamic(e, &now.motion); /* 4 */
     rigids_move(e->rigid, now.middle, e->clock.dt,
                 now.dt_velocity / now.share); /* bulk damping does not act on rigid bodies */
-    timer_book(&e->timers, TIMER_BONDS);
+    timer_add_elapsed(&e->timers, TIMER_BONDS);
     move_grid(e, &now);  /* 1, 3, 4, 6, 7 */
     move_frame(e, &now); /* 3, 4, 7 */
     step_hold(e, &now);

@@ -52,7 +52,7 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
 {
     struct probe_sink sink = {.json = j};
     json_open(j, "probes", '{');
-    probes_figures(s, o, put_figure, &sink);
+    probes_visit_results(s, o, put_figure, &sink);
     if (sink.open) json_close(j, '}');
     json_close(j, '}');
 }

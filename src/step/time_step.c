@@ -54,7 +54,7 @@ static real fastest_driven(const struct scene *s, const struct loads *l, const s
 {
     for (int b = 0; b < s->boundaries; b++)
         if (s->boundary[b].displaces && s->solver == SOLVER_EXPLICIT)
-            speed = real_max(speed, load_displacing_speed(&l->load[b], p, s->duration));
+            speed = real_max(speed, load_displacement_speed(&l->load[b], p, s->duration));
         else if (s->boundary[b].kind == BOUNDARY_VELOCITY && !s->boundary[b].displaces)
             speed = real_max(speed, sqrt(dot(s->boundary[b].value, s->boundary[b].value, s->dim)));
     return speed;
@@ -125,7 +125,7 @@ static real critical_of_bonds(struct run *e)
     real bound;
     if (s->method == METHOD_MPM) return INFINITY;
     if (s->method == METHOD_PD && (s->irregularity > 0 || e->part.n <= ITERATED_MOST)) {
-        const real step = critical_step_of(&e->bonds, &e->part, force, &e->loads, s->spacing);
+        const real step = critical_step_of_bonds(&e->bonds, &e->part, force, &e->loads, s->spacing);
         /* without bonds the wave speed limits the step */
         return isfinite(step) ? step : s->spacing / e->tables.wave_speed;
     }
@@ -198,7 +198,7 @@ status time_step_make(struct run *e)
                                     fastest_driven(s, &e->loads, &e->part, e->stability->start_speed));
     e->clock.dt_critical =
         real_min(real_min(critical_of_bonds(e), points), frame_critical_step(e->frame, s, e->coupling_kind)) *
-        sqrt(lightest_share(s, &e->part)) * viscosity_step_share(s, &e->loads, &e->part, e->stability->start_speed);
+        sqrt(lightest_share(s, &e->part)) * viscosity_step_factor(s, &e->loads, &e->part, e->stability->start_speed);
     const real contact = contact_critical_step(e->contact, &e->part, s->material, e->clock.dt_critical);
     const int levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical).levels;
     const real safety = levels > 0 ? real_min(s->safety, LEVELS_STEP_MOST) : s->safety;

@@ -81,7 +81,7 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
             p->f[d][i] += f[d];
         }
     }
-    v->taken += team_sum(p->n, taken_by, v->work);
+    v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
@@ -98,15 +98,15 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
         if (!on_grid || volume == 0) continue;
         const real growth = p->volume[i] - volume, rate = growth / (0.5 * (p->volume[i] + volume) * dt);
         v->pressure[i] = viscous_pressure(&v->material[p->material[i]], v->cell, rate);
-        v->work[i] = -0.5 * point_own_share(partial, p->dim, i) * (before + v->pressure[i]) * growth;
+        v->work[i] = -0.5 * point_mpm_share(partial, p->dim, i) * (before + v->pressure[i]) * growth;
     }
-    v->taken += team_sum(p->n, taken_by, v->work);
+    v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
 
 /* Returns the half step by which mean forces of two steps do work [s]; 0 in the first step. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
-void viscosity_push(struct run *e)
+void viscosity_add_forces(struct run *e)
 {
     if (!viscosity_made(e->viscosity, e->scene, e->part.n, e->frame->mesh.grid.n)) return;
     bonds_push(e->viscosity, &e->bonds, &e->part, half_step(&e->clock));
@@ -164,7 +164,7 @@ static void viscous_stress(const struct viscosity *v, const struct particles *p,
     const real J = invert_gradient(F, dim, inverse);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) rate += G[a * dim + b][i] * inverse[b * dim + a];
-    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_own_share(partial, dim, i);
+    const real q = viscous_pressure(&v->material[p->material[i]], v->cell, rate) * point_mpm_share(partial, dim, i);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) H[a * dim + b][i] = p->volume0[i] * J * q * inverse[b * dim + a];
 }
@@ -218,11 +218,11 @@ static void nodes_book(struct viscosity *v, const struct grid *g, real half, rea
             v->nodes[d][I] = f[d][I];
             g->force[d][I] += f[d][I];
         }
-    v->taken += team_sum(g->n, taken_by, work);
+    v->taken += reproducible_sum(g->n, taken_by, work);
     memory_free(work);
 }
 
-void viscosity_push_nodes(struct run *e)
+void viscosity_add_nodal_forces(struct run *e)
 {
     const struct mesh *mesh = &e->frame->mesh;
     const int dim = e->part.dim;
@@ -281,7 +281,7 @@ static real closing_speed(const struct scene *s, const struct scene_body *a, con
     return speed > 0 && gap <= speed * s->duration ? speed : 0;
 }
 
-struct shock shock_expected(const struct scene *s)
+struct shock fastest_collision_expected(const struct scene *s)
 {
     struct shock shock = {0, 0};
     bool viscous = true;
@@ -309,11 +309,11 @@ static real speed_of_load(const struct load *l, const struct particles *p, real 
         return isfinite(speed) ? speed : 0;
     }
     real most = b->time.n > 0 ? 0 : 1;
-    for (int k = 0; k < b->time.n; k++) most = real_max(most, fabs(time_function_at(&b->time, b->time.t[k])));
+    for (int k = 0; k < b->time.n; k++) most = real_max(most, fabs(time_function_value(&b->time, b->time.t[k])));
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_PRESSURE ? most * size / impedance : 0;
 }
 
-real viscosity_step_share(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
+real viscosity_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed)
 {
     real impedance = INFINITY;
     for (int m = 0; m < s->materials; m++)

@@ -13,7 +13,7 @@ const char *const verdict_name[VERDICTS] = {
     [VERDICT_SLOW] = "slow",           [VERDICT_DIVERGES] = "does not converge",
 };
 
-double student_95(int n)
+double student_quantile(int n)
 {
     static const double table[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228,
                                    2.201,  2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093, 2.086};
@@ -56,7 +56,7 @@ static void errors_find(struct convergence *c, const double *resolution)
         const bool alone = l->runs == 1;
         if (alone) l->deviation = freedom > 0 ? sqrt(sum / freedom) : 0;
         const int own = alone ? freedom : l->runs - 1;
-        l->error = own > 0 ? student_95(own) * l->deviation / sqrt(l->runs) : 0;
+        l->error = own > 0 ? student_quantile(own) * l->deviation / sqrt(l->runs) : 0;
         if (resolution) l->error = hypot(l->error, resolution[k]);
     }
 }

@@ -18,13 +18,13 @@ static struct path convergence_picture(const char *folder, const char *name)
     return path_join(path_join(folder, "pictures").text, name);
 }
 
-status figures_guard(const char *folder)
+status figures_check_replaceable(const char *folder)
 {
     static const char *const begin[] = {"figure,unit,"};
-    if (study_folder_guard(folder) != OK) return OK; /* study_take reports the fault */
-    TRY(file_begin_guard(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
-    TRY(picture_guard(convergence_picture(folder, "convergence.png").text));
-    return picture_guard(convergence_picture(folder, "path.png").text);
+    if (study_folder_check(folder) != OK) return OK; /* study_lock_folder reports the fault */
+    TRY(file_check_beginning(path_join(folder, "converge.csv").text, begin, COUNT_OF(begin)));
+    TRY(picture_check_replaceable(convergence_picture(folder, "convergence.png").text));
+    return picture_check_replaceable(convergence_picture(folder, "path.png").text);
 }
 
 /* ---- figures over the spacing ------------------------------------------------------------------------------------ */
@@ -33,7 +33,7 @@ status figures_guard(const char *folder)
  * 0. */
 static void send_figure(FILE *to, const struct convergence_study *s, const struct figure_study *f, int panel)
 {
-    const int at = study_figure(&s->table, f->name);
+    const int at = study_find_figure(&s->table, f->name);
     fprintf(to, "$r%d << EOD\n", panel);
     for (int k = 0; k < s->study.n; k++)
         if (s->point[k].level >= 0 && isfinite(s->table.value[at][k]))
@@ -130,8 +130,8 @@ static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 
 static void longest_find(struct longest *l, const struct history *h, double spacing)
 {
-    const int x = history_column(h, "tip_x"), y = history_column(h, "tip_y");
-    const int length = history_column(h, "crack_length");
+    const int x = history_find_column(h, "tip_x"), y = history_find_column(h, "tip_y");
+    const int length = history_find_column(h, "crack_length");
     *l = (struct longest){.x = NEW("study.x", h->rows, double),
                           .y = NEW("study.y", h->rows, double),
                           .grown = NEW("study.grown", h->rows, double),
@@ -230,5 +230,5 @@ status figures_draw(const struct convergence_study *s, const struct figure_study
 {
     TRY(folder_make(path_join(s->study.folder, "pictures").text));
     TRY(draw_figures(s, figure, figures));
-    return s->scene.dim > 1 && study_figure(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
+    return s->scene.dim > 1 && study_find_figure(&s->table, "crack.length_end") >= 0 ? draw_paths(s) : OK;
 }

@@ -52,7 +52,7 @@ static double horizon_moves(const struct convergence_study *s, const double *val
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
-    const int length = study_figure(&s->table, "crack.length_end");
+    const int length = study_find_figure(&s->table, "crack.length_end");
     const bool tip = !strncmp(name, "crack.", 6) || !strncmp(name, "probes.tip", 10);
     const bool is_angle = !strcmp(own, "angle_deg") && length >= 0;
     const bool is_place = !strcmp(own, "length_end") || !strcmp(own, "x") || !strcmp(own, "y") || !strcmp(own, "z");
@@ -117,7 +117,7 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     char tied[NAME_MAX_LENGTH * 2];
     if (!dot || (strcmp(dot, ".x") && strcmp(dot, ".y") && strcmp(dot, ".z"))) return false;
     snprintf(tied, sizeof tied, "%.*s.tied", (int)(dot - name), name);
-    const int count = study_figure(&s->table, tied);
+    const int count = study_find_figure(&s->table, tied);
     for (int k = 0; k < s->study.n && count >= 0; k++)
         if (s->table.value[count][k] > 1) return true;
     return false;
@@ -137,15 +137,15 @@ static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
 static void figures_units(const struct convergence_study *s, struct figure_study *figure, int figures)
 {
     char header[HEADER_ROOM];
-    study_header_read(header, sizeof header, &s->study);
-    for (int f = 0; f < figures; f++) study_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
+    study_read_history_header(header, sizeof header, &s->study);
+    for (int f = 0; f < figures; f++) study_figure_unit(figure[f].unit, sizeof figure[f].unit, header, figure[f].name);
 }
 
 status figures_find(const struct convergence_study *s, const char *const *wanted, int wanteds,
                     struct figure_study **figure, int *figures)
 {
     for (int k = 0; k < wanteds; k++)
-        if (study_figure(&s->table, wanted[k]) < 0)
+        if (study_find_figure(&s->table, wanted[k]) < 0)
             return status_set(REFUSED,
                               "%s: summary.json has no such figure; names in it are joined by points, as "
                               "in crack.angle_deg",
@@ -217,8 +217,8 @@ status figures_write(const struct convergence_study *s, const struct figure_stud
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
     if (to) figures_table(to, s, figure, figures);
-    TRY(study_put(&s->study, "converge.csv", to, &text, &length));
-    return study_scene_put(s->study.folder, s->scene.text);
+    TRY(study_write_file(&s->study, "converge.csv", to, &text, &length));
+    return study_write_scene(s->study.folder, s->scene.text);
 }
 
 /* ---- printed summary --------------------------------------------------------------------------------------------- */
@@ -290,5 +290,5 @@ void figures_print(const struct convergence_study *s, const struct figure_study 
         printf("%d more", figures - shown);
     else
         printf("all");
-    printf(" in %s/converge.csv\n", shown_name(s->study.folder).text);
+    printf(" in %s/converge.csv\n", printable_name(s->study.folder).text);
 }

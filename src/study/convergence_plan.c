@@ -89,7 +89,7 @@ static double spacing_near(const struct places *p, double wanted, double reach, 
     return best;
 }
 
-void spacings_plan(struct spacings *to, const struct scene *s, int levels, double finest)
+void spacings_choose(struct spacings *to, const struct scene *s, int levels, double finest)
 {
     struct places p = {0};
     places_find(&p, s);

@@ -179,7 +179,7 @@ static void wanted_warn(const struct convergence_study *s, const struct converge
     for (int k = 0; k < w->wanteds; k++)
         if (summary_number(folder.text, w->wanted[k], &value) != OK)
             fprintf(stderr, "warning: the first run has no figure %s; choose one of %s/summary.json\n", w->wanted[k],
-                    shown_name(folder.text).text);
+                    printable_name(folder.text).text);
 }
 
 /* Makes the first run; while the scene is invalid at the coarsest level, all levels are refined. */
@@ -189,7 +189,7 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     status done = FAILED;
     s->refused = INFINITY;
     for (int finer = 0; finer <= FINER_MOST; finer++) {
-        spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, -0.5 * finer));
+        spacings_choose(&s->spacings, &s->scene, w->levels, s->scene.spacing * pow(2, -0.5 * finer));
         done = first_run(s, w, &refused);
         if (!refused) break;
         s->refused = s->point[s->first].spacing;
@@ -204,7 +204,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
     if (levels > LEVELS_MOST) return false;
-    spacings_plan(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
+    spacings_choose(&s->spacings, &s->scene, levels, s->scene.spacing * pow(2, 0.5 * shift));
     while (levels > LEVELS_LEAST && s->spacings.at[levels - 1][0] > 0.999 * s->refused) levels--;
     s->spacings.levels = levels;
     for (int k = 0; k < levels && shift > 0; k++)
@@ -216,7 +216,7 @@ static bool levels_plan(struct convergence_study *s, const struct convergence_re
 static status plan_fit(struct convergence_study *s, const struct convergence_request *w, int jobs)
 {
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
-    const double left = s->budget - (team_clock() - s->begun);
+    const double left = s->budget - (wall_clock() - s->begun);
     double need = 0;
     for (size_t k = 0; k < COUNT_OF(own_first); k++) {
         const int shift = w->finer ? finer_first[k] : own_first[k];
@@ -266,9 +266,9 @@ static void plan_print(const struct convergence_study *s)
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;
-    const int cores = team_cores();
+    const int cores = machine_cores();
     TRY(study_make(&s->study, w->scene, w->folder, "converge"));
-    spacings_plan(&s->spacings, &s->scene, w->levels, s->scene.spacing);
+    spacings_choose(&s->spacings, &s->scene, w->levels, s->scene.spacing);
     if (horizon_at(s, s->spacings.at[0][0]) > HORIZON_MOST)
         return status_set(REFUSED,
                           "--horizon: the finest spacing would have a horizon of %.3g spacings, %g is the most; "
@@ -297,7 +297,7 @@ status convergence_study_run(struct convergence_study *s, const struct convergen
     *s = (struct convergence_study){.override = w->override,
                                     .overrides = w->overrides,
                                     .budget = w->budget,
-                                    .begun = team_clock(),
+                                    .begun = wall_clock(),
                                     .fixed_horizon = w->fixed_horizon,
                                     .study.lock.fd = -1};
     TRY(scene_read(&s->scene, w->scene, w->override, w->overrides));

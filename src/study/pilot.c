@@ -41,7 +41,7 @@ static void candidate_write(struct pilot *to, const struct pilot_search *p, cons
     if (p->wish.at_rest) chosen_put(to, &n, "solver", "cg");
     snprintf(number, sizeof number, "%.15g", spacing);
     chosen_put(to, &n, "particles.spacing", number);
-    pilot_fill(to, p->override, p->overrides, n);
+    pilot_set_overrides(to, p->override, p->overrides, n);
 }
 
 static status candidate_study(struct pilot_search *p, struct pilot_candidate *c, double spacing, double budget,
@@ -79,7 +79,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
-static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (team_clock() - p->begun), 0); }
+static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
 
 /* Returns the candidate with the cheapest predicted run; NULL if none has a prediction. */
 static struct pilot_candidate *cheapest(struct pilot_search *p)
@@ -198,12 +198,12 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
 {
     TRY(folder_make(p->folder));
     TRY(study_folder_claim(p->folder));
-    TRY(figures_guard(p->folder));
+    TRY(figures_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
                 "pilot          runs at coarse spacings choose method and spacing for %s within %.3g %%, in at most "
                 "%.3g s (accuracy.budget); they are in %s\n",
-                pilot_figure(p), 100 * p->wish.within, p->wish.budget, shown_name(p->folder).text);
+                pilot_figure(p), 100 * p->wish.within, p->wish.budget, printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "
                         "crack that grows under "
@@ -212,7 +212,7 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     TRY(search_finer(p));
     const struct pilot_candidate *best = cheapest(p);
     TRY(search_end(to, p, best));
-    return pilot_keep(to, p, best);
+    return pilot_store(to, p, best);
 }
 
 /* Chooses the overrides of a scene with `method: auto`: reads a stored choice, or makes pilot runs. */
@@ -224,16 +224,16 @@ static status pilot_choose(struct pilot *to, struct pilot_search *p, const char 
     if (strlen(p->folder) + CASE_NAME_ROOM + 2 * PATH_NAME_ROOM >= PATH_ROOM)
         return status_set(REFUSED, "-o: the folder's name is too long");
     TRY(pilot_plan(p));
-    return pilot_kept(to, p) ? OK : pilot_search_all(to, p);
+    return pilot_read_stored(to, p) ? OK : pilot_search_all(to, p);
 }
 
 status pilot_scene_read(struct scene *s, struct pilot *to, const char *scene, const struct scene_override *override,
                         int overrides, const char *folder, struct study_options options)
 {
     struct pilot_search p = {
-        .scene = scene, .override = override, .overrides = overrides, .options = options, .begun = team_clock()};
+        .scene = scene, .override = override, .overrides = overrides, .options = options, .begun = wall_clock()};
     *to = (struct pilot){0};
-    TRY(scene_read_or_wish(s, &p.wish, scene, override, overrides));
+    TRY(scene_read_or_pilot_wish(s, &p.wish, scene, override, overrides));
     if (!p.wish.wanted) return OK;
     status done = pilot_choose(to, &p, folder);
     scene_free(&p.wish.provisional);

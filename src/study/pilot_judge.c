@@ -38,7 +38,7 @@ static int level_run(const struct convergence_study *s, int level)
 
 static double pilot_run_figure(const struct convergence_study *s, const char *name, int run)
 {
-    const int figure = study_figure(&s->table, name);
+    const int figure = study_find_figure(&s->table, name);
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 

@@ -13,7 +13,7 @@
 #define ASKED "asked.yaml"  /* text of the scene's file, with the overrides as comments */
 #define CHOSEN "chosen.txt" /* one KEY=VALUE per line */
 
-void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n)
+void pilot_set_overrides(struct pilot *to, const struct scene_override *override, int overrides, int n)
 {
     memory_free(to->override);
     to->override = NEW("pilot.override", overrides + n + 1, struct scene_override);
@@ -35,7 +35,7 @@ static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
     size_t length, size = 0;
-    if (file_get(p->scene, &scene, &length) != OK) return NULL;
+    if (file_read_whole(p->scene, &scene, &length) != OK) return NULL;
     FILE *to = memory_stream_open(&text, &size);
     if (to) {
         fputs(scene, to);
@@ -52,8 +52,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
 {
     char *text;
     size_t length;
-    TRY(file_get(path_join(folder, from).text, &text, &length));
-    const status put = file_put(path_join(folder, name).text, text, length);
+    TRY(file_read_whole(path_join(folder, from).text, &text, &length));
+    const status put = file_write_whole(path_join(folder, name).text, text, length);
     memory_free(text);
     return put;
 }
@@ -65,14 +65,14 @@ static status bars_keep(const struct pilot *to, const struct pilot_search *p, co
     struct scene s;
     char table[CASE_NAME_ROOM];
     TRY(scene_read(&s, p->scene, to->override, to->overrides));
-    const status put = study_scene_put(p->folder, s.text);
+    const status put = study_write_scene(p->folder, s.text);
     scene_free(&s);
     TRY(put);
     snprintf(table, sizeof table, "%s/converge.csv", best->name);
     return file_copy(p->folder, table, "converge.csv");
 }
 
-status pilot_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
+status pilot_store(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     char *asked = question_text(p), *text = NULL;
     size_t length = 0;
@@ -82,9 +82,9 @@ status pilot_keep(const struct pilot *to, const struct pilot_search *p, const st
     if (out) {
         for (int k = p->overrides; k < to->overrides; k++)
             fprintf(out, "%s=%s\n", to->override[k].key, to->override[k].value);
-        put = fclose(out) == 0 ? file_put(path_join(p->folder, CHOSEN).text, text, length)
+        put = fclose(out) == 0 ? file_write_whole(path_join(p->folder, CHOSEN).text, text, length)
                                : status_set(FAILED, "%s: out of memory", p->folder);
-        if (put == OK) put = file_put(path_join(p->folder, ASKED).text, asked, strlen(asked));
+        if (put == OK) put = file_write_whole(path_join(p->folder, ASKED).text, asked, strlen(asked));
     }
     free(text);
     free(asked);
@@ -105,17 +105,18 @@ static int answer_read(struct pilot *to, char *text)
     return n;
 }
 
-bool pilot_kept(struct pilot *to, const struct pilot_search *p)
+bool pilot_read_stored(struct pilot *to, const struct pilot_search *p)
 {
     char *asked = question_text(p), *before = NULL, *text = NULL;
     size_t length;
-    const bool same = asked && file_get(path_join(p->folder, ASKED).text, &before, &length) == OK &&
-                      strcmp(asked, before) == 0 && file_get(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
+    const bool same = asked && file_read_whole(path_join(p->folder, ASKED).text, &before, &length) == OK &&
+                      strcmp(asked, before) == 0 &&
+                      file_read_whole(path_join(p->folder, CHOSEN).text, &text, &length) == OK;
     if (same) {
-        pilot_fill(to, p->override, p->overrides, answer_read(to, text));
+        pilot_set_overrides(to, p->override, p->overrides, answer_read(to, text));
         if (!p->options.quiet)
             fprintf(stderr, "pilot          as chosen before: %s\n",
-                    shown_name(path_join(p->folder, CHOSEN).text).text);
+                    printable_name(path_join(p->folder, CHOSEN).text).text);
     }
     memory_free(text);
     memory_free(before);

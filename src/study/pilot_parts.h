@@ -37,7 +37,7 @@ struct pilot_search {
     struct study_options options;
     struct pilot_wish wish;
     char folder[PATH_ROOM], figure[128]; /* folder of the pilot runs; name of the figure */
-    double begun;                        /* start time on team_clock [s] */
+    double begun;                        /* start time on wall_clock [s] */
     struct pilot_candidate at[4];        /* [n] applicable methods */
     int n;
 };
@@ -53,7 +53,7 @@ const char *pilot_figure(const struct pilot_search *p);
 
 /* Allocates to->override and fills it with the overrides override[overrides] of the user, followed by n chosen keys
  * and values from to->key and to->value (pilot_keep.c). An earlier array is freed. */
-void pilot_fill(struct pilot *to, const struct scene_override *override, int overrides, int n);
+void pilot_set_overrides(struct pilot *to, const struct scene_override *override, int overrides, int n);
 
 /* Determines, from the convergence study s of the method c, the particle spacing that the method requires for the
  * requested accuracy, and stores it with its cost in *c (pilot_judge.c). Returns REFUSED if no accuracy can be
@@ -66,10 +66,10 @@ void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c);
 /* Stores the choice *to, the scene and overrides for which it was made, and the error bars of the chosen method *best
  * as files in the folder of the pilot runs (pilot_keep.c). Returns FAILED if the scene cannot be read or a file cannot
  * be written. */
-status pilot_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best);
+status pilot_store(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best);
 
-/* Reads the choice that an earlier pilot_keep stored for the same scene and overrides into *to. Returns false if there
+/* Reads the choice that an earlier pilot_store stored for the same scene and overrides into *to. Returns false if there
  * is none. */
-bool pilot_kept(struct pilot *to, const struct pilot_search *p);
+bool pilot_read_stored(struct pilot *to, const struct pilot_search *p);
 
 #endif

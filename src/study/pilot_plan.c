@@ -52,7 +52,7 @@ status pilot_plan(struct pilot_search *p)
                               "%s: method: auto varies the spacing, and a body's particles come from a list, which has "
                               "one; write a method and particles.spacing",
                               p->scene);
-    if (!(p->wish.spacing > 0) && !(spacing_coarse(s) > 0))
+    if (!(p->wish.spacing > 0) && !(spacing_that_resolves(s) > 0))
         return status_set(REFUSED,
                           "%s: the scene has no length from which pilot runs could choose a spacing; give method and "
                           "particles.spacing",
@@ -80,7 +80,7 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     struct pilot_search p = {.scene = scene, .wish = *w};
     TRY(pilot_plan(&p));
     const double spacing = 1e3 * w->provisional.spacing;
-    fprintf(out, "%s can be read\n", shown_name(scene).text);
+    fprintf(out, "%s can be read\n", printable_name(scene).text);
     fprintf(out, "auto           cleave run chooses by pilot runs; the scene.yaml that it leaves can be checked\n");
     fprintf(out, "auto           they judge %s, within %.3g %%\n", pilot_figure(&p), 100 * w->within);
     fprintf(out, "auto           they vary the method (");

@@ -51,7 +51,7 @@ static status scene_unread(char **text, const char *path, const struct scene_ove
 {
     size_t length, room;
     char *file;
-    TRY(file_get(path, &file, &length));
+    TRY(file_read_whole(path, &file, &length));
     room = length + 1;
     for (int k = 0; k < overrides; k++) room += strlen(override[k].key) + strlen(override[k].value) + 8;
     *text = NEW("study.text", (int64_t)room, char);
@@ -104,12 +104,12 @@ static char *study_scene_read(const char *path)
     char *text;
     size_t length;
     const size_t mark = sizeof study_mark - 1;
-    if (!path_is_file(path) || file_get(path, &text, &length) != OK) return NULL;
+    if (!path_is_file(path) || file_read_whole(path, &text, &length) != OK) return NULL;
     if (length == strlen(text) && strncmp(text, study_mark, mark) == 0) {
         memmove(text, text + mark, length - mark + 1);
         return text;
     }
-    if (scene_text_is_written(text)) return text;
+    if (scene_text_is_echo(text)) return text;
     memory_free(text);
     return NULL;
 }
@@ -122,7 +122,7 @@ static bool is_scene_of_study(const char *path, const char *scene_text)
     return text != NULL;
 }
 
-bool study_scene_same(const char *folder, const char *text)
+bool study_has_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
     const bool same = own && scene_text_same(own, text);
@@ -130,13 +130,13 @@ bool study_scene_same(const char *folder, const char *text)
     return same;
 }
 
-status study_scene_put(const char *folder, const char *text)
+status study_write_scene(const char *folder, const char *text)
 {
     const size_t mark = sizeof study_mark - 1, length = strlen(text);
     char *all = NEW("study.scene", (int64_t)(mark + length + 1), char);
     memcpy(all, study_mark, mark);
     memcpy(all + mark, text, length);
-    const status put = file_put(path_join(folder, STUDY_SCENE).text, all, mark + length);
+    const status put = file_write_whole(path_join(folder, STUDY_SCENE).text, all, mark + length);
     memory_free(all);
     return put;
 }
@@ -156,28 +156,28 @@ static const struct folder_kind study_kind = {.what = "study",
                                               .is_early = is_run_or_study,
                                               .inner = {"logs", "pictures"}};
 
-status study_folder_guard(const char *folder)
+status study_folder_check(const char *folder)
 {
     bool there;
-    return folder_guard(&study_kind, folder, NULL, &there);
+    return folder_check_writable(&study_kind, folder, NULL, &there);
 }
 
 status study_folder_claim(const char *folder)
 {
     bool there;
-    TRY(folder_guard(&study_kind, folder, NULL, &there));
-    return there ? OK : study_scene_put(folder, "");
+    TRY(folder_check_writable(&study_kind, folder, NULL, &there));
+    return there ? OK : study_write_scene(folder, "");
 }
 
-status study_folder_fits(const char *folder, const char *text)
+status study_folder_check_scene(const char *folder, const char *text)
 {
     char *own = study_scene_read(path_join(folder, STUDY_SCENE).text);
     const bool fits = !own || !*own || scene_text_same(own, text);
     memory_free(own);
-    if (fits) return study_folder_guard(folder);
+    if (fits) return study_folder_check(folder);
     return status_set(REFUSED,
                       "%s holds a study of another scene (%s there); choose another -o or replace it with --overwrite",
-                      shown_name(folder).text, STUDY_SCENE);
+                      printable_name(folder).text, STUDY_SCENE);
 }
 
 /* ---- cases of a study -------------------------------------------------------------------------------------------- */
@@ -224,15 +224,15 @@ struct study_case *study_add(struct study *s, const char *name, const struct sce
     GROW("study.cases", s->at, s->n + 1);
     study_names_grow(s);
     struct study_case *c = &s->at[s->n];
-    study_name_settle(s, c->name, name, override, overrides);
+    study_name_choose(s, c->name, name, override, overrides);
     c->override = NEW("study.overrides", overrides, struct scene_override);
     for (int k = 0; k < overrides; k++) c->override[k] = override_copy(override[k]);
     c->overrides = overrides;
-    study_name_book(s, s->n++);
+    study_name_register(s, s->n++);
     return c;
 }
 
-status study_cross(struct study *s, const struct varied_key *key, int keys)
+status study_add_combinations(struct study *s, const struct varied_key *key, int keys)
 {
     double all = 1;
     for (int k = 0; k < keys; k++) all *= key[k].values;
@@ -340,17 +340,17 @@ void study_print_same(const struct study *s, FILE *out)
                 same, s->n, one->name, s->at[one->same].name);
 }
 
-const char *study_value(const struct study_case *c, const char *key)
+const char *study_case_value(const struct study_case *c, const char *key)
 {
     for (int k = 0; k < c->overrides; k++)
         if (strcmp(c->override[k].key, key) == 0) return c->override[k].value;
     return "";
 }
 
-status study_put(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
+status study_write_file(const struct study *s, const char *name, FILE *to, char **text, const size_t *length)
 {
     const bool whole = to && fclose(to) == 0;
-    const status written = whole ? file_put(path_join(s->folder, name).text, *text, *length)
+    const status written = whole ? file_write_whole(path_join(s->folder, name).text, *text, *length)
                                  : status_set(FAILED, "cannot write %s: out of memory", name);
     free(*text);
     return written;

@@ -71,13 +71,13 @@ static void panels_choose(struct study_picture *p)
     static const char *const first[] = {"crack.start_time", "crack.length_end", "crack.angle_deg",
                                         "crack.tip_speed_mean"};
     const struct study_table *t = p->table;
-    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_figure(t, first[k]));
+    for (size_t k = 0; k < COUNT_OF(first); k++) panel_add(p, study_find_figure(t, first[k]));
     if (p->panels == PANELS_MOST) return;
     for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
         if (strncmp(t->figure[f], "probes.", 7) == 0) panel_add(p, f);
     for (int f = 0; f < t->figures && p->panels < PANELS_MOST - 1; f++)
         if (strncmp(t->figure[f], "energy.", 7) == 0 && !study_figure_is_technical(t->figure[f])) panel_add(p, f);
-    panel_add(p, study_figure(t, "loop_seconds"));
+    panel_add(p, study_find_figure(t, "loop_seconds"));
 }
 
 /* Returns true if all values of the key are numbers with the same unit. */
@@ -104,7 +104,7 @@ static void values_find(int **value_at, const struct study *s, const struct vari
         value_at[k] = NEW("study.value_at", s->n, int);
         int last = 0;
         for (int c = 0; c < s->n; c++) {
-            const char *own = study_value(&s->at[c], key[k].key);
+            const char *own = study_case_value(&s->at[c], key[k].key);
             int tried = 0;
             while (tried < key[k].values && strcmp(key[k].value[last], own) != 0) {
                 last = (last + 1) % key[k].values;
@@ -312,7 +312,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
             (double)(x + WIDE) / p->width);
     fprintf(to, "set tmargin at screen %.5f\nset bmargin at screen %.5f\n", (double)y / p->height,
             (double)(y - HIGH) / p->height);
-    study_unit(unit, sizeof unit, p->header, figure);
+    study_figure_unit(unit, sizeof unit, p->header, figure);
     snprintf(text, sizeof text, *unit ? "%s [%s]" : "%s%s", figure, unit);
     fputs("set title ", to);
     gnuplot_quote(to, text);
@@ -473,7 +473,7 @@ status study_draw(const struct study_table *t, const struct study *s, const stru
     struct study_picture p = {.table = t, .study = s, .key = key, .keys = keys, .header = header};
     panels_choose(&p);
     if (p.panels == 0) return OK;
-    study_header_read(header, sizeof header, s);
+    study_read_history_header(header, sizeof header, s);
     p.value_at = NEW("study.value_at", keys, int *);
     p.role = NEW("study.roles", keys, enum key_role);
     values_find(p.value_at, s, key, keys);

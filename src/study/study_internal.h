@@ -17,10 +17,10 @@ void study_names_grow(struct study *s);
 /* Chooses a name that no run of s has and writes it to name[CASE_NAME_ROOM]: the text `wanted`, restricted to
  * characters that every file system accepts, or if it is too long, reserved or taken, case-HASH with a hash of the
  * overrides o[n]. */
-void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
+void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n);
 
 /* Adds the name of the run with index `number` to the hash table of the names of runs. */
-void study_name_book(struct study *s, int number);
+void study_name_register(struct study *s, int number);
 
 /* Stores the indices of those of the keys key[keys] that have several values in order[], sorted as the keys appear in
  * names of runs; order[] has room for `keys` entries. Returns their number. */

@@ -36,7 +36,7 @@ static int name_slot(const struct study *s, const char *name)
 
 static bool name_taken(const struct study *s, const char *name) { return s->slot[name_slot(s, name)] > 0; }
 
-void study_name_book(struct study *s, int number) { s->slot[name_slot(s, s->at[number].name)] = number + 1; }
+void study_name_register(struct study *s, int number) { s->slot[name_slot(s, s->at[number].name)] = number + 1; }
 
 void study_names_grow(struct study *s)
 {
@@ -44,7 +44,7 @@ void study_names_grow(struct study *s)
     memory_free(s->slot);
     s->slots = s->slots > 0 ? 2 * s->slots : 64;
     s->slot = NEW("study.names", s->slots, int);
-    for (int k = 0; k < s->n; k++) study_name_book(s, k);
+    for (int k = 0; k < s->n; k++) study_name_register(s, k);
 }
 
 /* ---- names ------------------------------------------------------------------------------------------------------- */
@@ -60,7 +60,7 @@ static void name_append(char *name, const char *text)
     name[n] = '\0';
 }
 
-void study_name_settle(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n)
+void study_name_choose(const struct study *s, char *name, const char *wanted, const struct scene_override *o, int n)
 {
     *name = '\0';
     name_append(name, wanted);

@@ -28,7 +28,7 @@ struct runner {
     struct core_shares *shares;
     int running, ended;
     bool stopped; /* running runs have been told to stop */
-    double since; /* time of that on team_clock [s] */
+    double since; /* time of that on wall_clock [s] */
 };
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
@@ -77,7 +77,7 @@ static void print_word(FILE *out, const char *word)
     }
     char *shown = NEW("study.shown", (int64_t)length + 1, char);
     strcpy(shown, word);
-    text_harmless(shown);
+    text_replace_controls(shown);
     putc('\'', out);
     for (size_t k = 0; k < length; k++)
         print_quoted(out, word[k], shown[k] != word[k] && word[k] != '\n' && word[k] != '\t');
@@ -137,8 +137,8 @@ static status case_guard(const struct study *s, const struct study_case *c)
     const struct path folder = study_folder(s, c), log = log_path(s, c);
     if (path_is_link(folder.text))
         return status_set(REFUSED, "%s is a link: the run would be somewhere else; choose another -o", folder.text);
-    TRY(file_guard(log.text));
-    return file_begin_guard(log.text, begin, COUNT_OF(begin));
+    TRY(file_check_replaceable(log.text));
+    return file_check_beginning(log.text, begin, COUNT_OF(begin));
 }
 
 /* Runs in the child process: executes the run in its own process group, so that an interrupt from the terminal reaches
@@ -175,13 +175,13 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
                                 : there          ? "--resume"
                                                  : NULL,
                                 &pairs);
-    c->seconds = -team_clock();
-    core_share_take(r->shares, slot); /* inherited by the child */
+    c->seconds = -wall_clock();
+    core_share_bind(r->shares, slot); /* inherited by the child */
     fflush(NULL);
     c->process = (int)fork();
     if (c->process == 0) become_run(word, fd);
     const int fault = errno;
-    core_share_take(r->shares, -1);
+    core_share_bind(r->shares, -1);
     close(fd);
     memory_free(pairs);
     memory_free(word);
@@ -198,11 +198,11 @@ static void last_line(const char *path, char *line, size_t room)
     char *text;
     size_t length;
     snprintf(line, room, "it gave no reason");
-    if (file_get(path, &text, &length) != OK) return;
+    if (file_read_whole(path, &text, &length) != OK) return;
     while (length > 0 && text[length - 1] == '\n') text[--length] = '\0';
     const char *last = strrchr(text, '\n');
     if (last) snprintf(line, room, "%s", last + 1);
-    text_harmless(line);
+    text_replace_controls(line);
     memory_free(text);
 }
 
@@ -213,7 +213,7 @@ static void case_end(struct runner *r, struct study_case *c, int ended)
     char line[1024];
     c->ended = WIFEXITED(ended) ? WEXITSTATUS(ended) : 128 + WTERMSIG(ended);
     c->state = c->ended == OK ? CASE_DONE : c->ended == INTERRUPTED || r->stopped ? CASE_STOPPED : CASE_FAILED;
-    c->seconds += team_clock();
+    c->seconds += wall_clock();
     c->process = 0;
     r->running--;
     r->ended++;
@@ -255,14 +255,14 @@ static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGTERM);
-    if (!r->stopped) r->since = team_clock();
+    if (!r->stopped) r->since = wall_clock();
     r->stopped = true;
 }
 
 /* Kills processes that have not stopped after the budget, for example during a long set-up. */
 static void cases_kill(struct runner *r)
 {
-    if (!r->stopped || team_clock() < r->since + PATIENCE) return;
+    if (!r->stopped || wall_clock() < r->since + PATIENCE) return;
     for (int k = 0; k < r->study->n; k++)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
@@ -272,7 +272,7 @@ static status cases_run(struct runner *r)
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
     status s = OK;
     for (int next = 0; next < r->study->n || r->running > 0;) {
-        const bool late = r->how.until > 0 && team_clock() > r->how.until;
+        const bool late = r->how.until > 0 && wall_clock() > r->how.until;
         if (s != OK || late || (r->how.stop && *r->how.stop)) {
             next = r->study->n;
             cases_stop(r);
@@ -296,7 +296,7 @@ static status cases_run(struct runner *r)
 /* Fills in the options that are 0: as many parallel runs as there are cores, each with an equal share of threads. */
 static struct study_options options_filled(struct study_options how, const struct study *s)
 {
-    const int cores = team_cores();
+    const int cores = machine_cores();
     int waiting = 0;
     for (int k = 0; k < s->n; k++) waiting += s->at[k].state == CASE_WAITING;
     if (how.jobs <= 0) how.jobs = how.threads > 0 ? cores / how.threads : cores < waiting ? cores : waiting;
@@ -311,17 +311,17 @@ static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_claim(s->folder));
     if (!s->text) return OK;
-    if (!overwrite) TRY(study_folder_fits(s->folder, s->text));
-    return study_scene_same(s->folder, s->text) ? OK : study_scene_put(s->folder, s->text);
+    if (!overwrite) TRY(study_folder_check_scene(s->folder, s->text));
+    return study_has_scene(s->folder, s->text) ? OK : study_write_scene(s->folder, s->text);
 }
 
-status study_take(struct study *s, bool overwrite)
+status study_lock_folder(struct study *s, bool overwrite)
 {
     if (path_exists(path_join(s->folder, "scene.yaml").text))
         return status_set(REFUSED, "%s holds a run, not a study; choose another -o", s->folder);
     if (!path_is_folder(s->folder)) return status_set(REFUSED, "%s: no study there", s->folder);
     if (s->lock.fd >= 0) return OK;
-    TRY(study_folder_guard(s->folder));
+    TRY(study_folder_check(s->folder));
     TRY(folder_lock(&s->lock, s->folder));
     return scene_put(s, overwrite);
 }
@@ -330,7 +330,7 @@ status study_run(struct study *s, struct study_options how)
 {
     struct runner r = {.study = s};
     TRY(folder_make(s->folder));
-    TRY(study_take(s, how.overwrite));
+    TRY(study_lock_folder(s, how.overwrite));
     for (int k = 0; k < s->n; k++) {
         struct study_case *c = &s->at[k];
         if (how.overwrite && c->state == CASE_DONE_BEFORE) c->state = CASE_WAITING;

@@ -35,8 +35,8 @@ static int figure_add(struct study_table *t, const char *name)
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
-    int at =
-        f->next < f->table->figures && !strcmp(f->table->figure[f->next], key) ? f->next : study_figure(f->table, key);
+    int at = f->next < f->table->figures && !strcmp(f->table->figure[f->next], key) ? f->next
+                                                                                    : study_find_figure(f->table, key);
     if (at < 0) at = figure_add(f->table, key);
     f->table->value[at][f->row] = value;
     f->next = at + 1;
@@ -70,7 +70,7 @@ void study_table_free(struct study_table *t)
     *t = (struct study_table){0};
 }
 
-int study_figure(const struct study_table *t, const char *name)
+int study_find_figure(const struct study_table *t, const char *name)
 {
     for (int f = 0; f < t->figures; f++)
         if (strcmp(t->figure[f], name) == 0) return f;
@@ -131,7 +131,7 @@ static void table_print(FILE *to, const struct study_table *t, const struct stud
         putc(',', to);
         cell_print(to, state_of(s, &s->at[c], state, sizeof state));
         for (int k = 0; k < keys; k++)
-            if (key[k].values > 1) putc(',', to), cell_print(to, study_value(&s->at[c], key[k].key));
+            if (key[k].values > 1) putc(',', to), cell_print(to, study_case_value(&s->at[c], key[k].key));
         for (int f = 0; f < t->figures; f++)
             if (isnan(t->value[f][c]))
                 putc(',', to);
@@ -147,22 +147,22 @@ status study_write_table(const struct study_table *t, const struct study *s, con
     size_t length = 0;
     FILE *to = memory_stream_open(&text, &length);
     if (to) table_print(to, t, s, key, keys);
-    return study_put(s, "sweep.csv", to, &text, &length);
+    return study_write_file(s, "sweep.csv", to, &text, &length);
 }
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
 
-status study_output_guard(const struct study *s, const struct varied_key *key, int keys)
+status study_check_output_files(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};
     const struct path pictures = path_join(s->folder, "pictures");
-    if (study_folder_guard(s->folder) != OK) return OK; /* study_take reports the fault */
-    TRY(file_begin_guard(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
-    TRY(picture_guard(path_join(pictures.text, "map.png").text));
+    if (study_folder_check(s->folder) != OK) return OK; /* study_lock_folder reports the fault */
+    TRY(file_check_beginning(path_join(s->folder, "sweep.csv").text, begin, COUNT_OF(begin)));
+    TRY(picture_check_replaceable(path_join(pictures.text, "map.png").text));
     for (int k = 0; k < keys; k++) {
         char name[PICTURE_NAME_ROOM];
         study_picture_name(name, key[k].key);
-        if (key[k].values > 1) TRY(picture_guard(path_join(pictures.text, name).text));
+        if (key[k].values > 1) TRY(picture_check_replaceable(path_join(pictures.text, name).text));
     }
     return OK;
 }

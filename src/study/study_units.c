@@ -43,7 +43,7 @@ static bool unit_in_header(char *unit, size_t room, const char *header, const ch
     return false;
 }
 
-void study_header_read(char *header, size_t room, const struct study *s)
+void study_read_history_header(char *header, size_t room, const struct study *s)
 {
     *header = '\0';
     for (int k = 0; k < s->n && !*header; k++) {
@@ -55,7 +55,7 @@ void study_header_read(char *header, size_t room, const struct study *s)
     }
 }
 
-void study_unit(char *unit, size_t room, const char *header, const char *figure)
+void study_figure_unit(char *unit, size_t room, const char *header, const char *figure)
 {
     const char *dot = strrchr(figure, '.'), *own = dot ? dot + 1 : figure;
     const bool probe = !strncmp(figure, "probes.", 7), energy = !strncmp(figure, "energy.", 7);

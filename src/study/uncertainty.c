@@ -85,18 +85,18 @@ static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *l
     return true;
 }
 
-int error_bars_at_hand(struct error_bar *bar, int most, const struct scene *s, const char *folder)
+int error_bars_read(struct error_bar *bar, int most, const struct scene *s, const char *folder)
 {
     struct path study = study_beside(folder, s->name);
     struct bar_columns columns;
     char *text, *rest;
     size_t length;
     int n = 0;
-    if (!study_scene_same(study.text, s->text)) {
+    if (!study_has_scene(study.text, s->text)) {
         study = pilot_folder(folder);
-        if (!study_scene_same(study.text, s->text)) return 0;
+        if (!study_has_scene(study.text, s->text)) return 0;
     }
-    if (file_get(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
+    if (file_read_whole(path_join(study.text, "converge.csv").text, &text, &length) != OK) return 0;
     char *line = strtok_r(text, "\n", &rest);
     if (line) columns_find(&columns, line);
     while (line && n < most && (line = strtok_r(NULL, "\n", &rest))) n += bar_read(&bar[n], &columns, line, s->spacing);

@@ -90,6 +90,6 @@ static void test_adaptive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_pd), cmocka_unit_test(test_adaptive)};
-    team_make(0);
+    team_set_threads(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -262,11 +262,11 @@ static real shaken(struct held_run *r, int steps)
     uint64_t seed = 1;
     for (int d = 0; d < p->dim; d++)
         for (int64_t i = 0; i < p->n; i++) p->v[d][i] = 1e-8 * r->e.tables.wave_speed * bench_random(&seed);
-    const real start = diagnostics_kinetic(p);
+    const real start = particles_kinetic_energy(p);
     real most = 0;
     for (int k = 0; k < steps; k++) {
         if (engine_step(&r->e) != OK) return INFINITY;
-        if (k % 8 == 0) most = real_max(most, diagnostics_kinetic(p) / start);
+        if (k % 8 == 0) most = real_max(most, particles_kinetic_energy(p) / start);
     }
     return most;
 }
@@ -315,7 +315,7 @@ static void test_plate(void **state)
         "particles: {spacing: 1 mm, horizon: 3.015}\npd: {region: {box: {from: [5 mm, 5 mm], to: [15 mm, 15 mm]}}}\n"
         "initial: [{velocity_gradient: [10, 3, 0, -7]}]\noutput: {frames: 0, samples: 40}\n",
         bench_overrides_ready(&o), o.n));
-    const real start = diagnostics_kinetic(&r->e.part);
+    const real start = particles_kinetic_energy(&r->e.part);
     assert_ok(bench_engine_run(&r->e, 1, NULL)); /* creates the record of samples */
     while (r->e.clock.step < 10000) {
         assert_ok(engine_step(&r->e));

@@ -22,7 +22,7 @@
 
 #include "coupling/conversion.h"
 #include "output/output.h"
-#include "src/quasistatic/overload.h"
+#include "src/quasistatic/stretch_ratio.h"
 
 const char *const fault_name[FAULT_CALLS] = {
     "own malloc", "own open", "own read", "own write", "own fsync",  "own close", "own rename",  "own mkdir",
@@ -249,8 +249,8 @@ WRAP(int, close, (int fd), (fd), hit_file(OWN_CLOSE, fd) && (close(fd), errno = 
         return __real_##name arguments;                                                                                \
     }
 
-PLACE(status, output_history, (struct output *o, const real *value), (o, value), AT_SAMPLE)
-PLACE(int64_t, convert,
+PLACE(status, output_write_history, (struct output *o, const real *value), (o, value), AT_SAMPLE)
+PLACE(int64_t, convert_flagged_points,
       (struct conversion *c, const struct conversion_rule *rule, struct particles *p, struct bonds *b,
        const struct bond_source *source, struct partial_stress *partial, const struct conversion_sync *look, real t),
       (c, rule, p, b, source, partial, look, t), AT_CONVERSION)

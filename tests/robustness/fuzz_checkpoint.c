@@ -41,7 +41,7 @@ uint8_t *fuzz_checkpoint_seed(size_t *n)
     struct run e;
     char *bytes = NULL;
     begin(&e);
-    if (engine_run(&e) != OK || file_get("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
+    if (engine_run(&e) != OK || file_read_whole("fuzz_run/checkpoint.previous.h5", &bytes, n) != OK)
         fuzz_fail("the run", status_message());
     engine_free(&e);
     uint8_t *seed = malloc(*n);
@@ -55,10 +55,10 @@ static void put_checkpoint(const uint8_t *bytes, size_t n)
 {
     static const char path[] = "fuzz_run/checkpoint.h5";
     unlink("fuzz_run/checkpoint.previous.h5");
-    const int fd = open(path_aside(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    const int fd = open(path_temporary(path).text, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (fd < 0 || write(fd, bytes, n) != (ssize_t)n) fuzz_fail("cannot write", "");
     close(fd);
-    if (file_seal_whole(path) != OK || file_publish(path) != OK) fuzz_fail("cannot write", status_message());
+    if (file_append_footer(path) != OK || file_publish(path) != OK) fuzz_fail("cannot write", status_message());
 }
 
 void fuzz_checkpoint(const uint8_t *bytes, size_t n)

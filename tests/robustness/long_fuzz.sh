@@ -35,7 +35,7 @@ fuzz()
     result=$?
     if [ $result -eq 0 ]; then tail -n 1 "$work/$target.said"; return; fi
     # A checksum that matches damaged data is a forgery: the library may crash on it, and the program reports that in one line
-    # (src/base/last_words.c).
+    # (src/base/crash_message.c).
     if grep -E '^ +#[0-3] ' "$work/$target.said" | grep -q libhdf5; then echo "$target: HDF5 crashed, seed $seed"; return; fi
     cp "$work/$target/$target.input" "$build/fuzz/$target.$seed"
     echo "$test_name: $target, status $result, input kept as $build/fuzz/$target.$seed:"

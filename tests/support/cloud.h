@@ -65,7 +65,7 @@ static inline void cloud_materials(struct cloud *c, enum space space)
         *k = (struct material){
             .young = young[m], .density = density[m], .energy_release_rate = NAN, .critical_stretch = INFINITY};
         k->poisson = space == SPACE_LINE ? 0 : material_bond_poisson(space);
-        material_derive(k, space);
+        material_compute_constants(k, space);
     }
     for (int k = 0; k < CLOUD_MATERIALS * CLOUD_MATERIALS; k++) c->limit[k] = c->yield[k] = INFINITY;
 }
@@ -103,7 +103,7 @@ static inline void cloud_make(struct cloud *c, const struct cloud_plan *plan)
         for (int d = 0; d < dim && plan->optional & WITH_STRETCH; d++) p->stretch[d][i] = 1;
         if (dim == 3 && plan->optional & WITH_ROTATIONS) p->end_rotation[ROTATION - 1][i] = 1;
     }
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 /* Rounds the positions of a regular lattice to exact multiples of half a spacing, as fill.c does. */
@@ -118,21 +118,21 @@ static inline void cloud_exact(struct cloud *c)
 static inline void cloud_unfold(struct bonds *b)
 {
     for (int64_t g = 0; g < b->row_blocks; g++)
-        if (b->implicit[g]) row_block_expand(b, g);
+        if (b->implicit[g]) row_block_write_columns(b, g);
 }
 
 /* Sets the source of bonds. Call after kinds, bodies and materials are set. */
 static inline void cloud_source(struct cloud *c)
 {
     struct bond_source *s = &c->source;
-    particles_list(&c->p);
+    particles_update_lists(&c->p);
     cells_make(&c->cells, &c->p, s->family.cutoff);
     s->cells = &c->cells;
     s->material = c->material;
     s->materials = CLOUD_MATERIALS;
     s->limit = (struct bond_limit){c->limit, CLOUD_MATERIALS, LAST_FORCE_HALF, 0};
     s->yield = (struct bond_yield){c->yield, c->hardening, CLOUD_MATERIALS};
-    if (s->family.surface == SURFACE_MOMENTS && surface_make(&c->surface, &c->p, s, s->rotates) == OK)
+    if (s->family.surface == SURFACE_MOMENTS && surface_weights_make(&c->surface, &c->p, s, s->rotates) == OK)
         s->surface = &c->surface;
     if (s->family.surface != SURFACE_VOLUME) return;
     c->neighbour_volume = NEW("cloud.volume", c->p.n_all, real);
@@ -163,7 +163,7 @@ static inline void cloud_free(struct cloud *c)
     if (c->bonds.column) bonds_free(&c->bonds);
     if (c->cells.start) cells_free(&c->cells);
     memory_free(c->neighbour_volume);
-    surface_free(&c->surface);
+    surface_weights_free(&c->surface);
     particles_free(&c->p);
     memset(c, 0, sizeof *c);
 }
@@ -175,9 +175,10 @@ static inline void cloud_copy(struct particles *to, const struct particles *from
     for (int f = 0; f < particle_fields_count; f++) {
         const struct particle_field *field = &particle_fields[f];
         for (int k = 0; k < field->count(from->dim, optional); k++)
-            memcpy(particle_array(to, field, k), particle_array(from, field, k), (size_t)from->n * field->size);
+            memcpy(particle_field_array(to, field, k), particle_field_array(from, field, k),
+                   (size_t)from->n * field->size);
     }
-    particles_list(to);
+    particles_update_lists(to);
 }
 
 /* Returns the largest difference of two arrays over the largest magnitude in the second. */

@@ -56,7 +56,7 @@ static inline uint8_t *operator_held(struct run *e, bool node)
     uint8_t *held = NEW("test.held", n + 1, uint8_t);
     if (node) {
         const struct grid *g = &e->frame->mesh.grid;
-        loads_mesh_walls(&e->loads, &e->frame->mesh, 0, e->clock.dt);
+        loads_set_mesh_walls(&e->loads, &e->frame->mesh, 0, e->clock.dt);
         for (int64_t k = 0; k < g->walls; k++) held[g->wall[k].node] |= (uint8_t)(1 << g->wall[k].component);
         for (int64_t k = 0; k < g->mirror_nodes; k++) held[g->mirror_node[k].node] = 7;
         return held;
@@ -121,8 +121,8 @@ static inline void operator_forces(struct operator* o, real *f)
         for (int d = 0; d < g->dim; d++)
             e->frame->mesh.displacement[d][g->mirror_node[k].node] =
                 g->mirror_node[k].sign[d] * e->frame->mesh.displacement[d][g->mirror_node[k].image];
-    if (getenv("OPERATOR_SHOW")) frame_sync(e->frame, &e->part, &e->loads);
-    run_forces(e);
+    if (getenv("OPERATOR_SHOW")) frame_update_points(e->frame, &e->part, &e->loads);
+    run_compute_forces(e);
     for (int64_t k = 0; k < mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
             g->force[d][g->mirror_node[k].image] += g->mirror_node[k].sign[d] * g->force[d][g->mirror_node[k].node];

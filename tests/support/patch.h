@@ -36,7 +36,7 @@ static inline void patch_grid(struct patch *s, real ratio, real offset)
         from[d] = 0, to[d] = 0;
         for (int64_t i = 0; i < s->c.p.n; i++) to[d] = fmax(to[d], s->c.p.x[d][i]);
     }
-    assert_int_equal(grid_cover(&s->g, from, to, 1000000, &changed), OK);
+    assert_int_equal(grid_extend_box(&s->g, from, to, 1000000, &changed), OK);
 }
 
 /* Maps the points to the grid. */

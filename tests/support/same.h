@@ -11,7 +11,8 @@ static inline void assert_same_particles(const struct particles *a, const struct
     assert_int_equal(a->n, b->n);
     for (int f = 0; f < particle_fields_count; f++)
         for (int k = 0; k < particle_fields[f].count(a->dim, optional); k++)
-            assert_memory_equal(particle_array(a, &particle_fields[f], k), particle_array(b, &particle_fields[f], k),
+            assert_memory_equal(particle_field_array(a, &particle_fields[f], k),
+                                particle_field_array(b, &particle_fields[f], k),
                                 (size_t)a->n * particle_fields[f].size);
 }
 

@@ -54,12 +54,14 @@ static void arrays_may_be_empty_or_overlap(void **state)
 static void refusals_have_one_place(void **state)
 {
     (void)state;
-    assert_refused(status_at("x.yaml:3:1: ", status_set(REFUSED, "no particle")), "x.yaml:3:1: no particle");
-    assert_refused(status_at("x.yaml: ", REFUSED), "x.yaml:3:1: no particle"); /* the first location is kept */
+    assert_refused(status_prepend_location("x.yaml:3:1: ", status_set(REFUSED, "no particle")),
+                   "x.yaml:3:1: no particle");
+    assert_refused(status_prepend_location("x.yaml: ", REFUSED),
+                   "x.yaml:3:1: no particle"); /* the first location is kept */
     assert_int_equal(strncmp(status_message(), "x.yaml:3:1: ", 12), 0);
-    status_at("x.yaml: ", status_set(FAILED, "disk full"));
+    status_prepend_location("x.yaml: ", status_set(FAILED, "disk full"));
     assert_string_equal(status_message(), "disk full"); /* a failure has no location */
-    status_at("", status_set(REFUSED, "no particle"));
+    status_prepend_location("", status_set(REFUSED, "no particle"));
     assert_string_equal(status_message(), "no particle");
 }
 
@@ -153,7 +155,7 @@ static void sums_do_not_depend_on_threads(void **state)
         for (int64_t i = 0; i < n[c]; i++) plain += harmonic(&scale, i);
         for (int threads = 1; threads <= 4; threads++) {
             omp_set_num_threads(threads);
-            sum[threads - 1] = team_sum(n[c], harmonic, &scale);
+            sum[threads - 1] = reproducible_sum(n[c], harmonic, &scale);
             assert_memory_equal(&sum[threads - 1], &sum[0], sizeof(real));
         }
         assert_close(sum[0], plain, 1e-13); /* round-off of 1e5 additions in another order */
@@ -164,34 +166,34 @@ static void sums_do_not_depend_on_threads(void **state)
 static void team_has_the_threads_asked_for(void **state)
 {
     (void)state;
-    struct machine before = team_machine();
+    struct machine before = machine_properties();
     for (int threads = 3; threads >= 1; threads--) {
         int seen = 0;
-        assert_int_equal(team_make(threads), threads);
+        assert_int_equal(team_set_threads(threads), threads);
 #pragma omp parallel
 #pragma omp single
         seen = omp_get_num_threads();
         assert_int_equal(seen, threads);
     }
-    struct machine m = team_machine(); /* binding the threads must not hide cores from the next call */
+    struct machine m = machine_properties(); /* binding the threads must not hide cores from the next call */
     assert_int_equal(m.cores, before.cores);
     assert_int_equal(m.threads_allowed, before.threads_allowed);
     assert_true(m.cores >= 1 && m.threads_allowed >= m.cores);
     assert_true(m.memory > 0 && strlen(m.model) > 0);
-    assert_true(team_make(0) >= 1);
-    team_make(2);
+    assert_true(team_set_threads(0) >= 1);
+    team_set_threads(2);
 }
 
 static void timers_book_time_where_it_went(void **state)
 {
     (void)state;
     struct timers l;
-    double begin = team_clock();
+    double begin = wall_clock();
     timers_start(&l);
     usleep(20000);
-    timer_book(&l, TIMER_BONDS);
-    timer_book(&l, TIMER_OUTPUT);
-    double whole = team_clock() - begin;
+    timer_add_elapsed(&l, TIMER_BONDS);
+    timer_add_elapsed(&l, TIMER_OUTPUT);
+    double whole = wall_clock() - begin;
     assert_true(l.spent[TIMER_BONDS] >= 0.02 && l.spent[TIMER_BONDS] <= whole);
     assert_true(l.spent[TIMER_OUTPUT] >= 0 && l.spent[TIMER_BONDS] + l.spent[TIMER_OUTPUT] <= whole + 1e-9);
     assert_exact(l.spent[TIMER_GRID], 0);
@@ -289,8 +291,8 @@ static void time_functions_follow_their_definitions(void **state)
         {&table, 9, 4},     {&sudden, 0.9, 0},  {&sudden, 1, 1},
     };
     for (size_t k = 0; k < COUNT_OF(c); k++)
-        assert_near(time_function_at(c[k].f, c[k].t), c[k].value, 1e-15); /* round-off of sin^2 */
-    assert_exact(time_function_at(&(struct time_function){.kind = TIME_STEP, .until = INFINITY}, 1e9), 1);
+        assert_near(time_function_value(c[k].f, c[k].t), c[k].value, 1e-15); /* round-off of sin^2 */
+    assert_exact(time_function_value(&(struct time_function){.kind = TIME_STEP, .until = INFINITY}, 1e9), 1);
 }
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
@@ -371,22 +373,22 @@ static void elastic_constants_agree_with_closed_forms(void **state)
 {
     (void)state;
     struct material m = {.young = 2e11, .poisson = 0.3, .density = 8000};
-    material_derive(&m, SPACE_PLANE_STRESS);
+    material_compute_constants(&m, SPACE_PLANE_STRESS);
     assert_close(m.c11, 2e11 / 0.91, 1e-14);
     assert_close(m.c12, 0.3 * m.c11, 1e-14);
     assert_close(m.bulk, 2e11 / 1.4, 1e-14);
-    material_derive(&m, SPACE_PLANE_STRAIN);
+    material_compute_constants(&m, SPACE_PLANE_STRAIN);
     assert_close(m.c11, 2e11 * 0.7 / (1.3 * 0.4), 1e-14);
     assert_close(m.bulk, 2e11 / (2 * 1.3 * 0.4), 1e-14);
-    material_derive(&m, SPACE_SOLID);
+    material_compute_constants(&m, SPACE_SOLID);
     assert_close(m.bulk, 2e11 / 1.2, 1e-14);
-    material_derive(&m, SPACE_LINE);
+    material_compute_constants(&m, SPACE_LINE);
     assert_exact(m.c11, 2e11);
     assert_close(m.wave_speed, 5000, 1e-15);
     assert_exact(m.c12 + m.shear_speed + m.rayleigh_speed, 0);
     /* Wave speeds of Imachi et al. 2019 from the closed forms, to the digits given. */
     struct material glass = {.young = 75.629e9, .poisson = 0.286, .density = 2456};
-    material_derive(&glass, SPACE_PLANE_STRAIN);
+    material_compute_constants(&glass, SPACE_PLANE_STRAIN);
     assert_near(glass.wave_speed, 6320.3, 0.06);
     assert_near(glass.shear_speed, 3460.1, 0.06);
     assert_near(glass.rayleigh_speed, 3201.4, 0.06);
@@ -400,7 +402,7 @@ static void compliance_inverts_stiffness(void **state)
         struct material m = {.young = 7e10, .poisson = 0.2, .density = 1};
         int dim = space_dim(space[k]), n = symmetric_count(dim);
         real C[SYM_MAX * SYM_MAX], S[SYM_MAX * SYM_MAX];
-        material_derive(&m, space[k]);
+        material_compute_constants(&m, space[k]);
         material_stiffness(&m, dim, C);
         material_compliance(&m, dim, S);
         for (int i = 0; i < n; i++)
@@ -427,7 +429,7 @@ static void bond_constants_agree_with_closed_forms(void **state)
                 {SPACE_SOLID, 0.25, 1, 12 * E / (pi * d * d * d * d), sqrt(5 * G_c / (6 * E * d))}};
     for (size_t k = 0; k < COUNT_OF(want); k++) {
         m.poisson = want[k].poisson;
-        material_derive(&m, want[k].space);
+        material_compute_constants(&m, want[k].space);
         assert_close(material_micro_modulus_continuum(&m, want[k].space, d, want[k].section), want[k].c, 1e-13);
         assert_close(material_critical_stretch(&m, want[k].space, d, STRETCH_BOND), want[k].s, 1e-13);
         if (want[k].space != SPACE_LINE) assert_exact(material_bond_poisson(want[k].space), want[k].poisson);

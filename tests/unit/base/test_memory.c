@@ -22,9 +22,9 @@ static void memory_is_aligned_and_zero(void **state)
 {
     (void)state;
     check_zero();
-    memory_reuse(true);
+    memory_set_reuse(true);
     for (int k = 0; k < 3; k++) check_zero();
-    memory_reuse(false);
+    memory_set_reuse(false);
 }
 
 static void memory_resize_keeps_what_fits(void **state)
@@ -57,14 +57,15 @@ static void memory_grows(void **state)
     assert_ptr_equal(array, before);
     memory_free(array);
     for (int way = 0; way < 3; way++) { /* arrays allocated by other functions */
-        char *text = way == 0 ? memory_new("test", 5, 1) : memory_bare("test", way == 1 ? 5 : 3, 1);
-        if (way == 2) text = memory_extend("test", text, 3, 5, 1);
+        char *text = way == 0 ? memory_new("test", 5, 1) : memory_new_uninitialised("test", way == 1 ? 5 : 3, 1);
+        if (way == 2) text = memory_resize_uninitialised("test", text, 3, 5, 1);
         memcpy(text, "abcde", 5);
         GROW("test", text, 6);
         assert_memory_equal(text, "abcde\0\0\0\0", 10); /* twice as long, with new elements zero */
         memory_free(text);
     }
-    char *pages = memory_extend("test", memory_sparse("test", 2 << 20, 1), 2 << 20, 3 << 20, 1), *same = pages;
+    char *pages = memory_resize_uninitialised("test", memory_new_sparse("test", 2 << 20, 1), 2 << 20, 3 << 20, 1),
+         *same = pages;
     GROW("test", pages, 3 << 20);
     assert_ptr_equal(pages, same);
     memory_free(pages);

@@ -137,7 +137,7 @@ static void force_of_scene(const struct manufactured *m, const real *X, real t, 
     for (int k = 0; k < s.boundaries; k++) {
         const struct profile *q = &s.boundary[k].profile;
         const real along = dot(X, q->direction, m->dim) / sqrt(dot(q->direction, q->direction, m->dim));
-        const real factor = sin(2 * M_PI * along / q->wavelength) * time_function_at(&s.boundary[k].time, t);
+        const real factor = sin(2 * M_PI * along / q->wavelength) * time_function_value(&s.boundary[k].time, t);
         for (int a = 0; a < m->dim; a++) f[a] += factor * s.boundary[k].value[a];
     }
     scene_free(&s);

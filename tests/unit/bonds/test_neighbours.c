@@ -15,7 +15,7 @@
 static void search_equals_all_pairs(const struct particles *p, const struct cells *c, const real *X, real radius,
                                     int32_t skip)
 {
-    int32_t found[1000], n = cells_near(c, p, X, radius, skip, found, COUNT_OF(found)), expected = 0;
+    int32_t found[1000], n = cells_find_near(c, p, X, radius, skip, found, COUNT_OF(found)), expected = 0;
     assert_in_range(n, 0, COUNT_OF(found));
     for (int32_t j = 0; j < p->n; j++) {
         real r2 = 0;
@@ -25,7 +25,7 @@ static void search_equals_all_pairs(const struct particles *p, const struct cell
         assert_int_equal(found[expected++], j); /* ascending, without duplicates, complete */
     }
     assert_int_equal(n, expected);
-    assert_int_equal(cells_near(c, p, X, radius, skip, NULL, 0), expected);
+    assert_int_equal(cells_find_near(c, p, X, radius, skip, NULL, 0), expected);
 }
 
 static void searches(const struct cloud_plan *plan, real edge, bool outlier)
@@ -318,7 +318,7 @@ static void test_rows_inherit(void **state)
         real *before = reference_table(&c.bonds, p), energy = bonds_fracture_energy(&c.bonds);
         for (int64_t i = 0; i < p->n; i++)
             if (p->X[0][i] < 8e-3) p->kind[i] = KIND_PD;
-        particles_list(p);
+        particles_update_lists(p);
         struct bonds old = c.bonds;
         bonds_make(&c.bonds, &old, p, &c.source);
         real *after = reference_table(&c.bonds, p);
@@ -352,7 +352,7 @@ static void test_rows_again(void **state)
         cloud_make(&c, &plan[k]);
         const int last = c.p.dim - 1;
         for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[last][i] < 2e-3 ? KIND_PD : KIND_MPM;
-        particles_list(&c.p);
+        particles_update_lists(&c.p);
         cloud_source(&c);
         c.source.yield = (struct bond_yield){NULL, NULL, 0}; /* bonds that may yield always move */
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
@@ -361,7 +361,7 @@ static void test_rows_again(void **state)
             const real *was = old.w;
             for (int64_t i = 0; i < c.p.n; i++)
                 if (c.p.X[last][i] < column * CLOUD_SPACING) c.p.kind[i] = KIND_PD;
-            particles_list(&c.p);
+            particles_update_lists(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             moved += c.bonds.w != was, stayed += c.bonds.w == was;
             assert_true(c.bonds.used <= c.bonds.room && c.bonds.used >= c.bonds.columns);
@@ -410,7 +410,7 @@ static void test_rows_of_lattice(void **state)
             memory_free(volume);
         }
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
-        const real step = bonds_critical_step_made(&c.bonds, &c.p);
+        const real step = bonds_critical_step_of_existing(&c.bonds, &c.p);
         if (c.p.n_of[KIND_PD] == c.p.n) assert_true(step == bonds_critical_step(&c.p, &c.source));
         struct bond_source states = c.source; /* bonds between equal materials agree with states, others are stiffer */
         states.modulus = (const struct state_modulus[CLOUD_MATERIALS]){{0, 0}};
@@ -463,6 +463,6 @@ int main(void)
         cmocka_unit_test(test_rows_inherit),    cmocka_unit_test(test_rows_again),
         cmocka_unit_test(test_rows_of_lattice), cmocka_unit_test(test_rows_threads),
     };
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

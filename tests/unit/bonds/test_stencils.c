@@ -198,7 +198,7 @@ static void test_same_bits(void **state)
             assert_true(a.value[0] > 0);                    /* some bonds have broken, */
             assert_true(count_folded(&implicit.bonds) > 0); /* and some row blocks still follow a stencil */
             assert_true(weighed || count_units(&implicit.bonds) > 0);
-            assert_null(bonds_fault(&implicit.bonds)), assert_null(bonds_fault(&open.bonds));
+            assert_null(bonds_find_violation(&implicit.bonds)), assert_null(bonds_find_violation(&open.bonds));
             assert_int_equal(a.n, b.n);
             assert_memory_equal(a.value, b.value, (size_t)a.n * sizeof *a.value);
             memory_free(a.value), memory_free(b.value);
@@ -213,27 +213,27 @@ static void test_fault(void **state)
     struct cloud c;
     exact_cloud(&c, 2, SURFACE_NONE, NULL);
     struct bonds *b = &c.bonds;
-    assert_null(bonds_fault(b));
+    assert_null(bonds_find_violation(b));
     const int64_t q = bond_to_write(b, b->row_blocks / 2, 3, 4), column = q / LANES;
-    assert_null(bonds_fault(b)); /* stored explicitly, it still follows its stencil */
+    assert_null(bonds_find_violation(b)); /* stored explicitly, it still follows its stencil */
     bond_fade(b, &c.p, b->row_blocks / 2 * LANES + 4, q, 0.5);
-    assert_null(bonds_fault(b));
+    assert_null(bonds_find_violation(b));
     b->inverse_length[q] *= -1;
-    assert_string_equal(bonds_fault(b), "a bond with weight is broken or padding");
+    assert_string_equal(bonds_find_violation(b), "a bond with weight is broken or padding");
     b->inverse_length[q] *= -1;
     b->common[column].intact ^= 1;
-    assert_string_equal(bonds_fault(b), "intact is not what the weights say");
+    assert_string_equal(bonds_find_violation(b), "intact is not what the weights say");
     b->common[column].intact ^= 1;
     b->nbr[q]++;
-    assert_string_equal(bonds_fault(b), "neighbours are not consecutive");
+    assert_string_equal(bonds_find_violation(b), "neighbours are not consecutive");
     b->nbr[q]--;
     b->common[column].first++;
-    assert_string_equal(bonds_fault(b), "first is not what a column shares");
+    assert_string_equal(bonds_find_violation(b), "first is not what a column shares");
     b->common[column].first--;
     b->reach = 0;
-    assert_string_equal(bonds_fault(b), "a bond leads farther than reach");
+    assert_string_equal(bonds_find_violation(b), "a bond leads farther than reach");
     b->row_of[b->particle[9]] = 3;
-    assert_string_equal(bonds_fault(b), "row_of does not lead back to the row of a particle");
+    assert_string_equal(bonds_find_violation(b), "row_of does not lead back to the row of a particle");
     cloud_free(&c);
 }
 
@@ -261,14 +261,14 @@ static void test_who_stays_out(void **state)
     bonds_free(&c.bonds);
     const int32_t point = (int32_t)c.p.n / 2 + 3;
     c.p.kind[point] = KIND_MPM;
-    particles_list(&c.p);
+    particles_update_lists(&c.p);
     bonds_make(&c.bonds, NULL, &c.p, &c.source);
     const int64_t row = c.bonds.row_of[point] + 1, q = bond_to_write(&c.bonds, row / LANES, 5, (int)(row % LANES));
     const int32_t j = c.bonds.nbr[q];
     bond_fade(&c.bonds, &c.p, row, q, 0.5);
     c.p.kind[point] = KIND_PD;
     struct bonds old = c.bonds;
-    particles_list(&c.p);
+    particles_update_lists(&c.p);
     bonds_make(&c.bonds, &old, &c.p, &c.source);
     bonds_free(&old);
     int found = 0;
@@ -319,7 +319,7 @@ static void convert_tube(struct cloud *c, real radius)
         for (int d = 0; d < p->dim; d++) r2 += d == 2 ? 0 : square(p->X[d][i] - p->X[d][p->n / 2]);
         p->kind[i] = r2 < square(radius * CLOUD_SPACING) ? KIND_PD : KIND_MPM;
     }
-    particles_list(&c->p);
+    particles_update_lists(&c->p);
 }
 
 /* Beside material points, too, the site map yields the bonds that a search finds; bonds that may yield are searched. */

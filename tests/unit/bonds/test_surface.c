@@ -20,7 +20,7 @@ enum { STRAINS = 6 };
 struct plain {
     struct cloud cloud;
     struct near_faces body;
-    struct faces faces;
+    struct face_targets faces;
     real *factor, alpha, prior, full[DIM_MAX][DIM_MAX][DIM_MAX][DIM_MAX];
     real strain[STRAINS][DIM_MAX][DIM_MAX];
     int dim, strains;
@@ -126,7 +126,7 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
     cloud_source(&s->cloud);
     int64_t apart[2];
     assert_int_equal(near_faces_make(&s->body, &s->cloud.p, &s->cloud.source, apart), OK);
-    faces_make(&s->faces, &s->body, false);
+    face_targets_make(&s->faces, &s->body, false);
     const struct offsets *o = &s->body.offset;
     real third[DIM_MAX][DIM_MAX][DIM_MAX] = {{{0}}}, bonds = 0, squared = 0;
     for (int k = 0; k < o->n; k++) add_bond(s, k, 1, s->full, third);
@@ -160,7 +160,7 @@ static void plain_make(struct plain *s, const struct cloud_plan *plan)
 
 static void plain_free(struct plain *s)
 {
-    faces_free(&s->faces);
+    face_targets_free(&s->faces);
     near_faces_free(&s->body);
     memory_free(s->factor);
     cloud_free(&s->cloud);
@@ -322,7 +322,7 @@ static void half_is_as_the_whole(void **state)
     plan.count[0] = 7;
     cloud_make(&half, &plan);
     assert_int_equal(loads_make(&loads, mirror, 1, &half.p, CLOUD_SPACING, half.source.family.cutoff, 0), OK);
-    loads_mirror(&loads, &half.p);
+    loads_update_images(&loads, &half.p);
     half.source.image = loads.image;
     cloud_source(&whole);
     cloud_source(&half);
@@ -344,6 +344,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_least), cmocka_unit_test(faces_are_at_their_places),
                                        cmocka_unit_test(bending_has_the_energy_of_a_beam),
                                        cmocka_unit_test(half_is_as_the_whole)};
-    team_make(0);
+    team_set_threads(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

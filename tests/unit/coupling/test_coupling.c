@@ -233,7 +233,7 @@ static void test_energy_at_start(void **state)
         is_near("energy before", before / particle, (real)c.p.n, 1e-4);
         struct solid box = {
             .kind = SOLID_BOX, .from = {12 * CLOUD_SPACING}, .to = {(12 + row[k].block) * CLOUD_SPACING}};
-        convert_start(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
+        convert_cut_particles(&c.p, &c.source, &(struct region){.n = 1, .solid = &box});
         assert_int_equal(c.p.n_of[KIND_PD], row[k].block);
         bonds_make(&c.bonds, NULL, &c.p, &c.source);
         set_stress(&c, strain, stress);
@@ -271,11 +271,13 @@ static void test_energy_in_run(void **state)
         cloud_copy(&before, p, 0);
         const struct conversion_rule by_breaks = {
             .criteria = CONVERT_ON_BREAK, .stress = NAN, .alpha = 1, .block = true};
-        assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
+        assert_int_equal(
+            convert_flagged_points(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 0);
         p->flag[15] |= FLAG_STRESSED;
-        assert_int_equal(convert(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
+        assert_int_equal(convert_flagged_points(&conversion, &by_breaks, p, &c.bonds, &c.source, NULL, NULL, 2e-6), 0);
         p->flag[15] |= FLAG_STRESSED; /* the flag has been cleared */
-        assert_int_equal(convert(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
+        assert_int_equal(
+            convert_flagged_points(&conversion, &rule, p, &c.bonds, &c.source, with ? &partial : NULL, NULL, 3e-6), 7);
         for (int64_t i = 0; i < p->n; i++) assert_int_equal(p->kind[i], i >= 12 && i <= 18 ? KIND_PD : KIND_MPM);
         assert_int_equal(p->flag[15], 0);
         assert_int_equal(conversion.converted, 7);
@@ -302,7 +304,7 @@ static void test_block_in_its_body(void **state)
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 17;
     cloud_bonds(&c);
     c.p.flag[15] |= FLAG_NEAR;
-    assert_int_equal(convert(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
+    assert_int_equal(convert_flagged_points(&conversion, &rule, &c.p, &c.bonds, &c.source, NULL, NULL, 3e-6), 5);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i >= 12 && i < 17 ? KIND_PD : KIND_MPM);
     cloud_free(&c);
 }
@@ -320,7 +322,7 @@ static void test_crack_in_its_body(void **state)
     for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = KIND_MPM, c.p.body[i] = i >= 40;
     cloud_source(&c);
     c.source.crack = &crack, c.source.cracks = 1;
-    convert_start(&c.p, &c.source, NULL);
+    convert_cut_particles(&c.p, &c.source, NULL);
     for (int64_t i = 0; i < c.p.n; i++) assert_int_equal(c.p.kind[i], i < 40 ? KIND_PD : KIND_MPM);
     cloud_free(&c);
 }
@@ -348,7 +350,7 @@ static void test_approach(void **state)
         p->body[i] = (uint8_t)body, p->flag[i] = 0, p->kind[i] = i % 7 == 0 ? KIND_PD : KIND_MPM;
         p->x[0][i] += 1.3 * CLOUD_SPACING * body, p->x[1][i] += 0.4 * CLOUD_SPACING * (body == 1);
     }
-    approach_mark(p, BODIES, &rigid, 1, reach);
+    flag_points_near_bodies(p, BODIES, &rigid, 1, reach);
     for (int64_t i = 0; i < p->n; i++) {
         real normal[DIM_MAX], x[DIM_MAX] = {p->x[0][i], p->x[1][i]};
         bool near = region_distance(&shape, x, 2, normal) < reach;
@@ -383,7 +385,7 @@ static void test_faces_meet(void **state)
         c.p.x[1][i] -= moved[k] * h, c.p.v[1][i] = -way[k] * h / ahead;
     }
     const struct notches notches = {.slits = 1, .slit = &slit, .faces = c.p.n, .face = face};
-    notches_approach(&notches, &c.p, h, ahead);
+    notches_flag_approaching(&notches, &c.p, h, ahead);
     for (int64_t i = 0; i < c.p.n; i++) {
         const int k = (int)(c.p.X[0][i] / h);
         assert_int_equal((c.p.flag[i] & FLAG_NEAR) != 0, moved[k] + real_max(way[k], 0) > 0.3);
@@ -401,6 +403,6 @@ int main(void)
         cmocka_unit_test(test_crack_in_its_body), cmocka_unit_test(test_approach),
         cmocka_unit_test(test_faces_meet),
     };
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

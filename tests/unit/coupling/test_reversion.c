@@ -316,14 +316,14 @@ static void test_mesh(void **state)
     int64_t n = 0;
     for (int64_t i = 0; i < p->n; i++)
         if (i % 16 < 7) p->kind[i] = KIND_PD, list[n++] = (int32_t)i;
-    mesh_follow(&mesh, p, &source, NULL, 0);
+    mesh_remove_converted(&mesh, p, &source, NULL, 0);
     assert_int_equal(mesh.points, p->n - n);
     real kinetic = mesh_kinetic(&mesh);
     for (int64_t k = 0; k < n; k++)
         for (int d = 0; d < dim; d++) kinetic += 0.5 * p->mass[list[k]] * square(p->v[d][list[k]]);
     for (int64_t k = 0; k < n; k++) p->kind[list[k]] = KIND_MPM;
-    const real lost = mesh_insert(&mesh, p, list, n);
-    mesh_follow(&mesh, p, &source, list, n);
+    const real lost = mesh_insert_points(&mesh, p, list, n);
+    mesh_remove_converted(&mesh, p, &source, list, n);
     assert_int_equal(mesh.points, p->n);
     for (int64_t I = 0; I < mesh.grid.n; I++)
         for (int d = 0; d < dim; d++) {
@@ -343,6 +343,6 @@ int main(void)
         cmocka_unit_test(test_bar),       cmocka_unit_test(test_wave),          cmocka_unit_test(test_surfaces),
         cmocka_unit_test(test_who_stays), cmocka_unit_test(test_dwell_and_gap), cmocka_unit_test(test_mesh),
     };
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

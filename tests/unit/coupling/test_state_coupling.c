@@ -34,7 +34,7 @@ static void both_make(struct both *b, const struct partners *k)
     cloud_make(c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         c->material[m].poisson = k->poisson;
-        material_derive(&c->material[m], k->plan.space);
+        material_compute_constants(&c->material[m], k->plan.space);
         b->modulus[m] = state_modulus_of(&c->material[m], k->plan.space, k->model == PD_MOSPD);
     }
     c->source.modulus = b->modulus, c->source.rotates = k->model == PD_MOSPD;
@@ -62,7 +62,7 @@ static void forces(struct both *b, enum pd_model model)
 {
     struct cloud *c = &b->s.c;
     partial_stress_make(&b->s.partial, &c->p, &c->bonds, &c->source, NULL, 0);
-    partial_points_update(&b->s.partial, &c->p, c->material);
+    bonded_points_strain_from_stress(&b->s.partial, &c->p, c->material);
     state_force_table[c->p.dim][model](&c->bonds, &c->p, &c->source.limit, NULL);
 }
 
@@ -204,7 +204,7 @@ static real jump(enum pd_model model, const real strain[DIM_MAX][DIM_MAX], int e
     cloud_strain(c, strain);
     stress_set(c, strain);
     const real before = energy_of(&b, model), particle = before / (real)c->p.n;
-    convert_start(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
+    convert_cut_particles(&c->p, &c->source, &(struct region){.n = 1, .solid = &box});
     assert_int_equal(c->p.n_of[KIND_PD], edge * edge);
     bonds_make(&c->bonds, NULL, &c->p, &c->source);
     forces(&b, model);
@@ -251,8 +251,8 @@ static void test_response(void **state)
         for (struct bond_iterator it = bonds_of_row(&c->bonds, r); bond_next(&it);) {
             const int32_t i = c->bonds.particle[r], j = it.bond.nbr;
             const struct bond back = {it.bond.entry, i, it.bond.inverse_length, it.bond.w};
-            const struct response one = response_of(&c->p, &c->bonds, &c->source, i, &it.bond);
-            const struct response other = response_of(&c->p, &c->bonds, &c->source, j, &back);
+            const struct response one = bond_response_of(&c->p, &c->bonds, &c->source, i, &it.bond);
+            const struct response other = bond_response_of(&c->p, &c->bonds, &c->source, j, &back);
             assert_true(one.central == 0 && other.central == 0);
             assert_true(fabs(one.vector / other.vector - 1) < 1e-12 && fabs(one.pressure / other.pressure - 1) < 1e-12);
             if (i % 9 != 4 || i / 9 != 3 || j != i + 1) continue; /* both have complete families */
@@ -263,9 +263,9 @@ static void test_response(void **state)
             tried++;
         }
     assert_int_equal(tried, 1);
-    is_near("half", half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
+    is_near("half", particle_half_edge(&c->p, &c->source, 3), 0.5 * CLOUD_SPACING, 1e-12);
     c->p.volume0[3] *= 4;
-    is_near("half", half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
+    is_near("half", particle_half_edge(&c->p, &c->source, 3), CLOUD_SPACING, 1e-12);
     cloud_free(c);
 }
 
@@ -321,7 +321,7 @@ static void test_positive(void **state)
         for (int a = 0; a < n; a++)
             for (int c = 0; c <= a; c++) T[a * n + c] = T[c * n + a] = V * m->c11 * cloud_between(&seed, -1, 1.5);
         for (int a = 0; a < n * n; a++) rest[a] = T[a];
-        partial_positive_bonds(T, &b.s.c.p, &b.s.c.source, 0);
+        partial_tensor_limit_bonds(T, &b.s.c.p, &b.s.c.source, 0);
         before = 0;
         for (int a = 0; a < n; a++)
             for (int c = 0; c < n; c++) { /* components of shear count twice: a factor sqrt(2) each */
@@ -348,6 +348,6 @@ int main(void)
                                        cmocka_unit_test(test_torque),   cmocka_unit_test(test_energy),
                                        cmocka_unit_test(test_response), cmocka_unit_test(test_positive),
                                        cmocka_unit_test(test_rows)};
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

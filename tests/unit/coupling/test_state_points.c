@@ -67,7 +67,7 @@ static void shake(struct run *e)
 
 static real energy_of(struct run *e)
 {
-    run_forces(e);
+    run_compute_forces(e);
     return e->kernels.bond_energy(&e->bonds, &e->part) +
            mesh_strain(&e->frame->mesh, &e->part, e->frame->elastic, !e->scene->small_strain);
 }
@@ -226,8 +226,8 @@ static void check_partials(const char *text)
     int64_t point = 0;
     while (e.part.kind[point] != KIND_MPM || e.bonds.row_of[point] < 0) point++;
     e.part.flag[point] |= FLAG_STRESSED;
-    assert_true(convert(&e.coupling->conversion, &s.conversion, &e.part, &e.bonds, &e.source, &e.coupling->partial,
-                        NULL, 0) > 0);
+    assert_true(convert_flagged_points(&e.coupling->conversion, &s.conversion, &e.part, &e.bonds, &e.source,
+                                       &e.coupling->partial, NULL, 0) > 0);
     assert_non_null(e.bonds.site_map);
     bonds_make(&searched, NULL, &e.part, &e.source);
     struct site_map *sites = searched.site_map;
@@ -252,7 +252,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_gradient), cmocka_unit_test(test_points),
                                        cmocka_unit_test(test_partials)};
-    team_make(2);
+    team_set_threads(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -69,11 +69,11 @@ static void ball_and_torus(void **state)
             const real exact =
                 torus ? sqrt(square(out - 2) + square(X[2])) - 0.5 : sqrt(square(out) + square(X[2])) - 1;
             real normal[DIM_MAX];
-            assert_true(fabs(hull_winding(&s, X) - (exact < 0)) < 0.04 || fabs(exact) < 0.003);
+            assert_true(fabs(hull_winding_number(&s, X) - (exact < 0)) < 0.04 || fabs(exact) < 0.003);
             const real distance = hull_distance(&s, X, normal);
             assert_true(fabs(distance - exact) < 0.003);
             const real most[] = {0, 0.4, -0.4, distance, nextafter(distance, -9)};
-            for (int t = 0; t < 5; t++) assert_true(hull_within(&s, X, most[t]) == (distance <= most[t]));
+            for (int t = 0; t < 5; t++) assert_true(hull_is_within(&s, X, most[t]) == (distance <= most[t]));
             assert_true(fabs(dot(normal, normal, 3) - 1) < 1e-12);
             const real along =
                 torus ? (X[0] * normal[0] + X[1] * normal[1]) / out * (out - 2) + X[2] * normal[2] : dot(X, normal, 3);
@@ -103,15 +103,15 @@ static void turned_and_open(void **state)
     g.faces -= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 4);
-    assert_true(hull_doubt(&s) < 0.01);
-    assert_true(hull_winding(&s, (real[]){0, 0, 0}) > 0.98);
+    assert_true(hull_ambiguous_share(&s) < 0.01);
+    assert_true(hull_winding_number(&s, (real[]){0, 0, 0}) > 0.98);
     hull_free(&s);
     /* Half a ball is not closed. */
     g = grid_make(false, 24, 24);
     g.faces /= 2;
     hull_of(&s, &g);
     assert_int_equal(s.open_edges, 24);
-    assert_true(hull_doubt(&s) > 0.1);
+    assert_true(hull_ambiguous_share(&s) > 0.1);
     hull_free(&s);
 }
 
@@ -154,7 +154,7 @@ static void plane_ring(void **state)
     assert_true(normal[0] < -0.999);
     assert_true(fabs(hull_distance(&s, (real[]){-3, -4}, normal) - 5) < 1e-12);
     assert_true(fabs(normal[0] + 0.6) < 1e-12 && fabs(normal[1] + 0.8) < 1e-12);
-    assert_true(fabs(hull_winding(&s, (real[]){0.5, 0.5}) - 1) < 1e-12);
+    assert_true(fabs(hull_winding_number(&s, (real[]){0.5, 0.5}) - 1) < 1e-12);
     hull_free(&s);
 }
 
@@ -172,8 +172,8 @@ static void open_ones(void **state)
     assert_true(fabs(hull_distance(&s, (real[]){0.5, 0, 2}, NULL) - 2) < 1e-12);
     assert_true(fabs(hull_distance(&s, (real[]){0, 5, -1}, NULL) - 1) < 1e-12);
     assert_true(hull_distance(&s, (real[]){0, 5, 0}, NULL) == 0);
-    assert_true(hull_within(&s, (real[]){0, 5, 0}, 0) && hull_within(&s, (real[]){0, 5, 1}, 1));
-    assert_false(hull_within(&s, (real[]){0, 5, 1}, 0.999) || hull_within(&s, (real[]){0, 5, 0}, -1));
+    assert_true(hull_is_within(&s, (real[]){0, 5, 0}, 0) && hull_is_within(&s, (real[]){0, 5, 1}, 1));
+    assert_false(hull_is_within(&s, (real[]){0, 5, 1}, 0.999) || hull_is_within(&s, (real[]){0, 5, 0}, -1));
     hull_free(&s);
 }
 

@@ -25,9 +25,9 @@ static void table_covers_the_struct(void **state)
             for (int k = 0; k < particle_fields_count; k++)
                 for (int c = 0; c < particle_fields[k].count(3, EVERYTHING); c++) {
                     bool exists = c < particle_fields[k].count(dim, optional);
-                    assert_int_equal(particle_array(&p, &particle_fields[k], c) != NULL, exists);
+                    assert_int_equal(particle_field_array(&p, &particle_fields[k], c) != NULL, exists);
                 }
-            assert_ptr_equal(particle_array(&p, &particle_fields[0], dim - 1), p.X[dim - 1]);
+            assert_ptr_equal(particle_field_array(&p, &particle_fields[0], dim - 1), p.X[dim - 1]);
             particles_free(&p);
             assert_null(p.X[0]);
         }
@@ -110,7 +110,7 @@ static void extent_and_sites(void **state)
     assert_exact(high, N - 101);
     particles_extent(&p, p.n_all, 0, &low, &high);
     assert_exact(low, -1e6);
-    assert_exact(particles_longest(&p), N - 1);
+    assert_exact(particles_longest_edge(&p), N - 1);
     particles_extent(&p, 0, 1, &low, &high);
     assert_true(isinf(low) && isinf(high) && high < low);
     particles_free(&p);

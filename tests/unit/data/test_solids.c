@@ -161,7 +161,8 @@ static void test_every_kind_moved(void **state)
         struct solid_motion turn = {.kind = MOTION_ROTATE, .about = {0.3, 0.1}, .axis = {1, -2, 0.5}, .angle = 0.7};
         struct solid_motion mirror = {.kind = MOTION_MIRROR, .about = {0.2}, .axis = {1, 0.5, 0}};
         struct solid_motion move = {.kind = MOTION_MOVE, .step = {0.3, -0.2, 0.1}};
-        assert_true(solid_move(&s, &turn, dim) && solid_move(&s, &mirror, dim) && solid_move(&s, &move, dim));
+        assert_true(solid_add_motion(&s, &turn, dim) && solid_add_motion(&s, &mirror, dim) &&
+                    solid_add_motion(&s, &move, dim));
         assert_int_equal(s.images, 1);
         check_volume(&s, dim, examples[k].volume);
         check_bounds(&s, dim);
@@ -181,7 +182,7 @@ static void test_quarter_turns(void **state)
         struct solid s = {.kind = SOLID_BOX, .from = {1, 2}, .to = {4, 3}};
         struct solid_motion turn = {.kind = MOTION_ROTATE, .angle = k * 90 * pi / 180};
         real from[DIM_MAX], to[DIM_MAX];
-        assert_true(solid_move(&s, &turn, 2));
+        assert_true(solid_add_motion(&s, &turn, 2));
         assert_true(region_bounds(&(struct region){.n = 1, .solid = &s}, 2, from, to));
         assert_true(from[0] == corners[k][0] && from[1] == corners[k][1]);
         assert_true(to[0] == corners[k][2] && to[1] == corners[k][3]);
@@ -201,7 +202,7 @@ static void test_gear(void **state)
     int corner;
     uint64_t seed = 3;
     assert_int_equal(polygon_make(&flank, &corner), POLYGON_FINE);
-    assert_true(solid_move(&s[1], &ring, 2));
+    assert_true(solid_add_motion(&s[1], &ring, 2));
     assert_int_equal(s[1].images, 18);
     for (int k = 0; k < 5000; k++) {
         const real r = 8 + 5 * random_next(&seed), angle = 2 * pi * random_next(&seed), turned = angle + 7 * pi / 9;
@@ -235,7 +236,7 @@ static void test_grid_and_mirror(void **state)
         list[1 + k].centre[0] += 2 * (k % 3), list[1 + k].centre[1] += 2 * (k / 3);
     }
     struct solid holes = hole, two = hole;
-    assert_true(solid_move(&holes, &grid, 2) && solid_move(&two, &mirror, 2));
+    assert_true(solid_add_motion(&holes, &grid, 2) && solid_add_motion(&two, &mirror, 2));
     struct solid perforated[] = {plate, holes}, pair[] = {plate, two}, said[] = {plate, hole, list[3]};
     for (int k = 0; k < 4000; k++) {
         const real X[] = {7 * random_next(&seed) - 0.5, 5 * random_next(&seed) - 0.5, 0};
@@ -249,7 +250,7 @@ static void test_grid_and_mirror(void **state)
     box_tree_free(&holes.tree), box_tree_free(&two.tree);
     struct solid many = hole;
     grid.count[0] = 3000;
-    assert_false(solid_move(&many, &grid, 2));
+    assert_false(solid_add_motion(&many, &grid, 2));
 }
 
 /* ---- index ------------------------------------------------------------------------------------------------------- */
@@ -302,12 +303,13 @@ static void test_index_of_list(void **state)
             list[k] = e->s;
             list[k].subtract = k / 30 % 2;
             if (k == 70) continue;
-            assert_true((k % 3 == 0 || solid_move(&list[k], &turn, dim)) && solid_move(&list[k], &move, dim));
+            assert_true((k % 3 == 0 || solid_add_motion(&list[k], &turn, dim)) &&
+                        solid_add_motion(&list[k], &move, dim));
         }
         list[70] = (struct solid){.kind = SOLID_BALL, .intersect = true, .centre = {10, 10, 10}, .radius = 11};
         const struct region plain = {.n = MANY, .solid = list};
         struct region indexed = plain;
-        region_index(&indexed, dim);
+        region_build_index(&indexed, dim);
         assert_int_equal(indexed.runs, 9);
         check_same(&plain, &indexed, dim, 800);
         struct solid group = {.kind = SOLID_GROUP, .region = indexed};
@@ -327,7 +329,7 @@ static void test_index_of_copies(void **state)
     struct solid plate[] = {{.kind = SOLID_BOX, .to = {20, 20}},
                             {.kind = SOLID_BOX, .subtract = true, .from = {0, 0, -1}, .to = {1.4, 0.3, 1}}},
                  list[MANY];
-    assert_true(solid_move(&plate[1], &turn, 2) && solid_move(&plate[1], &grid, 2));
+    assert_true(solid_add_motion(&plate[1], &turn, 2) && solid_add_motion(&plate[1], &grid, 2));
     for (int k = 0; k < MANY; k++) {
         list[k] = plate[1], list[k].image = &plate[1].image[k], list[k].images = 1;
         const struct bounds endless = {{-INFINITY, -INFINITY, -INFINITY}, {INFINITY, INFINITY, INFINITY}};

@@ -24,8 +24,8 @@ static void scatter_points(struct cloud *c, int dim, struct grid *g)
         for (int64_t i = 0; i < c->p.n; i++) c->p.x[d][i] = cloud_between(&seed, from[d], to[d]);
     }
     for (int64_t i = 0; i < c->p.n; i++) c->p.kind[i] = cloud_random(&seed) < 0.1 ? KIND_PD : KIND_MPM;
-    particles_list(&c->p);
-    assert_int_equal(grid_cover(g, from, to, 1000000, &changed), OK);
+    particles_update_lists(&c->p);
+    assert_int_equal(grid_extend_box(g, from, to, 1000000, &changed), OK);
     assert_true(changed);
 }
 
@@ -117,12 +117,12 @@ static void test_transfer_order_growth(void **state)
         for (int d = 0; d < dim; d++)
             from[d] = -(19 + block_edge(d)) * g.h, to[d] = 33 * g.h; /* by one block: parity must not depend on the
                                                                       * box */
-        assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
+        assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
         assert_true(changed && grid_position(&g, 0, -g.first[0]) == before);
         transfer_order_sort(&large, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         assert_int_equal(small.n, large.n);
         assert_memory_equal(small.particle, large.particle, (size_t)small.n * sizeof(int32_t));
-        assert_int_equal(grid_cover(&g, from, to, 1000000, &changed), OK);
+        assert_int_equal(grid_extend_box(&g, from, to, 1000000, &changed), OK);
         assert_false(changed);
         transfer_order_free(&small);
         transfer_order_free(&large);
@@ -140,17 +140,17 @@ static void test_transfer_order_threads(void **state)
         struct grid g;
         struct transfer_order one = {0}, many = {0};
         scatter_points(&c, dim, &g);
-        team_make(1);
+        team_set_threads(1);
         transfer_order_sort(&one, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
         for (int threads = 2; threads <= 7; threads++) {
-            team_make(threads);
+            team_set_threads(threads);
             transfer_order_sort(&many, &c.p, c.p.list[KIND_MPM], c.p.n_of[KIND_MPM], &g);
             assert_int_equal(one.cells, many.cells);
             assert_memory_equal(one.particle, many.particle, (size_t)one.n * sizeof(int32_t));
             assert_memory_equal(one.cell_start, many.cell_start, (size_t)(one.cells + 1) * sizeof(int32_t));
             assert_memory_equal(one.block_start, many.block_start, (size_t)(one.blocks + 1) * sizeof(int32_t));
         }
-        team_make(2);
+        team_set_threads(2);
         transfer_order_free(&one);
         transfer_order_free(&many);
         grid_free(&g);
@@ -165,6 +165,6 @@ int main(void)
         cmocka_unit_test(test_transfer_order_growth),
         cmocka_unit_test(test_transfer_order_threads),
     };
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,9 +73,9 @@ static void round_holes(void **state)
                 const real out = fmax(region_level(&r, a, dim), region_level(&r, b, dim));
                 if (fabs(near - solids[1].radius) < 2e-5 * v.spacing || out > 0) continue; /* a seam is closed */
                 const bool hides = near < solids[1].radius;
-                assert_int_equal(voids_between(&v, 3, a, b, &across), hides);
-                assert_int_equal(voids_between(&v, 3, b, a, NULL), hides);
-                assert_false(voids_between(&v, 2, a, b, NULL)); /* belongs to another body */
+                assert_int_equal(void_separates_points(&v, 3, a, b, &across), hides);
+                assert_int_equal(void_separates_points(&v, 3, b, a, NULL), hides);
+                assert_false(void_separates_points(&v, 2, a, b, NULL)); /* belongs to another body */
                 /* across: normals at both ends of the chord differ by more than a right angle. */
                 if (hides && fabs(near / solids[1].radius - sqrt(0.5)) > 1e-3)
                     assert_int_equal(across, near < sqrt(0.5) * solids[1].radius);
@@ -107,7 +107,7 @@ static void thin_slot(void **state)
         const real x = a[0] + (0.2005 * SPACING - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
         if (sides && fabs(x / SPACING - 1.3) < 0.01) continue;
         bool across;
-        assert_int_equal(voids_between(&v, 3, a, b, &across), sides && x < 1.3 * SPACING);
+        assert_int_equal(void_separates_points(&v, 3, a, b, &across), sides && x < 1.3 * SPACING);
         hidden += sides && x < 1.3 * SPACING;
     }
     assert_true(hidden > 100);
@@ -130,21 +130,21 @@ static void joined_and_mirrored(void **state)
         real a[DIM_MAX], b[DIM_MAX];
         place_random(&seed, 2, 7, a), place_random(&seed, 2, 7, b);
         if (n % 3 == 0) a[0] = b[0] = 0.1 * SPACING;
-        assert_false(voids_between(&v, 3, a, b, NULL));
+        assert_false(void_separates_points(&v, 3, a, b, NULL));
     }
     struct mirror_plane plane = {.axis = 0, .outside = 1, .at = 0.1 * SPACING};
     v.mirror = &plane, v.mirrors = 1, v.shapes = 1;
     const real a[DIM_MAX] = {-0.4 * SPACING, 0.3 * SPACING}, b[DIM_MAX] = {1.1 * SPACING, -0.6 * SPACING};
-    assert_false(voids_between(&v, 3, a, b, NULL));
+    assert_false(void_separates_points(&v, 3, a, b, NULL));
     left.to[0] = 0.09 * SPACING; /* now the body ends before the plane */
-    assert_true(voids_between(&v, 3, a, b, NULL));
+    assert_true(void_separates_points(&v, 3, a, b, NULL));
     left.to[0] = 0.1 * SPACING; /* a slot half a spacing before the plane has an image behind it */
     struct solid slotted[2] = {left, block()};
     slotted[1].subtract = true, slotted[1].from[0] = -0.55 * SPACING, slotted[1].to[0] = -0.45 * SPACING;
     r[0] = (struct region){.n = 2, .solid = slotted};
     const real before[DIM_MAX] = {-0.2 * SPACING}, nearer[DIM_MAX] = {0.6 * SPACING}, beyond[DIM_MAX] = {0.9 * SPACING};
-    assert_false(voids_between(&v, 3, before, nearer, NULL));
-    assert_true(voids_between(&v, 3, before, beyond, NULL));
+    assert_false(void_separates_points(&v, 3, before, nearer, NULL));
+    assert_true(void_separates_points(&v, 3, before, beyond, NULL));
 }
 
 /* Bits of particles on a lattice around a slot agree with all pairs one by one. */
@@ -180,7 +180,7 @@ static void bits_of_particles(void **state)
                                 p->X[0][i] + (cut + face - p->X[1][i]) / y * x};
             const bool one = fmin(at[0], at[1]) < solids[1].to[0];
             hides |= one;
-            if (voids_near(&v, i) && voids_near(&v, j)) assert_int_equal(voids_part(&v, p, i, j), one);
+            if (voids_near(&v, i) && voids_near(&v, j)) assert_int_equal(void_separates_particles(&v, p, i, j), one);
         }
         assert_int_equal(voids_near(&v, i), hides);
         near += hides;
@@ -235,7 +235,7 @@ static void slits_of_doubled_nodes(void **state)
         fclose(file);
         assert_ok(geometry_read(&g, "slit.msh", dim, 1, 1e-3));
         unlink("slit.msh");
-        geometry_slits(&g.whole, &crack, &n);
+        geometry_find_slits(&g.whole, &crack, &n);
         assert_int_equal(n, 1);
         assert_int_equal(crack[0].n, dim == 3 ? 4 : 2);
         real area[DIM_MAX] = {0}, far = 0;

@@ -66,8 +66,8 @@ static void plate_read(struct plate *p)
 {
     char *data, *script;
     size_t length;
-    assert_int_equal(file_get("out/plate.data", &data, &length), OK);
-    assert_int_equal(file_get("out/in.lammps", &script, &length), OK);
+    assert_int_equal(file_read_whole("out/plate.data", &data, &length), OK);
+    assert_int_equal(file_read_whole("out/in.lammps", &script, &length), OK);
     assert_int_equal(sscanf(strstr(data, "\n\n"), "%d atoms %d atom types", &p->n, &p->types), 2);
     assert_int_equal(p->n, PARTICLES);
     char *at = next_section(data, "\nAtoms");
@@ -131,7 +131,7 @@ static void coefficients(void **state)
             sum += r * 2.5e-10 * fmin(1, (horizon + SPACING / 2 - r) / SPACING);
         }
     assert_int_equal(export_text(scene_head, scene_equal, "", false, false), OK);
-    assert_int_equal(file_get("out/in.lammps", &script, &length), OK);
+    assert_int_equal(file_read_whole("out/in.lammps", &script, &length), OK);
     assert_int_equal(sscanf(strstr(script, "pair_coeff"), "pair_coeff %*s %*s %lf %lf %lf", &c, &cutoff, &stretch), 3);
     assert_true(fabs(c * sum / (8 * 192e9 / (2 * (1 - 1.0 / 3))) - 1) < 1e-9);
     assert_true(fabs(cutoff / (3.015 * SPACING) - 1) < 1e-12 && stretch == 0.01);
@@ -146,7 +146,7 @@ static void bonds_of_bpm(void **state)
     long long bonds, whole = 0;
     (void)state;
     assert_int_equal(export_text(scene_head, scene_equal, "", true, true), OK);
-    assert_int_equal(file_get("out/plate.data", &data, &length), OK);
+    assert_int_equal(file_read_whole("out/plate.data", &data, &length), OK);
     assert_int_equal(sscanf(strstr(data, "atom types\n"), "atom types %lld bonds", &bonds), 1);
     for (int a = 0; a < EDGE; a++) /* pairs of a lattice by their offsets */
         for (int b = 1 - EDGE; b < EDGE; b++)
@@ -203,6 +203,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(exclusions_are_the_crack), cmocka_unit_test(coefficients),
                                        cmocka_unit_test(bonds_of_bpm), cmocka_unit_test(what_lammps_cannot)};
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

@@ -43,8 +43,8 @@ static char *script_of(const char *a, const char *b, const char *c, bool bond_st
     fprintf(to, "%s%s%s%s%s", a, b, c, equal, strstr(b, "ospd") ? none : pairs);
     fclose(to);
     assert_ok(export_lammps(&r));
-    assert_ok(file_get("out/in.lammps", &script, &length));
-    if (bonds_wanted) assert_ok(file_get("out/plate.data", &bonds_found, &length));
+    assert_ok(file_read_whole("out/in.lammps", &script, &length));
+    if (bonds_wanted) assert_ok(file_read_whole("out/plate.data", &bonds_found, &length));
     for (size_t k = 0; k < COUNT_OF(file); k++) unlink(path_join("out", file[k]).text);
     rmdir("out");
     return script;
@@ -305,6 +305,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(coefficients), cmocka_unit_test(bonds_of_two),
                                        cmocka_unit_test(bonds_of_three), cmocka_unit_test(forces),
                                        cmocka_unit_test(drives)};
-    team_make(1);
+    team_set_threads(1);
     return cmocka_run_group_tests(tests, folder_enter, folder_leave);
 }

@@ -30,7 +30,7 @@ static void stage_lay(struct stage *s, enum pd_model model, bool local)
     for (int k = 0; k < CLOUD_MATERIALS && model != PD_BOND; k++) {
         struct material *m = &s->c.material[k];
         m->poisson = 0.3;
-        material_derive(m, SPACE_PLANE_STRAIN);
+        material_compute_constants(m, SPACE_PLANE_STRAIN);
         s->modulus[k] = model == PD_OSPD ? (struct state_modulus){4 * (m->c12 - m->shear), 8 * m->shear}
                                          : (struct state_modulus){4 * m->c12, 4 * m->shear};
     }
@@ -61,7 +61,8 @@ static int64_t steps(struct stage *s, int from, int n)
 {
     int64_t released = 0;
     for (int k = from; k < from + n; k++)
-        released += growth_step(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL, k * STEP, STEP);
+        released +=
+            growth_extend_crack(&s->g, &s->c.bonds, &s->c.p, &s->c.source, s->ruled ? &s->K : NULL, k * STEP, STEP);
     return released;
 }
 
@@ -279,7 +280,7 @@ static void test_rule(void **state)
     steps(&s, 2, 2);
     assert_exact(s.g.grown, 0);
     s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {1, 0}};
-    const real first = crack_direction(s.K.factors.K);
+    const real first = crack_kink_angle(s.K.factors.K);
     assert_true(first > 0.3 && first < 0.4);
     steps(&s, 4, 3);
     assert_close(s.g.grown, 3 * SPEED * STEP, 1e-12);
@@ -302,7 +303,7 @@ static void test_smoothing(void **state)
         s.ruled = true;
         s.K = (struct control){.factors.K = {1e6, -0.2e6}, .along = {0.96, 0.28}};
         steps(&s, 0, 1);
-        const real turned = crack_direction(s.K.factors.K), share = SPEED * STEP / length[k];
+        const real turned = crack_kink_angle(s.K.factors.K), share = SPEED * STEP / length[k];
         const real frame = atan2(s.g.along[1], s.g.along[0]) - atan2(0.28, 0.96);
         assert_near(frame, atan2(share * sin(turned), 1 - share + share * cos(turned)), 1e-14);
         assert_near(hypot(s.g.along[0], s.g.along[1]), 1, 1e-15);
@@ -324,7 +325,7 @@ static real follow(struct stage *s, real (*still)(real t), real delay, real end)
         seen = delay > 0 ? seen - (s->g.speed - seen) * expm1(-0.25 * STEP / delay) : s->g.speed;
         s->K.time = t;
         s->K.factors.K[MODE_I] = crack_speed_factor(&s->K.medium, SPEED_EXACT, seen) * still(t);
-        growth_step(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
+        growth_extend_crack(&s->g, &s->c.bonds, &s->c.p, &s->c.source, &s->K, t, STEP / 4);
         fastest = real_max(fastest, s->g.speed);
     }
     return fastest;

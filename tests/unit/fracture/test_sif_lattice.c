@@ -62,9 +62,9 @@ static void gradients_are_exact_for_polynomials(const struct gradient_rule *rule
     for (int64_t i = 0; i < k->p.n; i++)
         for (int a = 0; a < 2; a++) k->u[a][i] = quadratic_at(coefficient[a], k->p.X[0][i], k->p.X[1][i]);
     for (int64_t i = 0; i < k->p.n; i++) {
-        gradient_stencil_at(&s, rule, &k->p, &k->c, i);
+        gradient_stencil_compute(&s, rule, &k->p, &k->c, i);
         assert_int_equal(s.order, rule->method == GRADIENT_MLS ? 2 : 1);
-        gradient_of(&s, i, field, gradient);
+        gradient_evaluate(&s, i, field, gradient);
         for (int a = 0; a < 2; a++)
             for (int d = 0; d < 2; d++)
                 worst = real_max(worst,
@@ -106,21 +106,21 @@ static void cracks_hide_particles(void **state)
         for (int method = 0; method < 2; method++) {
             if (k.p.X[0][i] > -3) continue; /* entirely behind the tip */
             rule.method = method;
-            gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
-            gradient_of(&s, i, field, gradient);
+            gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
+            gradient_evaluate(&s, i, field, gradient);
             assert_near(gradient[0][0], 3, 1e-12);
             assert_near(gradient[0][1], 0, 1e-12);
         }
     }
     int64_t i = 6 * 13 + 6; /* the origin, beside the tip */
     rule.method = GRADIENT_MLS;
-    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
     const int seen = s.n;
     rule.diffraction = 1;
-    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
     const int round = s.n;
     rule.sight.cracks = 0;
-    gradient_stencil_at(&s, &rule, &k.p, &k.c, i);
+    gradient_stencil_compute(&s, &rule, &k.p, &k.c, i);
     assert_true(seen < round && round < s.n);
     gradient_stencil_free(&s);
     patch_free(&k);
@@ -146,9 +146,9 @@ static void gradients_fall_back(void **state)
         const real *const field[2] = {p.X[0], p.X[1]};
         real gradient[2][2];
         for (int method = 0; method < 2; method++) {
-            gradient_stencil_at(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
+            gradient_stencil_compute(&s, &(struct gradient_rule){.method = method, .reach = 1.5}, &p, &c, 0);
             assert_int_equal(s.order, order[k]);
-            gradient_of(&s, 0, field, gradient);
+            gradient_evaluate(&s, 0, field, gradient);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2; b++) assert_near(gradient[a][b], order[k] > 0 && a == b, 1e-14);
         }
@@ -194,8 +194,8 @@ static void gradients_have_their_weights(void **state)
                 w += own, wx += own * x[i], wf += own * f[i], wxx += own * x[i] * x[i], wxf += own * x[i] * f[i];
                 if (i > 0) xf += V[i] / r * x[i] * (f[i] - f[0]), xx += V[i] / r * x[i] * x[i];
             }
-            gradient_stencil_at(&s, &rule, &p, &c, 0);
-            gradient_of(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
+            gradient_stencil_compute(&s, &rule, &p, &c, 0);
+            gradient_evaluate(&s, 0, (const real *const[]){p.x[0], p.x[0]}, gradient);
             const real expected = method == GRADIENT_MLS ? (w * wxf - wx * wf) / (w * wxx - wx * wx) : xf / xx;
             assert_near(gradient[0][0], expected, 1e-12);
             gradient_stencil_free(&s);
@@ -304,7 +304,7 @@ static real exact_gradient_error(const struct site_map *l, real outer, enum crac
         struct crack_field f[MODES];
         if (hypot(x[0], x[1]) > outer || hypot(x[0], x[1]) < 0.5 * outer) continue;
         for (int m = 0; m < MODES; m++) crack_field(&l->tip.medium, m, 0, x, &f[m]);
-        for (int m = 0; m < MODES; m++) sum[m] += sif_density(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
+        for (int m = 0; m < MODES; m++) sum[m] += sif_integrand(&l->tip, &c, x, &f[mode].state, &f[m].state, false);
     }
     for (int m = 0; m < MODES; m++) worst = real_max(worst, fabs(0.5 * l->tip.medium.modulus * sum[m] - K[m]));
     return worst;
@@ -422,9 +422,9 @@ static void particle_stresses_are_turned(void **state)
     const real *const field[2] = {l.patch.u[0], l.patch.u[1]};
     for (int64_t i = 0; i < l.patch.p.n; i++) {
         real gradient[2][2], t[2][2];
-        gradient_stencil_at(&s, &l.rule, &l.patch.p, &l.patch.c, i);
-        gradient_of(&s, i, field, gradient);
-        crack_hooke(&l.tip.medium, gradient, t);
+        gradient_stencil_compute(&s, &l.rule, &l.patch.p, &l.patch.c, i);
+        gradient_evaluate(&s, i, field, gradient);
+        crack_hooke_stress(&l.tip.medium, gradient, t);
         stress[0][i] = t[0][0], stress[1][i] = t[1][1], stress[2][i] = t[0][1];
     }
     l.tip.stress = SIF_PARTICLE;
@@ -450,8 +450,8 @@ static void lattice_sums_of_a_moving_crack(void **state)
         l.tip.core = 5;
         lattice_field(&l, K);
         const struct sif s = lattice_sif(&l, 10, 20), large = lattice_sif(&l, 20, 40);
-        const real J = crack_universal(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0]) +
-                       crack_universal(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
+        const real J = crack_universal_function(&l.tip.medium, MODE_I, l.tip.speed) * square(K[0]) +
+                       crack_universal_function(&l.tip.medium, MODE_II, l.tip.speed) * square(K[1]);
         print_message("moving at %g m/s, %g deg: %.4f %%, %.4f %%, J %.4f %%\n", l.tip.speed, degrees[n % 2],
                       100 * sif_error(&s, K), 100 * sif_error(&large, K),
                       100 * (large.J * l.tip.medium.modulus / J - 1));
@@ -489,10 +489,10 @@ static void spread_of_contours(void **state)
 {
     (void)state;
     const struct sif found[] = {{{3, 4.5}, 2}, {{3, 3.5}, 2}, {{3, 4}, 2}};
-    assert_near(sif_spread(found, 3), 0.2, 1e-15);
-    assert_near(sif_spread((const struct sif[]){{{3, 4}, 1.9}, {{3, 4}, 2.1}}, 2), 0.1, 1e-15);
-    assert_exact(sif_spread(found, 1), 0);
-    assert_true(isnan(sif_spread((const struct sif[]){{{0, 0}, 0}, {{0, 0}, 0}}, 2)));
+    assert_near(sif_contour_spread(found, 3), 0.2, 1e-15);
+    assert_near(sif_contour_spread((const struct sif[]){{{3, 4}, 1.9}, {{3, 4}, 2.1}}, 2), 0.1, 1e-15);
+    assert_exact(sif_contour_spread(found, 1), 0);
+    assert_true(isnan(sif_contour_spread((const struct sif[]){{{0, 0}, 0}, {{0, 0}, 0}}, 2)));
 }
 
 int main(void)

@@ -95,14 +95,15 @@ static void check_values(const char *name, int dim, int pages, int bits)
             for (int i = 0; i < WIDE; i++) {
                 const int value = value_at(j, i, p);
                 const real X[] = {10 + 2 * i + 0.7, 20 + 2 * (HIGH - 1 - j) + 1.2, 30 + 3 * p + 2.9};
-                assert_int_equal(voxels_grey(&v, X), bits == 16  ? value * 256 + 7
-                                                     : bits == 1 ? value / 128 * 255
-                                                                 : value);
+                assert_int_equal(voxels_grey_value(&v, X), bits == 16  ? value * 256 + 7
+                                                           : bits == 1 ? value / 128 * 255
+                                                                       : value);
             }
-    assert_int_equal(voxels_grey(&v, (real[]){9.9, 25, 31}), -1);
-    assert_int_equal(voxels_grey(&v, (real[]){12, 30, 31}), -1);
+    assert_int_equal(voxels_grey_value(&v, (real[]){9.9, 25, 31}), -1);
+    assert_int_equal(voxels_grey_value(&v, (real[]){12, 30, 31}), -1);
     /* Between two voxels, and less by round-off: the upper voxel. */
-    assert_int_equal(voxels_grey(&v, (real[]){12 - 1e-12, 20, 30}), voxels_grey(&v, (real[]){12.5, 20.5, 30.5}));
+    assert_int_equal(voxels_grey_value(&v, (real[]){12 - 1e-12, 20, 30}),
+                     voxels_grey_value(&v, (real[]){12.5, 20.5, 30.5}));
     voxels_free(&v);
 }
 

@@ -412,7 +412,7 @@ static void test_partial_stress(void **state)
             struct partial_stress partial = {0};
             body_make(&c, dim, way | MIXED);
             for (int64_t i = 0; i < c.p.n; i++) c.p.kind[i] = c.p.X[0][i] < 2.2e-3 ? KIND_PD : KIND_MPM;
-            particles_list(&c.p);
+            particles_update_lists(&c.p);
             bonds_free(&c.bonds);
             bonds_make(&c.bonds, NULL, &c.p, &c.source);
             if (way & MIXED) /* broken bonds carry nothing */
@@ -423,7 +423,7 @@ static void test_partial_stress(void **state)
             int32_t changed[] = {(int32_t)c.p.n - 2, (int32_t)c.p.n - 1};
             struct bonds old = c.bonds;
             for (size_t k = 0; k < COUNT_OF(changed); k++) c.p.kind[changed[k]] = KIND_PD;
-            particles_list(&c.p);
+            particles_update_lists(&c.p);
             bonds_make(&c.bonds, &old, &c.p, &c.source);
             bonds_free(&old);
             partial_stress_make(&partial, &c.p, &c.bonds, &c.source, changed, COUNT_OF(changed));
@@ -460,7 +460,7 @@ int main(void)
         cmocka_unit_test(test_pd_move),        cmocka_unit_test(test_bond_threads),
         cmocka_unit_test(test_partial_stress), cmocka_unit_test(test_partial_stress_corner),
     };
-    team_make(2);
+    team_set_threads(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -78,7 +78,7 @@ static void burst_make(struct burst *b, int dim, enum pd_model model, bool local
     if (dim == 3) plan.count[0] = plan.count[1] = plan.count[2] = 6, plan.horizon = 2.015;
     cloud_make(&b->c, &plan);
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
-        if (model >= PD_OSPD) b->c.material[m].poisson = 0.2, material_derive(&b->c.material[m], space);
+        if (model >= PD_OSPD) b->c.material[m].poisson = 0.2, material_compute_constants(&b->c.material[m], space);
         b->modulus[m] = state_modulus_of(&b->c.material[m], space, model == PD_MOSPD);
     }
     if (model >= PD_OSPD)

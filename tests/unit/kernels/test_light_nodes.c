@@ -36,7 +36,7 @@ static void test_light_nodes(void **state)
         const real from[DIM_MAX] = {1, 1, 1}, to[DIM_MAX] = {BORDER, BORDER, BORDER};
         bool changed;
         uint64_t seed = 5;
-        assert_ok(grid_cover(&g, from, to, 1 << 20, &changed));
+        assert_ok(grid_extend_box(&g, from, to, 1 << 20, &changed));
         real *mass = NEW("test.mass", g.n, real), *a = NEW("test.accelerations", g.n * g.n, real), largest = 0;
         for (int64_t I = 0; I < g.n; I++) mass[I] = light_body(&g, I, &seed);
         for (int64_t J = 0; J < g.n; J++) {
@@ -68,7 +68,7 @@ static void test_light_nodes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_light_nodes)};
-    team_make(2);
+    team_set_threads(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

@@ -28,7 +28,7 @@ static struct material material(enum space space, real poisson, real hardening)
                          .density = 1,
                          .yield_stress = YIELD,
                          .yield_tangent = hardening / (1 + hardening)};
-    material_derive(&m, space);
+    material_compute_constants(&m, space);
     return m;
 }
 
@@ -377,7 +377,7 @@ static real balance_energy(const struct point *p, const struct material *m, enum
     for (int c = 0; c < symmetric_count(dim); c++) body.stress[c][0] = p->s[c];
     body.volume[0] = 1, body.plastic_strain[0] = p->a;
     if (body.out_of_plane) body.out_of_plane[0] = p->zz;
-    const real energy = diagnostics_strain(&body, m, partial) + diagnostics_plastic(&body, m, partial);
+    const real energy = points_strain_energy(&body, m, partial) + points_plastic_work(&body, m, partial);
     particles_free(&body);
     return energy;
 }

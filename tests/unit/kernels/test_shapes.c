@@ -29,10 +29,10 @@ static void points_make(struct points *s, int dim)
     memset(s, 0, sizeof *s);
     particles_make(&s->p, dim, POINTS, WITH_STRETCH | WITH_GRADIENT);
     s->g = (struct grid){.dim = dim, .h = 1, .anchor = {0.3, -0.2, 0.1}};
-    assert_int_equal(grid_cover(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
+    assert_int_equal(grid_extend_box(&s->g, (real[]){-4, -4, -4}, (real[]){4, 4, 4}, 100000, &changed), OK);
     s->t = (struct transfer_data){.order = &s->order, .partial = &s->partial, .half_width = 0.25};
     for (int64_t i = 0; i < POINTS; i++) s->p.volume[i] = 1;
-    particles_list(&s->p);
+    particles_update_lists(&s->p);
 }
 
 /* Places points between -4 and 4, every fourth on a node or in the middle of a cell, with widths of up to two cells. */
@@ -120,6 +120,6 @@ static void test_complete(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_complete)};
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ static void random_state(struct scene *s, uint64_t *seed, real spin)
         for (int k = 0; k < s->dim * s->dim && s->optional & WITH_GRADIENT; k++)
             p->gradient[k][i] = cloud_between(seed, -1e3, 1e3);
     }
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 /* Gives every second point a random partial stress, which it leaves to bonds. */
@@ -76,7 +76,7 @@ static void scene_grid(struct scene *s)
         for (int64_t i = 0; i < s->c.p.n; i++)
             from[d] = fmin(from[d], s->c.p.x[d][i]), to[d] = fmax(to[d], s->c.p.x[d][i]);
     }
-    assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
+    assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
 }
 
 /* Places every fifth point so close to the end of its cell in one direction that it enters the next cell in the
@@ -176,7 +176,7 @@ static void check_particles(const struct scene *s, const struct particles *expec
     for (int f = 0; f < particle_fields_count; f++) {
         const struct particle_field *field = &particle_fields[f];
         for (int k = 0; k < field->count(s->dim, s->optional); k++) {
-            void *got = particle_array(&s->c.p, field, k), *want = particle_array(expected, field, k);
+            void *got = particle_field_array(&s->c.p, field, k), *want = particle_field_array(expected, field, k);
             /* Velocities near 300 m/s that differ by 2: gradients have two digits less. */
             real close = strcmp(field->name, "gradient") == 0 ? 10 * CLOSE : CLOSE;
             if (field->size == sizeof(real))
@@ -467,7 +467,7 @@ int main(void)
         cmocka_unit_test(test_steps),    cmocka_unit_test(test_conserved), cmocka_unit_test(test_linear_field),
         cmocka_unit_test(test_rotation), cmocka_unit_test(test_spread),    cmocka_unit_test(test_threads),
     };
-    team_make(2);
+    team_set_threads(2);
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);
     return failures;

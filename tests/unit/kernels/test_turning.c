@@ -45,13 +45,13 @@ static void scene_make(struct scene *s, int dim, int shape)
         p->kind[i] = cloud_random(&s->seed) < (p->body[i] ? 0.6 : 0.2) ? KIND_PD : KIND_MPM;
         for (int d = 0; d < dim; d++) p->v[d][i] = cloud_between(&s->seed, -3, 5);
     }
-    particles_list(p);
+    particles_update_lists(p);
     s->g = (struct grid){.dim = dim, .h = 2 * CLOUD_SPACING};
     for (int d = 0; d < dim; d++) {
         s->g.anchor[d] = (3.17 + d) * CLOUD_SPACING;
         particles_extent(p, p->n, d, &from[d], &to[d]);
     }
-    assert_int_equal(grid_cover(&s->g, from, to, 100000, &changed), OK);
+    assert_int_equal(grid_extend_box(&s->g, from, to, 100000, &changed), OK);
     transfer_order_sort(&s->order, p, p->list_free, p->n_free, &s->g);
     turning_make(&s->turning, p, CLOUD_SPACING, (const real[]){0.0075, 0.0055, 0.0035}, one, held);
     s->t = (struct transfer_data){.order = &s->order, .half_width = 0.5 * CLOUD_SPACING, .dt = 1e-14, .dt_velocity = 1};
@@ -102,15 +102,15 @@ static void gather(struct scene *s)
 {
     for (int64_t I = 0; I < s->g.n; I++)
         for (int d = 0; d < s->dim; d++) s->g.force[d][I] = s->g.mass[I] > 0 ? cloud_between(&s->seed, -2, 1) : 0;
-    turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
+    turning_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     turn_gather_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
-    turning_share(&s->turning, &s->c.p);
+    turning_restore_spins(&s->turning, &s->c.p);
 }
 
 /* Computes the nodal velocities of the second map for unchanged points. */
 static void scatter(struct scene *s)
 {
-    turning_begin(&s->turning, &s->c.p, CLOUD_SPACING);
+    turning_compute_spins(&s->turning, &s->c.p, CLOUD_SPACING);
     for (int d = 0; d < s->dim; d++) array_fill_bytes(s->g.momentum[d], 0, s->g.n, sizeof(real));
     turn_scatter_table[s->dim][s->shape](&s->g, &s->c.p, &s->t);
     for (int d = 0; d < s->dim; d++)
@@ -205,11 +205,11 @@ static void test_groups(void **state)
     scene_make(&s, 2, SHAPE_LINEAR);
     struct particles *p = &s.c.p;
     for (int64_t i = 0; i < p->n; i++) p->kind[i] = p->body[i] == 0 || i == p->n - 1 ? KIND_MPM : KIND_PD;
-    particles_list(p);
-    turning_begin(&s.turning, p, CLOUD_SPACING);
+    particles_update_lists(p);
+    turning_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) s.turning.turn[2][k] = 1e-9;
     const real alone = p->v[1][p->n - 1];
-    turning_share(&s.turning, p);
+    turning_restore_spins(&s.turning, p);
     assert_true(p->v[1][p->n - 1] == alone);
     for (int32_t g = 0; g < s.turning.groups; g++) {
         const struct turning_group *own = &s.turning.group[g], *root = &s.turning.group[own->root];
@@ -235,12 +235,12 @@ static void test_held(void **state)
                  (const bool[]){true, false});
     real *before = BARE("test.before", p->n, real);
     array_copy(before, p->v[1], p->n, sizeof(real));
-    turning_begin(&s.turning, p, CLOUD_SPACING);
+    turning_compute_spins(&s.turning, p, CLOUD_SPACING);
     for (int64_t k = 0; k < p->n; k++) {
         assert_true(p->kind[k] != KIND_MPM || s.turning.turn[2][k] == 0);
         s.turning.turn[2][k] = 1e-6;
     }
-    turning_share(&s.turning, p);
+    turning_restore_spins(&s.turning, p);
     assert_true(arrays_equal(before, p->v[1], p->n, sizeof(real)));
     memory_free(before);
     scene_free(&s);

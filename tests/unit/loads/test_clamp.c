@@ -72,7 +72,7 @@ static void body_free(struct body *a)
 /* Computes the forces by the calls of a time step, without breaking. */
 static void forces(struct run *e)
 {
-    loads_mirror(&e->loads, &e->part);
+    loads_update_images(&e->loads, &e->part);
     bond_forces(e->kernels.bond_force, &e->bonds, &e->part, &e->source.limit, NULL);
 }
 
@@ -448,6 +448,6 @@ int main(void)
         cmocka_unit_test(test_reflection), cmocka_unit_test(test_torn),     cmocka_unit_test(test_cantilever),
         cmocka_unit_test(test_coupled),    cmocka_unit_test(test_in_plane), cmocka_unit_test(test_yielded),
     };
-    team_make(0);
+    team_set_threads(0);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

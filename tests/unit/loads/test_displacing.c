@@ -62,7 +62,7 @@ static void test_values(void **state)
             assert_near(u[0], (displaces ? 1 : 4) * 3 * place, 1e-15 * 12);
             assert_true(u[1] == 0);
         }
-        assert_ok(load_displacement_known(&b));
+        assert_ok(load_check_displacement_known(&b));
         displaced_free(&m);
     }
     expression_free(&b.formula[0]);
@@ -83,8 +83,8 @@ static void test_turn_in_space(void **state)
                                .axis_of = {2, -3, 6},
                                .time = {.kind = TIME_CONSTANT}};
     const real axis[] = {2 / 7.0, -3 / 7.0, 6 / 7.0}, arm[] = {1.3, 0.4, -0.6}, angle = 0.7 * 1.9;
-    const struct displacing by = displacing_make(&b, 3, 1.9);
-    const struct driving step = driving_make(&b, 3, 1.9, 0.2);
+    const struct prescribed_displacement by = prescribed_displacement_make(&b, 3, 1.9);
+    const struct prescribed_motion step = prescribed_motion_make(&b, 3, 1.9, 0.2);
     const real along = dot(axis, arm, 3);
     real X[3], way[3];
     for (int d = 0; d < 3; d++) X[d] = b.centre[d] + arm[d];
@@ -92,8 +92,8 @@ static void test_turn_in_space(void **state)
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         const real turned = axis[e] * arm[f] - axis[f] * arm[e];
         const real to = arm[d] * cos(angle) + turned * sin(angle) + axis[d] * along * (1 - cos(angle));
-        assert_near(displacing_at(&by, X, d), to - arm[d], 1e-14);
-        way[d] = driving_at(&step, X, d, false);
+        assert_near(prescribed_displacement_at(&by, X, d), to - arm[d], 1e-14);
+        way[d] = prescribed_velocity_at(&step, X, d, false);
     }
     /* The chord of a step from 1.8 to 2 s, over the step. */
     const real across = sqrt(dot(arm, arm, 3) - square(along));
@@ -139,13 +139,13 @@ static void test_formula_of_time(void **state)
     displaced_make(&m, &b);
     load_displacement_at(&m.l.load[0], &m.c.p, 3, 5, u);
     assert_true(m.c.p.X[0][3] != 0 && u[0] == 5 * m.c.p.X[0][3]);
-    assert_ok(load_displacement_known(&b));
+    assert_ok(load_check_displacement_known(&b));
     displaced_free(&m);
     b.displaces = false;
-    assert_true(load_displacement_known(&b) == REFUSED);
+    assert_true(load_check_displacement_known(&b) == REFUSED);
     assert_non_null(strstr(status_message(), "boundary grip: the displacement of a velocity"));
     b.frozen = true, b.frozen_at = 2, b.time = (struct time_function){.kind = TIME_STEP, .until = 1};
-    assert_ok(load_displacement_known(&b));
+    assert_ok(load_check_displacement_known(&b));
     displaced_make(&m, &b);
     load_displacement_at(&m.l.load[0], &m.c.p, 3, 1, u);
     assert_true(u[0] == 2 * m.c.p.X[0][3]);
@@ -166,14 +166,14 @@ static void test_steepest(void **state)
     for (size_t k = 0; k < sizeof f / sizeof *f; k++) {
         real most = 0;
         for (int p = 0; p < PIECES; p++)
-            most = real_max(most, fabs(time_function_at(&f[k], 2.0 * (p + 1) / PIECES) -
-                                       time_function_at(&f[k], 2.0 * p / PIECES)) /
+            most = real_max(most, fabs(time_function_value(&f[k], 2.0 * (p + 1) / PIECES) -
+                                       time_function_value(&f[k], 2.0 * p / PIECES)) /
                                       (2.0 / PIECES));
-        assert_close(time_function_steepest(&f[k], 2), most, 1e-6);
+        assert_close(time_function_largest_slope(&f[k], 2), most, 1e-6);
     }
-    assert_true(time_function_steepest(&f[1], 0.2) == 0 && time_function_steepest(&f[2], 0.05) == 0);
+    assert_true(time_function_largest_slope(&f[1], 0.2) == 0 && time_function_largest_slope(&f[2], 0.05) == 0);
     const struct time_function step = {.kind = TIME_STEP, .from = 0, .until = 1};
-    assert_true(time_function_steepest(&step, 0.9) == 0 && isinf(time_function_steepest(&step, 1.1)));
+    assert_true(time_function_largest_slope(&step, 0.9) == 0 && isinf(time_function_largest_slope(&step, 1.1)));
 }
 
 /* Static problem: displacements at the end, per particle; half the support forces times the displacements is the
@@ -191,20 +191,20 @@ static void test_static(void **state)
                     end;
     struct displaced m;
     by_x(&b.formula[0], true);
-    loads_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
+    loads_make_static_boundaries(&end, &b, 1, 4, 0.1); /* 2 x t at t = 4, times a factor 1/2 */
     displaced_make(&m, &end);
     struct particles *p = &m.c.p;
     real *u[2] = {NEW("test.u", p->n, real), NEW("test.u", p->n, real)}, work = 0, mean = 0;
     uint8_t *held = NEW("test.held", p->n, uint8_t);
-    loads_static_driven(&m.l, p, 0.1, u, held);
+    loads_static_displacements(&m.l, p, 0.1, u, held);
     for (int64_t i = 0; i < p->n; i++) {
         assert_true(held[i] == 1 && u[1][i] == 0);
         assert_close(u[0][i], 4 * p->X[0][i], 1e-15);
         p->f[0][i] = 3 + (real)i, p->f[1][i] = 5;
         work -= 0.5 * (3 + (real)i) * u[0][i], mean += u[0][i] / (real)p->n;
     }
-    loads_static_hold(&m.l, p);
-    loads_static_work(&m.l, p);
+    loads_collect_static_reactions(&m.l, p);
+    loads_compute_static_work(&m.l, p);
     assert_close(m.l.constraint_work, work, 1e-13);
     assert_close(m.l.load[0].displacement[0], mean, 1e-14);
     assert_true(p->f[0][3] == 0 && p->f[1][3] == 5);
@@ -218,6 +218,6 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_values),        cmocka_unit_test(test_turn),
                                        cmocka_unit_test(test_turn_in_space), cmocka_unit_test(test_formula_of_time),
                                        cmocka_unit_test(test_steepest),      cmocka_unit_test(test_static)};
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

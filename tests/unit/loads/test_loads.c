@@ -29,8 +29,8 @@ static void test_sine(void **state)
     struct particles *p = &c.p;
     assert_ok(loads_make(&l, &push, 1, p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
     for (int64_t i = 0; i < p->n; i++) p->x[0][i] += 0.3 * CLOUD_SPACING, p->f[1][i] = 77;
-    loads_clear(&l, p);
-    loads_apply(&l, p, 1 + 0.5 * dt, dt, dt); /* velocity update around t = 1: a quarter of the ramp */
+    loads_clear_forces(&l, p);
+    loads_complete_forces(&l, p, 1 + 0.5 * dt, dt, dt); /* velocity update around t = 1: a quarter of the ramp */
     for (int64_t i = 0; i < p->n; i++) {
         real along = 0.6 * (p->X[0][i] - CLOUD_SPACING) + 0.8 * (p->X[1][i] + CLOUD_SPACING);
         real factor = 0.25 * sin(2 * M_PI * along / length);
@@ -47,8 +47,8 @@ static void test_sine(void **state)
             p->x[d][i] += way;
             work += way * p->f[d][i];
         }
-    loads_hold(&l, p, 1, dt);         /* as if the middle of the step were at t = 1 */
-    assert_close(l.work, work, 1e-8); /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
+    loads_impose_motion(&l, p, 1, dt); /* as if the middle of the step were at t = 1 */
+    assert_close(l.work, work, 1e-8);  /* displacements of 1e-6 at positions near 1e-2, accurate to 1e-18 */
     assert_true(fabs(work) > 1e-9);
     loads_free(&l);
     cloud_free(&c);
@@ -79,18 +79,18 @@ static void check_together(int threads, bool together, real *impulse, real *work
         {.name = "face", .kind = BOUNDARY_TRACTION, .body = -1, .value = {1e6, 2e6}, .face = 1, .side = 1}};
     struct cloud c;
     struct loads l;
-    team_make(threads);
+    team_set_threads(threads);
     cloud_make(&c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {71, 53}, .horizon = 3});
     for (int64_t i = 0; i < c.p.n; i++) c.p.body[i] = i % 3 == 0;
     impulse[0] = impulse[1] = *work = 0;
     for (size_t k = 0; k < (together ? 1 : COUNT_OF(row)); k++) {
         assert_ok(loads_make(&l, together ? row : &row[k], together ? COUNT_OF(row) : 1, &c.p, CLOUD_SPACING,
                              3 * CLOUD_SPACING, 0));
-        if (k == 0) loads_clear(&l, &c.p);
-        loads_apply(&l, &c.p, 1, dt, dt);
+        if (k == 0) loads_clear_forces(&l, &c.p);
+        loads_complete_forces(&l, &c.p, 1, dt, dt);
         for (int d = 0; d < 2; d++)
             for (int64_t i = 0; i < c.p.n; i++) c.p.x[d][i] += 1e-6 * sin(0.1 * (real)i + d);
-        loads_hold(&l, &c.p, 1, dt);
+        loads_impose_motion(&l, &c.p, 1, dt);
         for (int d = 0; d < 2; d++) impulse[d] += l.impulse[d];
         *work += l.work;
         for (int d = 0; d < 2; d++)
@@ -120,7 +120,7 @@ static void test_together(void **state)
         assert_memory_equal(impulse[threads], impulse[1], sizeof impulse[1]);
         assert_memory_equal(&work[threads], &work[1], sizeof work[1]);
     }
-    team_make(2);
+    team_set_threads(2);
 }
 
 /* Leap-frog integration: half a velocity update, then full ones, each centred at the time of its forces. The impulse of
@@ -146,8 +146,8 @@ static void test_kicks(void **state)
         cloud_make(&c, &(struct cloud_plan){.space = SPACE_LINE, .count = {4}, .horizon = 3});
         assert_ok(loads_make(&l, &push, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
         for (int step = 0; step < 10; step++) {
-            loads_clear(&l, &c.p);
-            loads_apply(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
+            loads_clear_forces(&l, &c.p);
+            loads_complete_forces(&l, &c.p, (step + 0.5) * dt, dt, step == 0 ? 0.5 * dt : dt);
         }
         assert_close(l.impulse[0], 4 * 3e6 * volume * row[k].until_now, 1e-12);
         loads_free(&l);
@@ -183,7 +183,7 @@ static void test_traction(void **state)
             real sum[2] = {0}, first = 0, *X = c.p.X[0];
             even_volumes(&c.p);
             assert_ok(loads_make(&l, &pull, 1, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-            loads_static_force(&l, &c.p);
+            loads_add_static_forces(&l, &c.p);
             real low = INFINITY, high = -INFINITY;
             for (int64_t i = 0; i < c.p.n; i++) low = fmin(low, X[i]), high = fmax(high, X[i]);
             for (int64_t i = 0; i < c.p.n; i++) {
@@ -221,7 +221,7 @@ static void test_mean_displacement(void **state)
         c.p.x[0][i] += u;
         shares += share, moved += share * u;
     }
-    load_applied_sum(&l.load[0], &c.p, 1);
+    load_sum_applied(&l.load[0], &c.p, 1);
     assert_close(l.load[0].reaction[0], 2e6 * volume * shares, 1e-12);
     assert_close(l.load[0].reaction[1], -3e6 * volume * shares, 1e-12);
     assert_close(l.load[0].displacement[0], moved / shares, 1e-9);
@@ -272,8 +272,8 @@ static void test_relief(void **state)
         &c, &(struct cloud_plan){.space = SPACE_PLANE_STRESS, .count = {12, 9}, .horizon = 3, .shake = 0.2, .seed = 3});
     even_volumes(&c.p);
     assert_ok(loads_make(&l, shear, 2, &c.p, CLOUD_SPACING, 3 * CLOUD_SPACING, 0));
-    assert_true(loads_static_balance(&l, &c.p) > 0.3); /* only moment; not largest at the farthest particles */
-    loads_static_force(&l, &c.p);
+    assert_true(loads_add_inertia_relief(&l, &c.p) > 0.3); /* only moment; not largest at the farthest particles */
+    loads_add_static_forces(&l, &c.p);
     for (int64_t i = 0; i < c.p.n; i++) {
         for (int d = 0; d < 2; d++) sum[d] += c.p.f[d][i], size += fabs(c.p.f[d][i]);
         moment += c.p.X[0][i] * c.p.f[1][i] - c.p.X[1][i] * c.p.f[0][i];
@@ -290,6 +290,6 @@ int main(void)
                                        cmocka_unit_test(test_together), cmocka_unit_test(test_traction),
                                        cmocka_unit_test(test_relief),   cmocka_unit_test(test_mean_displacement),
                                        cmocka_unit_test(test_force_at)};
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,7 +37,7 @@ static void deform(struct particles *p, real pd_radius)
         for (int d = 0; d < p->dim; d++) p->x[d][i] = p->X[d][i] * (1.01 + 0.004 * d + 1e-5 * r2);
         p->kind[i] = r2 < square(pd_radius) ? KIND_PD : KIND_MPM;
     }
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 static void find_twins(struct quarter *q)
@@ -74,7 +74,7 @@ static void quarter_bodies(struct quarter *q, enum space space, enum surface_rul
         loads_make(&q->loads, mirror, COUNT_OF(mirror), &q->part.p, CLOUD_SPACING, q->part.source.family.cutoff, 0),
         OK);
     deform(&q->part.p, pd_radius);
-    loads_mirror(&q->loads, &q->part.p);
+    loads_update_images(&q->loads, &q->part.p);
     q->part.source.image = q->loads.image;
 }
 
@@ -202,13 +202,15 @@ static void test_mirror_convert(void **state)
             whole->flag[j] |= FLAG_STRESSED;
     int looks[LOOKS_MOST] = {0};
     const struct conversion_sync look = {count_looks, looks};
-    int64_t converted = convert(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
+    int64_t converted =
+        convert_flagged_points(&conversion[0], &rule, part, &q.part.bonds, &q.part.source, &partial[0], &look, 1e-6);
     for (int64_t i = 0; i < part->n; i++) {
         assert_true(looks[i] > 0 || part->kind[i] == KIND_MPM);
         assert_false(part->flag[i] & FLAG_LISTED);
     }
-    assert_int_equal(convert(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], NULL, 1e-6),
-                     4 * converted);
+    assert_int_equal(
+        convert_flagged_points(&conversion[1], &rule, whole, &q.whole.bonds, &q.whole.source, &partial[1], NULL, 1e-6),
+        4 * converted);
     for (int64_t i = 0; i < part->n; i++) assert_int_equal(part->kind[i], whole->kind[q.twin[i]]);
     check_forces(&q);
     check_partial(&q, &partial[0], &partial[1]);
@@ -226,7 +228,7 @@ static void quarter_families(struct quarter *q, enum space space, enum pd_model 
     for (int k = 0; k < 2; k++)
         for (int m = 0; m < CLOUD_MATERIALS; m++) {
             both[k]->material[m].poisson = 0.2;
-            material_derive(&both[k]->material[m], space);
+            material_compute_constants(&both[k]->material[m], space);
             modulus[m] = state_modulus_of(&both[k]->material[m], space, model == PD_MOSPD);
             both[k]->source.modulus = modulus, both[k]->source.rotates = model == PD_MOSPD;
             both[k]->source.mirror_axis = axis;
@@ -305,7 +307,7 @@ static void points_state(struct particles *p)
         p->stress[p->dim][i] = 1e7 * X[0] * X[1]; /* xy */
         if (p->dim == 3) p->stress[4][i] = 1e7 * X[1], p->stress[5][i] = 1e7 * X[0];
     }
-    particles_list(p);
+    particles_update_lists(p);
 }
 
 /* Creates the body. offset: of the planes from a node [node distances]. */
@@ -322,7 +324,7 @@ static void points_make(struct points *s, struct particles *p, const struct boun
     }
     assert_ok(loads_make(&s->loads, b, n, p, CLOUD_SPACING, 3 * CLOUD_SPACING, WITH_GRADIENT | WITH_STRETCH));
     points_state(p);
-    assert_ok(grid_cover(&s->g, from, to, 10000000, &changed));
+    assert_ok(grid_extend_box(&s->g, from, to, 10000000, &changed));
 }
 
 static void points_step(struct points *s, enum shape shape, enum transfer transfer, int step)
@@ -334,7 +336,7 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     transfer_order_sort(&s->order, s->p, s->p->list[KIND_MPM], s->p->n, &s->g);
     grid_clear(&s->g);
     k.p2g(&s->g, s->p, &s->t);
-    loads_walls(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
+    loads_set_grid_walls(&s->loads, &s->held, &s->g, s->p, &k, s->t.half_width, 0, s->t.dt);
     grid_move(&s->g, transfer, s->t.dt_velocity, 1e-30, s->loads.impulse, &work);
     if (transfer == TRANSFER_FLIP) {
         k.remap(&s->g, s->p, &s->t);
@@ -342,8 +344,8 @@ static void points_step(struct points *s, enum shape shape, enum transfer transf
     }
     k.g2p(&s->g, s->p, &s->t);
     for (int b = 0; b < s->loads.n; b++) memset(s->loads.load[b].reaction, 0, sizeof s->loads.load[b].reaction);
-    loads_react(&s->loads, &s->g, s->t.dt_velocity);
-    loads_hold(&s->loads, s->p, 0, s->t.dt);
+    loads_add_reactions(&s->loads, &s->g, s->t.dt_velocity);
+    loads_impose_motion(&s->loads, s->p, 0, s->t.dt);
 }
 
 static void points_free(struct points *s)
@@ -438,7 +440,7 @@ static void test_mirror_places(void **state)
     assert_int_equal(loads_make(&l, strip, COUNT_OF(strip), &c.p, CLOUD_SPACING, reach, 0), OK);
     for (int64_t i = 0; i < c.p.n; i++)
         for (int d = 0; d < 2; d++) c.p.x[d][i] = c.p.X[d][i] + 1e-13 * CLOUD_SPACING * sin((real)(i + d));
-    loads_mirror(&l, &c.p);
+    loads_update_images(&l, &c.p);
     for (int64_t a = 0; a < l.images; a++)
         for (int64_t b = 0; b < l.images; b++) {
             const struct image *i = &l.image[a], *j = &l.image[b];
@@ -459,6 +461,6 @@ int main(void)
         cmocka_unit_test(test_mirror_convert), cmocka_unit_test(test_mirror_breaks),
         cmocka_unit_test(test_mirror_points),
     };
-    team_make(2);
+    team_set_threads(2);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 /* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
  * force: third derivatives times the squared step, and round-off of the energy over the step. */
-static void gradient_of(enum space space, bool finite, bool cubic)
+static void gradient_evaluate(enum space space, bool finite, bool cubic)
 {
     struct block b;
     block_make(&b, space, true, cubic);
@@ -44,9 +44,9 @@ static void test_gradient(void **state)
 {
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
-        for (int finite = 0; finite < 2; finite++) gradient_of(spaces[s], finite, false);
-    gradient_of(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, anisotropic */
-    gradient_of(SPACE_SOLID, true, true);
+        for (int finite = 0; finite < 2; finite++) gradient_evaluate(spaces[s], finite, false);
+    gradient_evaluate(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, anisotropic */
+    gradient_evaluate(SPACE_SOLID, true, true);
 }
 
 /* The closed form of complete cells and the stiffness of cut ones equal the same sums over points, to round-off. */
@@ -67,7 +67,7 @@ static void test_whole_and_cut(void **state)
             struct partial_stress nothing; /* the same with every cell cut */
             partial_of(&nothing, &b.c.p, b.c.material, 0);
             b.source.partial = &nothing;
-            mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
+            mesh_remove_converted(&b.mesh, &b.c.p, &b.source, NULL, 0);
             assert_int_equal(b.mesh.runs, 0);
             forces(&b, finite);
             for (int64_t I = 0; I < b.mesh.grid.n; I++)
@@ -128,13 +128,14 @@ static void test_partial(void **state)
                 changed[i % 2] = (int32_t)i;
         }
         b.source.partial = &partial;
-        mesh_follow(&b.mesh, &b.c.p, &b.source, NULL, 0);
+        mesh_remove_converted(&b.mesh, &b.c.p, &b.source, NULL, 0);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= -0.5;
         partial.index[changed[1]] = -1;
-        assert_true(dim > 1 || !mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cut cell less */
-        mesh_follow(&b.mesh, &b.c.p, &b.source, changed, 2);
+        assert_true(dim > 1 ||
+                    !mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 2)); /* one cut cell less */
+        mesh_remove_converted(&b.mesh, &b.c.p, &b.source, changed, 2);
         for (int k = 0; k < n * n; k++) partial.matrix[changed[0] * n * n + k] *= 0.7;
-        assert_true(mesh_refresh(&b.mesh, &b.c.p, &b.source, changed, 1));
+        assert_true(mesh_update_partial_stiffness(&b.mesh, &b.c.p, &b.source, changed, 1));
         shake(&b, 0.2, 23);
         forces(&b, false);
         for (int64_t i = 0; i < p->n; i++) {
@@ -252,7 +253,7 @@ static void test_release(void **state)
         for (int64_t I = 0; I < b.mesh.grid.n; I++) before += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
         mesh_points_move(&b.mesh, p);
         for (int64_t i = 0; i < p->n; i++) p->kind[i] = fresh.c.p.kind[i];
-        kinetic -= mesh_follow(&b.mesh, p, &b.source, NULL, 0);
+        kinetic -= mesh_remove_converted(&b.mesh, p, &b.source, NULL, 0);
         for (int64_t I = 0; I < b.mesh.grid.n; I++) {
             after += b.mesh.grid.mass[I] * b.mesh.grid.velocity[0][I];
             assert_exact(b.mesh.grid.mass[I], fresh.mesh.grid.mass[I]);

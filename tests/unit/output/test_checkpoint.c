@@ -215,7 +215,7 @@ static char *said_by_resume(const struct output *o, int64_t step, int64_t n)
     dup2(kept, 2);
     close(kept);
     close(fd);
-    assert_int_equal(file_get("said", &text, &length), OK);
+    assert_int_equal(file_read_whole("said", &text, &length), OK);
     return text;
 }
 
@@ -246,7 +246,7 @@ static void strange_files_are_refused(void **state)
     static const char path[] = "strange/checkpoint.h5";
     struct output o;
     open_fresh(&o, "strange");
-    assert_int_equal(file_put(path, "", 0), OK);
+    assert_int_equal(file_write_whole(path, "", 0), OK);
     assert_not_restored(&o);
     assert_message("checkpoint.h5 is empty and checkpoint.previous.h5 is missing");
     unlink(path);
@@ -280,7 +280,7 @@ static status future_archive(void *context, struct archive *a)
     struct hdf *f = a->file;
     (void)context;
     if (H5Adelete_by_name(f->file, "/Cleave", "version", H5P_DEFAULT) < 0) return FAILED;
-    hdf_mark_one(f, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
     return OK;
 }
 
@@ -333,13 +333,13 @@ static int write_to_full_disk(struct output *o, bool frame_first)
     status s;
     if (frame_first) {
         expected = "cannot write full/frames/000000.hdf: File too large; free space or choose another -o";
-        s = output_frame(o, &p, 0, 0, scene_text);
+        s = output_write_frame(o, &p, 0, 0, scene_text);
     } else
         s = write_step(o, 7, 5000);
     if (s != FAILED) return 2;
     if (strcmp(status_message(), expected) != 0) return 3;
     /* HDF5 is not called again, and the first message is kept. */
-    if (output_frame(o, &p, 0, 0, scene_text) != FAILED || write_step(o, 7, 1) != FAILED) return 4;
+    if (output_write_frame(o, &p, 0, 0, scene_text) != FAILED || write_step(o, 7, 1) != FAILED) return 4;
     if (strcmp(status_message(), expected) != 0) return 5;
     if (path_exists("full/checkpoint.h5.cleave.tmp") || path_exists("full/frames/000000.hdf.cleave.tmp")) return 6;
     particles_free(&p);

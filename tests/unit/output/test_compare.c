@@ -126,9 +126,9 @@ static void history_is_read_by_name(void **state)
     assert_int_equal(history_read(&h, "history"), OK);
     assert_int_equal(h.columns, 4);
     assert_int_equal(h.rows, 2); /* the third is still being written */
-    assert_int_equal(history_column(&h, "kinetic"), 2);
-    assert_int_equal(history_column(&h, "kin"), -1);
-    assert_true(history_at(&h, 1, history_column(&h, "time")) == 1e-6);
+    assert_int_equal(history_find_column(&h, "kinetic"), 2);
+    assert_int_equal(history_find_column(&h, "kin"), -1);
+    assert_true(history_at(&h, 1, history_find_column(&h, "time")) == 1e-6);
     assert_true(isnan(history_at(&h, 0, 3)));
     assert_true(isnan(history_at(&h, 0, -1)));
     history_free(&h);
@@ -165,14 +165,14 @@ static void write_run(const char *folder, double shift, double loop_seconds, dou
     assert_int_equal(output_open(&o, folder, "name: test\n", OUTPUT_OVERWRITE, false), OK);
     for (int k = 0; k < 3; k++) {
         fill_plate(&p, 1e-4 * k, shift * k);
-        assert_int_equal(output_frame(&o, &p, 1e-6 * k, 10 * k, "name: test\n"), OK);
+        assert_int_equal(output_write_frame(&o, &p, 1e-6 * k, 10 * k, "name: test\n"), OK);
         particles_free(&p);
     }
     snprintf(text, sizeof text,
              "{\"name\": \"test\", \"method\": \"pd\", \"status\": \"done\", \"loop_seconds\": %g, "
              "\"crack\": {\"angle_deg\": 67, \"tips\": [{\"x\": %g, \"y\": %g}]}}\n",
              loop_seconds, tip_x, 4 * (tip_x - 0.010) / 3);
-    assert_int_equal(output_text(&o, "summary.json", text, strlen(text)), OK);
+    assert_int_equal(output_write_text(&o, "summary.json", text, strlen(text)), OK);
     output_close(&o);
     snprintf(text, sizeof text, "%s/history.csv", folder);
     put(text, "time [s],step,kinetic [J],balance_error,pd_share,crack_length [m]\n"
@@ -240,7 +240,7 @@ static void stress_across_is_compared(void **state)
         p.plane_strain = &m[k];
         for (int64_t i = 0; i < p.n; i++) p.stress[0][i] = 1e6, p.stress[1][i] = 2e6;
         assert_int_equal(output_open(&o, words[1 + k], "name: test\n", OUTPUT_OVERWRITE, false), OK);
-        assert_int_equal(output_frame(&o, &p, 0, 0, "name: test\n"), OK);
+        assert_int_equal(output_write_frame(&o, &p, 0, 0, "name: test\n"), OK);
         output_close(&o);
         particles_free(&p);
     }
@@ -274,7 +274,7 @@ static void runs_of_lammps_are_read(void **state)
     put("lammps/plate.dump",
         "ITEM: TIMESTEP\n40\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS mm mm mm\n-1 1\n-1 1\n-2 2\n"
         "ITEM: ATOMS id x y z vx vy vz c_damage \n1 2e-4 0 0 3 -5 0 0.25\n2 3e-3 9.2e-3 0 0 7 0 0.5\n");
-    assert_int_equal(lammps_run_frame(&f, "lammps", 40), OK);
+    assert_int_equal(lammps_run_read_frame(&f, "lammps", 40), OK);
     assert_true(f.n == 2 && f.dim == 2 && f.step == 40 && fabs(f.t / 1e-6 - 1) < 1e-12);
     assert_true(fabs(f.u[0][0] + 1.3e-3) < 1e-9 && fabs(f.u[1][1] - 2.2e-3) < 1e-9 && f.X[1][1] == 7e-3F);
     assert_true(f.v[1][0] == -5 && f.v[1][1] == 7);

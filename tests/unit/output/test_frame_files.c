@@ -52,7 +52,7 @@ static void fields_are_read_by_name(void **state)
         int columns;
         open_fresh(&o, "named");
         make_particles(&p, dim, PARTICLES);
-        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+        assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
         assert_int_equal(frame_read(&f, path), OK);
         assert_int_equal(frame_field_read(&f, path, "pressure", &columns, &value), OK);
         assert_int_equal(columns, 1);
@@ -96,7 +96,7 @@ static void check_step(struct hdf *f, int step, int steps, const struct particle
         counts[k] = all[at[0]];
     }
     assert_true(at[5] == 1 && counts[0] == p->n && counts[1] == p->n && counts[2] == p->n);
-    n = hdf_count(f, "/VTKHDF/Types");
+    n = hdf_dataset_size(f, "/VTKHDF/Types");
     float *points = calloc((size_t)n * 3, sizeof *points), *stress = calloc((size_t)n * 6, sizeof *stress);
     int64_t *offset = calloc((size_t)(n + steps), sizeof *offset), *corner = calloc((size_t)n, sizeof *corner);
     hdf_read_rows(f, "/VTKHDF/Points", HDF_F32, 3 * n, points);
@@ -130,16 +130,16 @@ static void frames_in_one_file(void **state)
     for (int k = 0; k < STEPS; k++) {
         make_particles(&p[k], 2, PARTICLES + 100 * k);
         output_particles_changed(&o);
-        assert_int_equal(output_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
+        assert_int_equal(output_write_frame(&o, &p[k], 0.5 * k, k, scene_text), OK);
     }
-    assert_int_equal(output_temporal(&o, scene_text), OK);
+    assert_int_equal(output_write_temporal(&o, scene_text), OK);
     output_close(&o);
     assert_int_equal(stat("temporal/frames.vtkhdf", &file), 0);
     assert_true(file.st_size < 64 << 10);
     nftw("moved", remove_one, 8, FTW_DEPTH | FTW_PHYS);
     assert_int_equal(rename("temporal", "moved"), 0);
     hdf_open(&f, "moved/frames.vtkhdf");
-    hdf_read_mark(&f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
+    hdf_read_attribute(&f, "/VTKHDF/Steps", "NSteps", HDF_I32, &steps);
     assert_int_equal(steps, STEPS);
     hdf_read_rows(&f, "/VTKHDF/Steps/Values", HDF_F64, STEPS, time);
     for (int k = 0; k < STEPS; k++) {
@@ -147,9 +147,9 @@ static void frames_in_one_file(void **state)
         check_step(&f, k, STEPS, &p[k]);
         particles_free(&p[k]);
     }
-    assert_int_equal(hdf_count(&f, "/VTKHDF/FieldData/scene"), 1);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
+    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/FieldData/scene"), 1);
+    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Steps/FieldDataSizes/units"), 2 * STEPS);
+    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Steps/PointDataOffsets/fragment"), -1);
     hdf_close(&f);
 }
 
@@ -169,9 +169,9 @@ static void frames_of_a_region(void **state)
     assert_int_equal(output_add_series(&o, "half", &region), OK);
     make_particles(&p, 2, PARTICLES);
     for (int64_t i = 0; i < p.n; i++) inside += region_contains(&region, (real[]){p.X[0][i], p.X[1][i]}, 2, 0);
-    assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+    assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     for (int k = 0; k < 3; k++) assert_int_equal(output_frame_begin(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
-    assert_int_equal(output_temporal(&o, scene_text), OK);
+    assert_int_equal(output_write_temporal(&o, scene_text), OK);
     assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].frame_rows[2] == inside);
     assert_int_equal(frame_read(&f, "regions/frames_half/000002.hdf"), OK);
     assert_true(f.n == inside && inside > 100 && inside < PARTICLES - 100 && f.t == 1);

@@ -75,8 +75,8 @@ static void assert_same_files(const char *a, const char *b)
 {
     char *text_a, *text_b;
     size_t length_a, length_b;
-    assert_int_equal(file_get(a, &text_a, &length_a), OK);
-    assert_int_equal(file_get(b, &text_b, &length_b), OK);
+    assert_int_equal(file_read_whole(a, &text_a, &length_a), OK);
+    assert_int_equal(file_read_whole(b, &text_b, &length_b), OK);
     assert_int_equal(length_a, length_b);
     assert_memory_equal(text_a, text_b, length_a);
     memory_free(text_a);
@@ -120,7 +120,7 @@ static void frames_come_back(void **state)
             struct frame f;
             open_fresh(&o, "frames", compress);
             make_particles(&p, dim, PARTICLES);
-            assert_int_equal(output_frame(&o, &p, 0.125, 17, scene_text), OK);
+            assert_int_equal(output_write_frame(&o, &p, 0.125, 17, scene_text), OK);
             assert_int_equal(frame_read(&f, "frames/frames/000000.hdf"), OK);
             assert_true(f.t == 0.125 && f.step == 17);
             check_frame(&f, &p);
@@ -141,7 +141,7 @@ static void frames_have_vtk_layout(void **state)
     uint8_t type[PARTICLES];
     open_fresh(&o, "layout", false);
     make_particles(&p, 2, PARTICLES);
-    assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+    assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     hdf_open(&f, "layout/frames/000000.hdf");
     hdf_read_rows(&f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, &n);
     hdf_read_rows(&f, "/VTKHDF/Offsets", HDF_I64, PARTICLES + 1, offset);
@@ -150,8 +150,8 @@ static void frames_have_vtk_layout(void **state)
     assert_int_equal(n, PARTICLES);
     assert_int_equal(offset[PARTICLES], PARTICLES);
     assert_int_equal(type[PARTICLES - 1], 1);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/Points"), 3 * PARTICLES);
-    assert_int_equal(hdf_count(&f, "/VTKHDF/PointData/stress"), 6 * PARTICLES);
+    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/Points"), 3 * PARTICLES);
+    assert_int_equal(hdf_dataset_size(&f, "/VTKHDF/PointData/stress"), 6 * PARTICLES);
     hdf_close(&f);
     particles_free(&p);
     output_close(&o);
@@ -172,13 +172,13 @@ static void plastic_strain_where_it_is(void **state)
         particles_make(&p, 2, 2, yields ? WITH_PLASTIC : 0);
         p.id[0] = 1;
         if (yields) p.plastic_strain[0] = 0.25, p.plastic_strain[1] = 0.5;
-        assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+        assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
         hdf_open(&f, "plastic/frames/000000.hdf");
         hdf_read_rows(&f, "/VTKHDF/PointData/plastic_strain", HDF_F32, 2, strain);
         assert_int_equal(f.failed, !yields);
         if (yields) assert_true(strain[0] == 0.5f && strain[1] == 0.25f); /* by id */
         hdf_close(&f);
-        assert_int_equal(file_get("plastic/frames.xdmf", &text, &length), OK);
+        assert_int_equal(file_read_whole("plastic/frames.xdmf", &text, &length), OK);
         assert_int_equal(strstr(text, "PointData/plastic_strain") != NULL, yields);
         memory_free(text);
         particles_free(&p);
@@ -230,13 +230,13 @@ static void indices_list_all_frames(void **state)
     size_t length;
     open_fresh(&o, "indices", false);
     make_particles(&p, 2, 10);
-    for (int k = 0; k < 40; k++) assert_int_equal(output_frame(&o, &p, k / 7.0, k, scene_text), OK);
+    for (int k = 0; k < 40; k++) assert_int_equal(output_write_frame(&o, &p, k / 7.0, k, scene_text), OK);
     assert_int_equal(frames_list("indices", &n, &list), OK);
     assert_int_equal(n, 40);
     /* 17 digits: the same double. */
     for (int k = 0; k < n; k++) assert_true(list[k].number == k && list[k].time == k / 7.0);
     memory_free(list);
-    assert_int_equal(file_get("indices/frames.xdmf", &text, &length), OK);
+    assert_int_equal(file_read_whole("indices/frames.xdmf", &text, &length), OK);
     assert_non_null(strstr(text, "frames/000039.hdf:/VTKHDF/PointData/velocity"));
     memory_free(text);
     particles_free(&p);
@@ -253,9 +253,9 @@ static void same_state_gives_same_bytes(void **state)
         open_fresh(&a, "bytes_a", compress);
         open_fresh(&b, "bytes_b", compress);
         make_particles(&p, 3, PARTICLES);
-        assert_int_equal(output_frame(&a, &p, 1, 1, scene_text), OK);
+        assert_int_equal(output_write_frame(&a, &p, 1, 1, scene_text), OK);
         usleep(1100000); /* a stored time of day has a resolution of 1 s */
-        assert_int_equal(output_frame(&b, &p, 1, 1, scene_text), OK);
+        assert_int_equal(output_write_frame(&b, &p, 1, 1, scene_text), OK);
         assert_same_files("bytes_a/frames/000000.hdf", "bytes_b/frames/000000.hdf");
         particles_free(&p);
         output_close(&a);
@@ -271,7 +271,7 @@ static void damaged_frames_are_refused(void **state)
     struct frame f;
     open_fresh(&o, "cut", false);
     make_particles(&p, 2, PARTICLES);
-    assert_int_equal(output_frame(&o, &p, 0, 0, scene_text), OK);
+    assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     assert_int_equal(truncate("cut/frames/000000.hdf", 5000), 0);
     assert_int_equal(frame_read(&f, "cut/frames/000000.hdf"), FAILED);
     assert_int_equal(frame_read(&f, "cut/scene.yaml"), FAILED);
@@ -314,11 +314,11 @@ static void older_run_is_replaced_unless_resumed(void **state)
     struct output o;
     open_fresh(&o, "again", false);
     static const char *const made[] = {"frames/000000.hdf", "history.csv", "checkpoint.h5", "checkpoint.previous.h5"};
-    for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_text(&o, made[k], "x", 1), OK);
+    for (size_t k = 0; k < COUNT_OF(made); k++) assert_int_equal(output_write_text(&o, made[k], "x", 1), OK);
     static const char *const others[] = {"frames/000001.hdf.tmp", "checkpoint.h5.tmp", "history.csv.tmp"};
-    for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_text(&o, others[k], "mine", 4), OK);
-    assert_int_equal(output_text(&o, "frames/000001.hdf.cleave.tmp", "x", 1), OK);
-    assert_int_equal(output_text(&o, "checkpoint.h5.cleave.tmp", "x", 1), OK);
+    for (size_t k = 0; k < COUNT_OF(others); k++) assert_int_equal(output_write_text(&o, others[k], "mine", 4), OK);
+    assert_int_equal(output_write_text(&o, "frames/000001.hdf.cleave.tmp", "x", 1), OK);
+    assert_int_equal(output_write_text(&o, "checkpoint.h5.cleave.tmp", "x", 1), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK);
     output_close(&o);
@@ -329,7 +329,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     assert_message("again holds an interrupted run of this scene; go on with --resume, replace it with --overwrite");
     assert_int_equal(unlink("again/checkpoint.h5") | unlink("again/checkpoint.previous.h5"), 0);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), OK); /* the run has only begun */
-    assert_int_equal(output_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
+    assert_int_equal(output_write_text(&o, "history.csv", "time [s],step\n0,0\n", 18), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "again", scene_text, OUTPUT_RESUME, false), REFUSED);
     assert_message("holds a run whose checkpoints are gone");
@@ -337,7 +337,7 @@ static void older_run_is_replaced_unless_resumed(void **state)
     output_close(&o);
     for (size_t k = 0; k < COUNT_OF(made); k++) assert_false(path_exists(path_join("again", made[k]).text));
     for (size_t k = 0; k < COUNT_OF(others); k++)
-        assert_true(file_holds(path_join("again", others[k]).text, "mine", 4));
+        assert_true(file_has_contents(path_join("again", others[k]).text, "mine", 4));
 }
 
 /* A table that Cleave did not write is never overwritten in the folder of a run; a truncated one is the run's own. */
@@ -358,12 +358,12 @@ static void tables_of_others_stay(void **state)
     for (size_t k = 0; k < COUNT_OF(table); k++) {
         const struct path path = path_join("tables", table[k].name);
         const size_t length = strlen(table[k].text);
-        assert_int_equal(file_put(path.text, table[k].text, length), OK);
+        assert_int_equal(file_write_whole(path.text, table[k].text, length), OK);
         assert_int_equal(output_open(&o, "tables", scene_text, OUTPUT_OVERWRITE, false), table[k].ended);
         if (table[k].ended == OK) output_close(&o);
         assert_true(path_exists(path.text) == (table[k].ended != OK));
         if (table[k].ended == OK) continue;
-        assert_true(file_holds(path.text, table[k].text, length));
+        assert_true(file_has_contents(path.text, table[k].text, length));
         assert_message("is there already and not of cleave; move it away");
         assert_int_equal(unlink(path.text), 0);
     }
@@ -378,11 +378,11 @@ static void history_is_cut_back(void **state)
     size_t length;
     open_fresh(&o, "history", false);
     assert_int_equal(output_history_open(&o, column, 3, false), OK);
-    assert_int_equal(output_history(&o, (real[]){0, 0, -NAN}), OK);
+    assert_int_equal(output_write_history(&o, (real[]){0, 0, -NAN}), OK);
     const int64_t kept = o.history_bytes;
     const uint64_t hash = o.history_hash;
-    assert_int_equal(output_history(&o, (real[]){1.5, 1, 2}), OK);
-    assert_int_equal(output_text(&o, "checkpoint.h5", "x", 1), OK);
+    assert_int_equal(output_write_history(&o, (real[]){1.5, 1, 2}), OK);
+    assert_int_equal(output_write_text(&o, "checkpoint.h5", "x", 1), OK);
     output_close(&o);
     assert_int_equal(output_open(&o, "history", scene_text, OUTPUT_RESUME, false), OK);
     o.history_bytes = kept, o.history_hash = hash ^ 1;
@@ -390,8 +390,8 @@ static void history_is_cut_back(void **state)
     assert_message("is not what it was at the checkpoint");
     o.history_hash = hash;
     assert_int_equal(output_history_open(&o, column, 3, true), OK);
-    assert_int_equal(output_history(&o, (real[]){2.5, 1, 2}), OK);
-    assert_int_equal(file_get("history/history.csv", &text, &length), OK);
+    assert_int_equal(output_write_history(&o, (real[]){2.5, 1, 2}), OK);
+    assert_int_equal(file_read_whole("history/history.csv", &text, &length), OK);
     assert_string_equal(text, "time [s],step,a_b [J]\n0,0,nan\n2.5,1,2\n");
     assert_int_equal(o.history_bytes, length);
     memory_free(text);
@@ -447,7 +447,7 @@ static void summary_has_the_figures(void **state)
                                             .first_time = 0.05,
                                             .particles = 2};
     assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
-    assert_int_equal(file_get("summary/summary.json", &text, &length), OK);
+    assert_int_equal(file_read_whole("summary/summary.json", &text, &length), OK);
     static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
                                        "\"status\": \"done\"",
                                        "\"steps\": 7",

@@ -177,7 +177,7 @@ static void one_particle_sets_no_scale(void **state)
     const struct plot_field *field;
     assert_int_equal(plot_field_find(&field, "speed", 2), OK);
     cloud_make(&c, &f, &(struct projection){.normal = -1, .field = field, .value = value});
-    struct view v = view_of(&c, 1);
+    struct view v = view_around(&c, 1);
     view_set_field(&v, field, &c, 1);
     assert_true(v.to[0] < 30e-3 && v.from[0] > -25e-3);
     assert_int_equal(v.outside, 1);
@@ -256,9 +256,9 @@ static void words_have_units(void **state)
     const char *names[] = {"--field", "--times", "--slice"};
     char what[256];
     real value;
-    assert_true(word_length(&value, "4mm", what, sizeof what) && value == 4e-3);
-    assert_true(word_time(&value, "10us", what, sizeof what) && value == 10e-6);
-    assert_false(word_time(&value, "10mm", what, sizeof what));
+    assert_true(length_read(&value, "4mm", what, sizeof what) && value == 4e-3);
+    assert_true(time_read(&value, "10us", what, sizeof what) && value == 10e-6);
+    assert_false(time_read(&value, "10mm", what, sizeof what));
     assert_string_equal(word_nearest("--slcie", names, 3), "--slice");
 }
 

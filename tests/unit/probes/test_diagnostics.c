@@ -19,10 +19,10 @@ static void ledger_of_a_known_field(void **state)
         moving += 3 * hypot(b.p.v[0][i], 1);
     }
     diagnostics_make(&w);
-    assert_near(diagnostics_kinetic(&b.p), kinetic, kinetic * ROUND_OFF);
+    assert_near(particles_kinetic_energy(&b.p), kinetic, kinetic * ROUND_OFF);
     real none[DIM_MAX] = {0};
     diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
+    diagnostics_energy_balance(&w, 0, &(struct energy){kinetic, 0, 0, 0, 0}, 0);
     assert_near(w.now.momentum[0], 1600 * 3 * 2, 1e-9);
     assert_near(w.now.momentum[1], -1600 * 3, 1e-9);
     assert_near(w.now.balance_error, 0, 0);
@@ -32,20 +32,20 @@ static void ledger_of_a_known_field(void **state)
     for (int64_t i = 0; i < b.p.n; i++) b.p.v[1][i] = 1;
     real impulse[DIM_MAX] = {0, 1600 * 3 * 2, 0};
     diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
+    diagnostics_energy_balance(&w, 1, &(struct energy){kinetic, 2, 3, 0, 0}, 5);
     assert_true(w.now.momentum_error < 1e-13);
     assert_true(fabs(w.now.balance_error) < ROUND_OFF);
 
     /* An error of momentum is detected and remains recorded; so does an error of energy. */
     impulse[1] -= 0.01 * moving;
     diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_balance(&w, 2,
-                        &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
+    diagnostics_energy_balance(
+        &w, 2, &(struct energy){kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.03 * kinetic, 0.01 * kinetic}, 0);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, 0.1 / 1.1, 1e-12);
     impulse[1] += 0.01 * moving;
     diagnostics_momentum(&w, &b.p, NULL, 0, impulse);
-    diagnostics_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
+    diagnostics_energy_balance(&w, 3, &(struct energy){kinetic, 0, 0, 0, 0}, 0.2 * kinetic);
     assert_near(w.now.momentum_error, 0.01, 1e-12);
     assert_near(w.now.balance_error, -0.2 / 1.1, 1e-12);
     assert_near(w.now.time, 3, 0);
@@ -86,10 +86,10 @@ static void ledger_survives_a_restart(void **state)
     diagnostics_make(&restored);
     for (int i = 0; i < 2; i++) b.p.mass[i] = 1, b.p.v[0][i] = i == 0 ? 10 : -10;
     diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
+    diagnostics_energy_balance(&w, 0, &(struct energy){100, 0, 0, 0, 0}, 0);
     for (int i = 0; i < 2; i++) b.p.v[0][i] *= 0.1;
     diagnostics_momentum(&w, &b.p, NULL, 0, none);
-    diagnostics_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
+    diagnostics_energy_balance(&w, 1, &(struct energy){1, 99, 0, 0, 0}, 0);
     assert_int_equal(diagnostics_archive(&w, &out), OK);
     in.saving = false, tape.used = 0;
     assert_int_equal(diagnostics_archive(&restored, &in), OK);
@@ -97,7 +97,7 @@ static void ledger_survives_a_restart(void **state)
     for (int k = 0; k < 2; k++) {
         struct diagnostics *either = k == 0 ? &w : &restored;
         diagnostics_momentum(either, &b.p, NULL, 0, none);
-        diagnostics_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
+        diagnostics_energy_balance(either, 2, &(struct energy){1, 49, 0, 0, 0}, 0);
         assert_near(either->now.momentum_error, 2.0 / 20, 1e-15);
         assert_near(either->now.balance_error, -0.5, 1e-15);
     }
@@ -127,15 +127,15 @@ static void strain_energy_of_material_points(void **state)
             for (int i = 0; i < n; i++) b.p.stress[i][k] = stress[i];
         }
         real whole = 2 * (real)b.p.n * density;
-        assert_near(diagnostics_strain(&b.p, &m, NULL), whole, 1e-12 * whole);
+        assert_near(points_strain_energy(&b.p, &m, NULL), whole, 1e-12 * whole);
         int32_t *index = NEW("test.index", b.p.n, int32_t);
         for (int64_t k = 0; k < b.p.n; k++) index[k] = k < 5 ? 0 : -1;
         struct partial_stress partial = {.index = index, .matrix = half, .entries = 1};
         real expected = whole * (1 - 2.5 / (real)b.p.n);
-        assert_near(diagnostics_strain(&b.p, &m, &partial), expected, 1e-12 * whole);
+        assert_near(points_strain_energy(&b.p, &m, &partial), expected, 1e-12 * whole);
         b.p.kind[0] = KIND_PD; /* its energy is in bonds */
-        particles_list(&b.p);
-        assert_near(diagnostics_strain(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
+        particles_update_lists(&b.p);
+        assert_near(points_strain_energy(&b.p, &m, NULL), whole * (1 - 1 / (real)b.p.n), 1e-12 * whole);
         memory_free(index);
         body_free(&b);
     }
@@ -148,19 +148,19 @@ static void first_break_is_booked_once(void **state)
     struct diagnostics w;
     body_make(&b, 2, (const int[]){10, 10});
     diagnostics_make(&w);
-    diagnostics_breaks(&w, &b.p, 3.015, 0, 1);
+    diagnostics_record_breaks(&w, &b.p, 3.015, 0, 1);
     assert_true(isnan(w.break_time));
     b.p.flag[0] = FLAG_LOST_BOND; /* of a bond with a driven particle */
-    diagnostics_breaks(&w, &b.p, 3.015, 2, 2);
+    diagnostics_record_breaks(&w, &b.p, 3.015, 2, 2);
     assert_true(isnan(w.break_time));
     b.p.flag[particle_at(&b, 2.5, 3.5, 0)] |= FLAG_CRACKED;
     b.p.flag[particle_at(&b, 4.5, 4.5, 0)] |= FLAG_CRACKED;
-    diagnostics_breaks(&w, &b.p, 3.015, 4, 3);
+    diagnostics_record_breaks(&w, &b.p, 3.015, 4, 3);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_near(w.break_position[1], 4, ROUND_OFF);
     b.p.flag[particle_at(&b, 8.5, 8.5, 0)] |= FLAG_CRACKED;
-    diagnostics_breaks(&w, &b.p, 3.015, 2, 4);
+    diagnostics_record_breaks(&w, &b.p, 3.015, 2, 4);
     assert_near(w.break_time, 3, 0);
     assert_near(w.break_position[0], 3.5, ROUND_OFF);
     assert_int_equal(w.bonds_broken, 8);
@@ -168,13 +168,13 @@ static void first_break_is_booked_once(void **state)
     assert_int_equal(w.break_ends, 1);
     assert_true(isnan(w.driven_time));
     b.p.flag[0] |= FLAG_DRIVEN;
-    assert_true(diagnostics_breaks(&w, &b.p, 3.015, 2, 5));
-    assert_false(diagnostics_breaks(&w, &b.p, 3.015, 2, 6));
+    assert_true(diagnostics_record_breaks(&w, &b.p, 3.015, 2, 5));
+    assert_false(diagnostics_record_breaks(&w, &b.p, 3.015, 2, 6));
     assert_near(w.driven_time, 5, 0);
 
     struct diagnostics other;
     diagnostics_make(&other);
-    assert_false(diagnostics_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
+    assert_false(diagnostics_record_breaks(&other, &b.p, 2.2, 2, 1) && isnan(other.break_time));
     assert_int_equal(other.break_ends, 3); /* none of the three within 2.2 of another */
     assert_near(other.break_position[0], 8.5, ROUND_OFF);
 
@@ -270,7 +270,7 @@ static void energies_of_yielded_points(void **state)
                             {.young = 70, .poisson = 0.2, .density = 1, .yield_stress = 0.2, .yield_tangent = 7}};
     struct particles p;
     real elastic = 0, plastic = 0;
-    for (int k = 0; k < 2; k++) material_derive(&m[k], SPACE_PLANE_STRAIN);
+    for (int k = 0; k < 2; k++) material_compute_constants(&m[k], SPACE_PLANE_STRAIN);
     particles_make(&p, 2, 7, WITH_PLASTIC | WITH_OUT_OF_PLANE);
     for (int64_t i = 0; i < p.n; i++) {
         const struct material *own = &m[i % 2];
@@ -285,9 +285,9 @@ static void energies_of_yielded_points(void **state)
         if (i != 3) elastic += volume * (0.5 / E * squares + (1 + nu) / E * xy * xy);
         plastic += (i == 3 ? 1.2 : 1) * volume * (own->yield_stress * a + 0.5 * hardening * a * a);
     }
-    particles_list(&p);
-    assert_close(diagnostics_strain(&p, m, NULL), elastic, 1e-12);
-    assert_close(diagnostics_plastic(&p, m, NULL), plastic, 1e-12);
+    particles_update_lists(&p);
+    assert_close(points_strain_energy(&p, m, NULL), elastic, 1e-12);
+    assert_close(points_plastic_work(&p, m, NULL), plastic, 1e-12);
     particles_free(&p);
 }
 

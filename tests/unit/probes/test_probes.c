@@ -81,7 +81,7 @@ static void probes_read_particles_and_regions(void **state)
 
     struct grid grid = {.h = 2};
     o.grid = &grid, o.strain_stress = 5, o.thickness = 3, o.residual_step0 = 0.6;
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "patch", "residual_max"), 0.6 / (5 * 2 * 3), ROUND_OFF);
     assert_near(figure(&l, "gauge", "stress_xy"), (real)i, 0);
     assert_near(figure(&l, "left", "y"), 100 * BODY_MASS, 1e-10);
@@ -141,7 +141,7 @@ static void probe_of_a_support(void **state)
         load[0].reaction[0] = force[k][0], load[0].reaction[1] = force[k][1];
         load[0].displacement[1] = -0.25 * k;
         o.load_step = k + 1;
-        probes_step(&s, &o);
+        probes_update_step(&s, &o);
     }
     struct store store = {0};
     struct archive a = {true, store_exchange, NULL, &store};
@@ -152,7 +152,7 @@ static void probe_of_a_support(void **state)
     probes_sample(&again, &o);
     assert_near(again.value[column_named(&again, "reaction.force_x")], -6, 0);
     assert_near(again.value[column_named(&again, "reaction.displacement_y")], -0.75, 0);
-    probes_figures(&again, &o, figure_keep, &l);
+    probes_visit_results(&again, &o, figure_keep, &l);
     assert_near(figure(&l, "reaction", "force_max"), 10, ROUND_OFF);
     assert_near(figure(&l, "reaction", "force_rms"), sqrt((25 + 1 + 100) / 4.0), ROUND_OFF);
     assert_near(figure(&l, "reaction", "displacement"), 0.75, ROUND_OFF);
@@ -179,7 +179,7 @@ static void probe_of_two_supports(void **state)
     o.loads = &loads;
     struct probe_request request = {.name = "r", .kind = PROBE_REACTION, .boundary = "grip"};
     assert_ok(probes_make(&s, &request, 1, &o));
-    probes_step(&s, &o);
+    probes_update_step(&s, &o);
     probes_sample(&s, &o);
     assert_near(s.value[column_named(&s, "r.force_x")], 3, ROUND_OFF);
     assert_near(s.value[column_named(&s, "r.force_y")], 3, ROUND_OFF);
@@ -205,7 +205,7 @@ static void probe_of_a_pulse(void **state)
     assert_ok(probes_make(&s, &request, 1, &o));
     b.p.v[0][4] = 0, b.p.v[0][3] = -0.12, b.p.v[0][15] = 0.6, still[3] = -0.03, still[15] = 0.7;
     o.baseline = &baseline, o.energy_change = 0.03;
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "pulse", "reflected"), 0.09 / 0.8, ROUND_OFF);
     assert_near(figure(&l, "pulse", "transmitted"), 0.6 / 0.8, ROUND_OFF);
     assert_near(figure(&l, "pulse", "energy_change"), 0.02, ROUND_OFF);
@@ -261,11 +261,11 @@ static void probe_of_a_tip(void **state)
     assert_ok(probes_make(&s, request, 2, &o));
     for (int k = 0; k < 4; k++) hurt(&b, 10.5 + k, 10.5, 0);
     hurt(&b, 30.5, 5.5, 0), hurt(&b, 31.5, 5.5, 0);
-    tips_sample(&t, &b.p, &b.c, 2);
+    tips_update(&t, &b.p, &b.c, 2);
     probes_sample(&s, &o);
     assert_near(s.value[column_named(&s, "tip.growth")], 3.5, ROUND_OFF);
     assert_near(s.value[column_named(&s, "right.x")], 31.5, ROUND_OFF);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "tip", "length_end"), 3.5, ROUND_OFF);
     assert_near(figure(&l, "tip", "start_time"), 2, 0);
     assert_near(figure(&l, "right", "length_end"), 1, ROUND_OFF);
@@ -290,7 +290,7 @@ static void bar_bond(struct bar *bar)
     struct bond_source source = {
         .cells = &bar->b.c, .material = &bar->m, .materials = 1, .limit = {&bar->stretch, 1, false}};
     family_make(&source.family, SPACE_LINE, 1, 3.015, 1);
-    particles_list(&bar->b.p);
+    particles_update_lists(&bar->b.p);
     bonds_make(&bar->bonds, NULL, &bar->b.p, &source);
 }
 
@@ -307,7 +307,7 @@ static void bar_cut(struct bar *bar, real plane, real shortest)
             bool across = (p->X[0][i] < plane) != (p->X[0][j] < plane);
             if (b->w[q] == 0 || !across || fabs(p->X[0][i] - p->X[0][j]) < shortest - 0.5) continue;
             b->w[q] = 0;
-            bonds_changed(b, row, q);
+            bonds_update_common_of_bond(b, row, q);
             b->broken[row]++;
             p->flag[i] |= FLAG_LOST_BOND | FLAG_CRACKED;
         }
@@ -341,16 +341,16 @@ static void probe_of_a_spall(void **state)
     struct observed o = bar_seen(&bar, 1);
     assert_ok(probes_make(&s, &request, 1, &o));
     bar_cut(&bar, 25, 2);
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0); /* its shortest bond is intact */
     bar_cut(&bar, 25, 1);
     o.t = 2;
-    probes_step(&s, &o);
+    probes_update_step(&s, &o);
     bar_cut(&bar, 20, 1);
     o.t = 3;
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 25, 1e-12);
     assert_near(figure(&l, "spall", "time"), 2, 0);
     assert_near(figure(&l, "spall", "speed"), (3 * 28 + 2 * 3 * 20) / 9.0, 1e-12); /* the mean by mass */
@@ -374,8 +374,8 @@ static void probe_of_a_wide_spall(void **state)
     struct observed o = bar_seen(&bar, 1);
     assert_ok(probes_make(&s, &request, 1, &o));
     for (int k = 23; k <= 25; k++) bar_cut(&bar, k, 1);
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 24, 1e-12);
     probes_free(&s);
     bonds_free(&bar.bonds);
@@ -399,12 +399,12 @@ static void probe_of_a_spall_knows_the_grid(void **state)
     bar_cut(&bar, 15, 1);
     for (int64_t i = 0; i < p->n; i++)
         if (p->kind[i] == KIND_MPM) p->flag[i] = 0;
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_int_equal(l.n, 0);
     p->flag[particle_at(&bar.b, 13.5, 0, 0)] = FLAG_LOST_BOND;
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "spall", "position"), 15, 1e-12);
     probes_free(&s);
     bonds_free(&bar.bonds);
@@ -429,12 +429,12 @@ static void probe_of_a_break(void **state)
     o.horizon = 3;
     assert_ok(probes_make(&s, request, 3, &o));
     bar_cut(&bar, 5, 1);
-    probes_step(&s, &o);
+    probes_update_step(&s, &o);
     memset(p->flag, 0, (size_t)p->n);
     bar_cut(&bar, 25, 3); /* three bonds of length 3: 22.5-25.5, 23.5-26.5, 24.5-27.5 */
     o.t = 2;
-    probes_step(&s, &o);
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_update_step(&s, &o);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "all", "first_time"), 1, 0);
     assert_near(figure(&l, "all", "x"), 5, 1e-12);
     assert_near(figure(&l, "all", "tied"), 1, 0);
@@ -483,14 +483,14 @@ static void profile_of_a_line(void **state)
     struct observed o = seen(&b);
     struct probe_request request = {.name = "a/b", .kind = PROBE_LINE, .from = {0.5}, .to = {12.5}, .points = 5};
     assert_ok(probes_make(&s, &request, 1, &o));
-    assert_int_equal(probes_profiled(&s), 1);
-    assert_ok(probes_profiles(&s, &o, profile_keep, &kept, 7));
+    assert_int_equal(probes_count_profiles(&s), 1);
+    assert_ok(probes_write_profiles(&s, &o, profile_keep, &kept, 7));
     assert_string_equal(kept.name, "a_b_000007.csv");
     assert_string_equal(kept.text, "s [m],x [m],displacement_x [m],velocity_x [m/s],stress_xx [Pa],damage [1]\n"
                                    "0,0.5,0,0,0,0\n3,3.5,0,3,0,0\n6,6.5,0,6,0,0\n9,9.5,0,9,0,0\n");
-    assert_failed(probes_profiles(&s, &o, profile_keep, &kept, 7), "there is one already");
+    assert_failed(probes_write_profiles(&s, &o, profile_keep, &kept, 7), "there is one already");
     struct figure_list l = {0};
-    probes_figures(&s, &o, figure_keep, &l);
+    probes_visit_results(&s, &o, figure_keep, &l);
     assert_near(figure(&l, "a/b", "velocity_x_max"), 9, 0);
     assert_near(figure(&l, "a/b", "velocity_x_min"), 0, 0);
     probes_free(&s);

@@ -140,7 +140,7 @@ static void test_integrals(void **state)
     for (size_t k = 0; k < COUNT_OF(f); k++)
         for (real end = 0.125; end < 2.2; end += 0.25) {
             real sum = 0; /* midpoint rule: exact except for a piece with a jump, and h^2 for the pulse */
-            for (int i = 0; i < PIECES; i++) sum += time_function_at(&f[k], (i + 0.5) * end / PIECES) * end / PIECES;
+            for (int i = 0; i < PIECES; i++) sum += time_function_value(&f[k], (i + 0.5) * end / PIECES) * end / PIECES;
             assert_true(fabs(time_function_integral(&f[k], end) - sum) < 2 * end / PIECES);
         }
 }
@@ -218,7 +218,7 @@ static void test_points_support(void **state)
           "solver=relaxation", "method=mpm", NULL);
     solved(&a);
     const struct observed o = {.loads = &a.e.loads, .part = &a.e.part};
-    probes_figures(&a.e.probing->probes, &o, reaction_keep, figure);
+    probes_visit_results(&a.e.probing->probes, &o, reaction_keep, figure);
     near("reaction", figure[0], 1e12 * strain(&a, 0, quarter_place, far_place), 1e-3);
     assert_true(figure[0] == figure[1] && figure[0] == a.e.loads.load[1].reaction[0]);
     solution_free(&a);

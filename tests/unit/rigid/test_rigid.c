@@ -98,12 +98,12 @@ static void test_tumbling(void **state)
     assert_ok(rigid_make(&r, &a, 3, 6, rest, 1));
     memcpy(r.angular, (const real[]){0.01, 8.5, 0.01}, sizeof r.angular);
     rigid_move(&r, 0, 1e-3, 1e-3);
-    const real before = rigid_kinetic(&r);
+    const real before = rigid_kinetic_energy(&r);
     real least = INFINITY;
     for (int k = 0; k < 30000; k++) {
         rigid_move(&r, 0, 1e-3, 1e-3);
         least = real_min(least, r.turn[1][1]);
-        assert_near(rigid_kinetic(&r), before, 1e-5 * before);
+        assert_near(rigid_kinetic_energy(&r), before, 1e-5 * before);
     }
     assert_true(least < -0.9); /* check: it has turned over */
     for (int i = 0; i < 3; i++)
@@ -127,7 +127,7 @@ static void test_driven(void **state)
     for (int k = 0; k < 1000; k++) {
         r.force[0] = 4, r.moment[2] = 2;
         driven.force[0] = -5 - 3 * k * 2e-3;
-        rigid_book(&driven);
+        rigid_add_work(&driven);
         rigid_move(&r, (k + 0.5) * 2e-3, 2e-3, k == 0 ? 1e-3 : 2e-3);
         rigid_move(&driven, (k + 0.5) * 2e-3, 2e-3, 2e-3);
     }
@@ -188,11 +188,11 @@ static void test_kick(void **state)
                            .spin = {0.6, -1.3, 0.9}};
     const real force = 4 * 0.3 + 3 * 0.2 + 2.5 * 0.5, weight = 0.7 * 0.3 - 1.1 * 0.2 - 9 * 0.5;
     const real moment = 2 * 0.6 - 0.4 * 1.3 - 1.7 * 0.9;
-    assert_close(rigid_kick(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
+    assert_close(rigid_kick_energy(&r, 0.03), 0.015 * (force + weight + moment), 1e-14);
     r.turns = false;
-    assert_close(rigid_kick(&r, 0.03), 0.015 * (force + weight), 1e-14);
+    assert_close(rigid_kick_energy(&r, 0.03), 0.015 * (force + weight), 1e-14);
     r.motion = RIGID_DRIVEN;
-    assert_exact(rigid_kick(&r, 0.03), 0);
+    assert_exact(rigid_kick_energy(&r, 0.03), 0);
 }
 
 /* ---- in the engine ----------------------------------------------------------------------------------------------- */
@@ -231,7 +231,7 @@ static void test_record(void **state)
         rigid.dim = body[0].dim = body[1].dim = dim;
         const int n = rigids_columns(&e, NULL);
         assert_int_equal(rigids_columns(&e, column), n);
-        rigids_keep(&rigid, 0);
+        rigids_store_motion(&rigid, 0);
         rigids_record(&e, record);
         for (int b = 0; b < 2; b++) {
             const real *const from[] = {body[b].force, body[b].moment, body[b].x, body[b].v};

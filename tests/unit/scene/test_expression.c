@@ -81,7 +81,7 @@ static void values_are_those_of_c(void **state)
         for (size_t k = 0; k < COUNT_OF(formulas); k++) {
             struct expression e;
             if (compile(&e, formulas[k].text, formulas[k].unit) != OK) fail_msg("%s", status_message());
-            assert_near(expression_at(&e, (const real[]){x, y, z}, 3, t), value[k], 1e-14 * (1 + fabs(value[k])));
+            assert_near(expression_evaluate(&e, (const real[]){x, y, z}, 3, t), value[k], 1e-14 * (1 + fabs(value[k])));
             expression_free(&e);
         }
     }
@@ -104,8 +104,8 @@ static void derivatives_follow(void **state)
         assert_int_equal(compile(&slope, pairs[k][1], UNIT_RATE), OK);
         const real step = 1e-10;
         for (real t = 0.5e-6; t < 6e-6; t += 0.7e-6) {
-            const real rise = expression_at(&f, NULL, 0, t + step) - expression_at(&f, NULL, 0, t - step);
-            assert_near(rise / (2 * step), expression_at(&slope, NULL, 0, t), 1e-7 * 1e6);
+            const real rise = expression_evaluate(&f, NULL, 0, t + step) - expression_evaluate(&f, NULL, 0, t - step);
+            assert_near(rise / (2 * step), expression_evaluate(&slope, NULL, 0, t), 1e-7 * 1e6);
         }
         expression_free(&f);
         expression_free(&slope);
@@ -137,7 +137,7 @@ static void constants_are_folded(void **state)
     assert_true(e.n == 1 && !e.in_space && !e.in_time);
     expression_free(&e);
     assert_int_equal(compile(&e, "1/3 mm", UNIT_LENGTH), OK); /* a number as every key reads it */
-    assert_true(e.n == 1 && bits_equal(expression_at(&e, NULL, 0, 0), 1e-3 / 3));
+    assert_true(e.n == 1 && bits_equal(expression_evaluate(&e, NULL, 0, 0), 1e-3 / 3));
     expression_free(&e);
     assert_int_equal(compile(&e, "2*pi*x + 0*t*m/s", UNIT_LENGTH), OK);
     assert_true(e.in_space && e.in_time);
@@ -264,9 +264,9 @@ static void any_text_is_read_or_refused(void **state)
             continue;
         }
         read++;
-        const real X[] = {1e-3, 2e-3, 3e-3}, value = expression_at(&e, X, 3, 1e-6);
+        const real X[] = {1e-3, 2e-3, 3e-3}, value = expression_evaluate(&e, X, 3, 1e-6);
         if (compile(&again, e.text, unit) != OK) fail_msg("%s", status_message());
-        assert_true(bits_equal(value, expression_at(&again, X, 3, 1e-6)) || isnan(value));
+        assert_true(bits_equal(value, expression_evaluate(&again, X, 3, 1e-6)) || isnan(value));
         expression_free(&e);
         expression_free(&again);
     }

@@ -35,7 +35,7 @@ static void lists_of_others_are_read(void **state)
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
         s.body[0].velocity[0] = 1, s.body[0].velocity[1] = 5;
-        assert_ok(particle_list_look(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, 2));
         assert_true(head.material && head.mass);
         assert_string_equal(head.note, k == 0 ? "id, z not read" : k == 1 ? "id not read" : "z not read");
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
@@ -98,7 +98,7 @@ static void lists_of_programs_are_read(void **state)
         setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
         strcpy(s.material[1].name, "hard");
         list_written(&s, name, text[k]);
-        assert_ok(particle_list_look(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, 2));
         assert_true(head.material && head.block == (k != 1 && k != 2) && head.unnamed == (k == 4));
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         assert_int_equal(p.n, 1);
@@ -122,7 +122,7 @@ static void volumes_have_a_default(void **state)
     setting_make(&s, SPACE_PLANE_STRESS, (real[]){1, 1});
     list_written(&s, name, "x,y,colour\n0,0,red\n0.5,0,blue\n");
     s.scene.thickness = 0.1;
-    assert_ok(particle_list_look(&head, name, 2));
+    assert_ok(particle_list_read_head(&head, name, 2));
     assert_string_equal(head.note, "colour not read; no volumes: each that of the spacing");
     assert_true(!head.material && !head.mass);
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));

@@ -216,10 +216,11 @@ static void hdf5_lists_have_units(void **state)
         unit_write(file, "velocities", "km/s", !(part % 2));
         if (part == 3) write_table(file, "density", 1, (hsize_t[]){2}, H5T_NATIVE_DOUBLE, mass);
         H5Fclose(file);
-        if (part == 2) assert_refused(particle_list_look(&head, name, 2), "positions: its unit kg is a mass; a length");
-        if (part == 3) assert_refused(particle_list_look(&head, name, 2), "mass beside density");
+        if (part == 2)
+            assert_refused(particle_list_read_head(&head, name, 2), "positions: its unit kg is a mass; a length");
+        if (part == 3) assert_refused(particle_list_read_head(&head, name, 2), "mass beside density");
         if (part >= 2) continue;
-        assert_ok(particle_list_look(&head, name, 2));
+        assert_ok(particle_list_read_head(&head, name, 2));
         assert_string_equal(head.note, "further positions not read; no volumes: each that of the spacing");
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         assert_close(p.X[0][1], 0.5, 1e-15);
@@ -378,7 +379,7 @@ static void units_of_lists_are_told(void **state)
         s.body[0].file = name;
         snprintf(s.body[0].place, sizeof s.body[0].place, "a.yaml:7:3: particles: ");
         write_grains(name, s.scene.dim, &told[k].g);
-        assert_ok(particle_list_look(&s.body[0].list, name, s.scene.dim));
+        assert_ok(particle_list_read_head(&s.body[0].list, name, s.scene.dim));
         if (told[k].says) {
             assert_refused(fill_particles(&p, &s.scene, NULL, 0), told[k].says);
             assert_null(p.X[0]);
@@ -417,7 +418,7 @@ static void bonds_beyond_memory_are_refused(void **state)
     struct setting s;
     struct particles p;
     char name[] = "dense.csv";
-    if ((real)team_memory() > 9e11) skip();
+    if ((real)machine_memory_size() > 9e11) skip();
     setting_make(&s, SPACE_SOLID, (real[]){1, 1, 1});
     s.scene.method = METHOD_PD, s.scene.spacing = 1, s.scene.horizon = 30;
     s.body[0].file = name;

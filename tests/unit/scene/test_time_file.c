@@ -136,7 +136,7 @@ static void long_tables_are_bisected(void **state)
             if (t < f.t[k])
                 want = f.value[k - 1] + (t - f.t[k - 1]) / (f.t[k] - f.t[k - 1]) * (f.value[k] - f.value[k - 1]);
         if (t <= f.t[0]) want = f.value[0];
-        assert_exact(time_function_at(&f, t), want);
+        assert_exact(time_function_value(&f, t), want);
     }
     memory_free(f.t), memory_free(f.value);
 }

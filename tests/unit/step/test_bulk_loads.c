@@ -322,7 +322,7 @@ static void pressure_spares_mirrored_faces(void **state)
                  follow[k % 2], solid ? ", {mirror: {axis: z, at: 0}}" : "");
         run(&a, solid ? CUBE : SQUARE, bodies[solid], text, "duration=1 us", NULL);
         struct load *l = &a.e.loads.load[0];
-        load_applied_sum(l, &a.e.part, 0);
+        load_sum_applied(l, &a.e.part, 0);
         for (int d = 0; d < a.e.part.dim; d++)
             if (!(fabs(l->reaction[d] / (-3 * area[solid][d]) - 1) < 1e-6))
                 fail_msg("%s: %g N along %c", text, l->reaction[d], 'x' + d);
@@ -371,13 +371,13 @@ static void pressure_follows_beside_mirrors(void **state)
         real most = 0, off = 0;
         run(&a, SQUARE, frames[k][0], frames[k][1], quarter, mirrors, "duration=2 ms", NULL);
         run(&b, SQUARE, frames[k][0], frames[k][1], whole, alone, "duration=2 ms", NULL);
-        run_sync(&a.e), run_sync(&b.e);
+        run_update_particles(&a.e), run_update_particles(&b.e);
         for (int64_t i = 0; i < a.e.part.n; i++) {
             const struct particles *p = &a.e.part, *q = &b.e.part;
             real X[DIM_MAX];
             int32_t j = -1;
             particle_place(p, i, X);
-            assert_int_equal(cells_near(&b.e.cells, q, X, 1e-4, -1, &j, 1), 1);
+            assert_int_equal(cells_find_near(&b.e.cells, q, X, 1e-4, -1, &j, 1), 1);
             for (int d = 0; d < 2; d++) {
                 most = real_max(most, fabs(p->x[d][i] - p->X[d][i]));
                 off = real_max(off, fabs(p->x[d][i] - p->X[d][i] - (q->x[d][j] - q->X[d][j])));
@@ -400,7 +400,7 @@ static void rotation_drives_on_circles(void **state)
         run(&a, SQUARE, frames[k][0], frames[k][1], "duration=10 ms",
             "boundary=[{rotation: {centre: [0, 0], rate: 200 1/s}}]", NULL);
         struct particles *p = &a.e.part;
-        run_sync(&a.e);
+        run_update_particles(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i], c = cos(2), s = sin(2);
             const real away = hypot(p->x[0][i] - (c * X - s * Y), p->x[1][i] - (s * X + c * Y));
@@ -434,7 +434,7 @@ static void formulas_are_what_they_say(void **state)
         struct finished_run a;
         if (k == 2) continue; /* refused with frame current */
         run(&a, SQUARE, frames[k][0], frames[k][1], "boundary=[{velocity: [x/(1 s), -2*y/(1 s)]}]", NULL);
-        run_sync(&a.e);
+        run_update_particles(&a.e);
         for (int64_t i = 0; i < a.e.part.n; i++)
             assert_true(fabs(a.e.part.x[0][i] - a.e.part.X[0][i] * 1.004) < 1e-9 &&
                         fabs(a.e.part.x[1][i] - a.e.part.X[1][i] * 0.992) < 1e-9);
@@ -456,7 +456,7 @@ static void initial_velocities_are_formulas(void **state)
         real along = 0, squares = 0;
         run(&a, BAR, frames[k][0], frames[k][1], duration, mode, NULL);
         const struct particles *p = &a.e.part;
-        run_sync(&a.e);
+        run_update_particles(&a.e);
         for (int64_t i = 0; i < p->n; i++) {
             const real shape = cos(acos(-1) * p->X[0][i]);
             along += (p->x[0][i] - p->X[0][i]) * shape, squares += square(shape);

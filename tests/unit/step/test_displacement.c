@@ -121,7 +121,7 @@ static void check_places(const char *scene, real from, real size, real duration)
         for (; a.e.clock.t < duration; steps++) {
             if (engine_step(&a.e) != OK) fail_msg("%s", status_message());
             const real u = size * square(sin(acos(-1) * a.e.clock.t / (1.7 * duration)));
-            run_sync(&a.e);
+            run_update_particles(&a.e);
             far = real_max(far, fabs(u));
             most = real_max(most, off_place(&a, strstr(ways[way][1], "current") ? from : within, u));
             assert_close(a.e.loads.load[0].displacement[0], u, 1e-12);
@@ -150,7 +150,7 @@ static void formulas_are_in_place(void **state)
         struct scene_run a;
         make(&a, PLATE, ways[way][0], ways[way][1], drive, NULL);
         run_all(&a);
-        run_sync(&a.e);
+        run_update_particles(&a.e);
         const struct particles *p = &a.e.part;
         for (int64_t i = 0; i < p->n; i++) {
             const real X = p->X[0][i], Y = p->X[1][i];
@@ -203,9 +203,9 @@ static void check_patch(const char *scene, const char *solver, const char *model
     struct scene_run a;
     make(&a, scene, solver, model, drive, "solver_tolerance=1e-7", "duration=1 s", NULL);
     run_all(&a);
-    run_stress(&a.e.bonds, &a.e.part, &a.e.source, &a.e.kernels);
+    compute_bond_stress(&a.e.bonds, &a.e.part, &a.e.source, &a.e.kernels);
     const struct particles *p = &a.e.part;
-    const real far = particles_longest(p), within = 1e-4 * fabs(strain[0]) * far;
+    const real far = particles_longest_edge(p), within = 1e-4 * fabs(strain[0]) * far;
     int64_t free = 0;
     for (int64_t i = 0; i < p->n; i++) {
         const bool driven = p->flag[i] & FLAG_DRIVEN;

@@ -50,7 +50,7 @@ static void shown_open(struct shown *a, int frame, int dim)
     char path[64];
     snprintf(path, sizeof path, "run/frames/%06d.hdf", frame);
     hdf_open(&a->f, path);
-    a->n = hdf_count(&a->f, "/VTKHDF/Types");
+    a->n = hdf_dataset_size(&a->f, "/VTKHDF/Types");
     a->X = calloc((size_t)(a->n * dim), sizeof *a->X);
     hdf_read_rows(&a->f, "/Cleave/reference", HDF_F64, a->n * dim, a->X);
     assert_false(a->f.failed);
@@ -378,9 +378,9 @@ static void only_what_is_asked_for(void **state)
                                                "level"};
             char path[64];
             snprintf(path, sizeof path, "/VTKHDF/PointData/%s", name[k]);
-            assert_int_equal(hdf_count(&f, path) >= 0, asked && k >= 7);
+            assert_int_equal(hdf_dataset_size(&f, path) >= 0, asked && k >= 7);
         }
-        assert_true(hdf_count(&f, "/VTKHDF/PointData/stress") > 0);
+        assert_true(hdf_dataset_size(&f, "/VTKHDF/PointData/stress") > 0);
         hdf_close(&f);
     }
 }

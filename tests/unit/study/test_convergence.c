@@ -212,10 +212,10 @@ static void bias_widens_intervals(void **state)
 static void student_as_published(void **state)
 {
     (void)state;
-    assert_near(student_95(1), 12.706, 0);
-    assert_near(student_95(30), 2.042, 0.005);
-    assert_near(student_95(60), 2.000, 0.005);
-    assert_near(student_95(1000000), 1.960, 0.001);
+    assert_near(student_quantile(1), 12.706, 0);
+    assert_near(student_quantile(30), 2.042, 0.005);
+    assert_near(student_quantile(60), 2.000, 0.005);
+    assert_near(student_quantile(1000000), 1.960, 0.001);
 }
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
@@ -231,7 +231,7 @@ static void spacings_fit_faces_and_cracks(void **state)
     struct crack crack = {2, corner, 0};
     struct scene s = {.dim = 2, .spacing = 0.5, .bodies = 1, .body = &body, .cracks = 1, .crack = &crack};
     struct spacings to;
-    spacings_plan(&to, &s, 3, s.spacing);
+    spacings_choose(&to, &s, 3, s.spacing);
     assert_near(to.at[0][0], 0.5, 0);
     for (int k = 0; k < 3; k++) {
         assert_true(fabs(to.at[k][0] / (0.5 * pow(2, 0.5 * k)) - 1) < 0.12);
@@ -243,7 +243,7 @@ static void spacings_fit_faces_and_cracks(void **state)
         for (int j = 1; j < to.n[k]; j++) assert_true(fabs(to.at[k][j] / to.at[k][0] - 1) > 1e-3);
     }
     corner[0][1] = corner[1][1] = 20.25; /* through the middle of a row */
-    spacings_plan(&to, &s, 3, s.spacing);
+    spacings_choose(&to, &s, 3, s.spacing);
     for (int k = 0; k < 3; k++) {
         if (to.misfit[k] > 0.02) continue; /* reported in this case */
         const double rows = 20.25 / to.at[k][0] - 0.5;
@@ -258,7 +258,7 @@ static void levels_are_apart(void **state)
     struct scene_body list = {.file = "list.csv"};
     const struct scene s = {.dim = 2, .spacing = 0.37, .bodies = 1, .body = &list};
     struct spacings to;
-    spacings_plan(&to, &s, 4, 0.29);
+    spacings_choose(&to, &s, 4, 0.29);
     assert_int_equal(to.levels, 4);
     for (int k = 0; k < 4; k++) assert_true(fabs(to.at[k][0] / (0.29 * pow(sqrt(2), k)) - 1) < 1e-12);
 }
@@ -279,8 +279,8 @@ static void intervals_at_hand(void **state)
     assert_non_null(mkdtemp(folder));
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(mkdir("plate_converge", 0777), 0);
-    assert_int_equal(study_scene_put("plate_converge", text), OK);
-    assert_int_equal(file_put("plate_converge/converge.csv", table, strlen(table)), OK);
+    assert_int_equal(study_write_scene("plate_converge", text), OK);
+    assert_int_equal(file_write_whole("plate_converge/converge.csv", table, strlen(table)), OK);
     static const struct {
         double spacing;
         int bars;
@@ -290,14 +290,14 @@ static void intervals_at_hand(void **state)
     for (size_t k = 0; k < COUNT_OF(at); k++) {
         struct error_bar bar[4];
         s.spacing = at[k].spacing;
-        assert_int_equal(error_bars_at_hand(bar, 4, &s, "plate"), at[k].bars);
+        assert_int_equal(error_bars_read(bar, 4, &s, "plate"), at[k].bars);
         if (at[k].bars == 0) continue;
         assert_string_equal(bar[0].figure, "energy.strain");
         assert_near(bar[0].half_width, at[k].first, 0);
     }
     struct error_bar none;
     s.text = (char[]){"name: \"other\"\n"};
-    assert_int_equal(error_bars_at_hand(&none, 1, &s, "plate"), 0);
+    assert_int_equal(error_bars_read(&none, 1, &s, "plate"), 0);
     assert_int_equal(unlink("plate_converge/converge.csv") | unlink("plate_converge/study.yaml"), 0);
     assert_int_equal(rmdir("plate_converge"), 0);
     assert_int_equal(chdir("/") | rmdir(folder), 0);

@@ -1,6 +1,6 @@
 /* Messages for crashes inside libraries. HDF5 without memory calls exit(-1) or reads through a NULL pointer, as with
  * some damaged files; it prints nothing. */
-#include "base/last_words.h"
+#include "base/crash_message.h"
 
 #include "base/base.h"
 
@@ -21,9 +21,9 @@ static const char out_of_stack[] = "out of stack: its limit is below 1 MB; ulimi
 /* The file that HDF5 reads, without control characters; "": none. */
 static char reading[512];
 
-void last_words_reading(const char *path)
+void crash_message_set_file(const char *path)
 {
-    const struct shown_name shown = shown_name(path ? path : "");
+    const struct printable_name shown = printable_name(path ? path : "");
     memcpy(reading, shown.text, sizeof reading);
 }
 
@@ -88,7 +88,7 @@ static void on_library_exit(int result, void *unused)
 }
 #endif
 
-void last_words_start(void)
+void crash_message_install(void)
 {
     static char room[1 << 16]; /* the handler needs a separate stack if the stack cannot grow */
     const stack_t apart = {.ss_sp = room, .ss_size = sizeof room};

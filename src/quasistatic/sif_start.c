@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "led.h"
+#include "sif_cracks.h"
 
 #include "fracture/fracture_part.h"
 
@@ -72,11 +72,11 @@ static void sif_tips_start(struct run *e)
             tip->along[d] = tip->heading[d] = tip->last[d] = along[d];
         }
         crack_behind_tip(l, tip);
-        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_cut_behind(e, tip);
+        if (tip_off_row(&l->plane, &e->part, tip)) sif_tip_break_behind(e, tip);
     }
 }
 
-const char *sif_fault(const struct run *e, struct sif_plane *plane)
+const char *sif_why_not(const struct run *e, struct sif_plane *plane)
 {
     const struct scene *s = e->scene;
     struct sif_plane unused;
@@ -97,7 +97,7 @@ const char *sif_fault(const struct run *e, struct sif_plane *plane)
 status sif_check(const struct run *e)
 {
     if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
-    const char *fault = sif_fault(e, NULL);
+    const char *fault = sif_why_not(e, NULL);
     return fault ? status_set(REFUSED,
                               "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
                               "auto, is expected",
@@ -109,7 +109,7 @@ bool sif_cracks_start(struct run *e)
 {
     struct sif_cracks *l = &e->statics->sif;
     l->scene = e->scene, l->source = &e->source;
-    if (!l->plane.made) l->fault = sif_fault(e, &l->plane);
+    if (!l->plane.made) l->fault = sif_why_not(e, &l->plane);
     if (l->fault) return false;
     if (!l->known) sif_tips_start(e);
     for (int k = 0; k < l->n; k++)

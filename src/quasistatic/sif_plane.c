@@ -8,7 +8,7 @@
  * become areas by the width of the body along the front. */
 #include <math.h>
 
-#include "led.h"
+#include "sif_cracks.h"
 
 #include "base/memory.h"
 

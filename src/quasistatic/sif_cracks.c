@@ -1,14 +1,14 @@
 /* Tips of SIF-driven cracks: position, stress-intensity factors, direction of growth.
  *
  * A tip grows in the direction of the largest hoop stress of its stress-intensity factors (Erdogan & Sih 1963;
- * crack_direction). The factors are fitted in a frame that follows the direction of growth over a smoothing length:
+ * crack_kink_angle). The factors are fitted in a frame that follows the direction of growth over a smoothing length:
  * a tip that turned at once, and whose factors were then fitted in a ring that its kink has not yet crossed, would
  * oscillate (fracture/growth.h). Where a pre-crack kinks, the crack grows straight on until the ring contains
  * nothing but the new segment. */
 #include <math.h>
 #include <string.h>
 
-#include "led.h"
+#include "sif_cracks.h"
 #include "toughness.h"
 
 #include "base/memory.h"
@@ -90,8 +90,8 @@ static struct crack_medium medium_at(const struct sif_cracks *l, const struct pa
     return crack_medium_of(material_at(l, p, tip), space);
 }
 
-bool sif_tip_measure(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                     bool closed, real K[MODES])
+bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
+                             bool closed, real K[MODES])
 {
     const real h = l->plane.spacing, inner = real_max(3 * h, INNER * l->source->family.horizon);
     struct tip_view view = {.inner = inner, .outer = inner + WIDTH * h, .body = tip->body};
@@ -102,20 +102,21 @@ bool sif_tip_measure(const struct sif_cracks *l, const struct particles *p, cons
     view.medium = medium_at(l, p, tip, 0.5 * (view.inner + view.outer));
     struct crack *crack = crack_segments(l, &view.cracks);
     view.crack = crack;
-    const bool seen = tip_fit(&view, p, K);
+    const bool seen = tip_fit_factors(&view, p, K);
     crack_segments_free(crack, view.cracks);
     if (sif_tip_along_mirror(&l->plane, tip)) K[MODE_II] = 0;
     if (closed) K[MODE_I] = real_max(K[MODE_I], 0); /* the fit takes contact forces for stress */
     return seen;
 }
 
-void sif_tip_turn(const struct sif_cracks *l, const struct particles *p, bool closed, struct sif_crack_tip *tip)
+void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool closed,
+                              struct sif_crack_tip *tip)
 {
-    if (tip->straight > AHEAD * l->plane.spacing || !sif_tip_measure(l, p, tip, closed, tip->K)) {
+    if (tip->straight > AHEAD * l->plane.spacing || !sif_tip_compute_factors(l, p, tip, closed, tip->K)) {
         for (int d = 0; d < 2; d++) tip->heading[d] = tip->last[d];
         return;
     }
-    const real angle = crack_direction(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
+    const real angle = crack_kink_angle(tip->K), c = cos(angle), s = sin(angle), *a = tip->along;
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
@@ -134,7 +135,7 @@ void sif_leading_factors(const struct sif_cracks *l, const struct particles *p, 
 {
     const struct sif_crack_tip *first = tip_longest(l, true);
     K[MODE_I] = K[MODE_II] = NAN;
-    if (first) sif_tip_measure(l, p, first, closed, K);
+    if (first) sif_tip_compute_factors(l, p, first, closed, K);
 }
 
 void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX])
@@ -189,7 +190,7 @@ void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p
 
 real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip)
 {
-    return toughness_of(&l->source->family, l->scene->model, material_at(l, p, tip));
+    return toughness_of_material(&l->source->family, l->scene->model, material_at(l, p, tip));
 }
 
 /* Returns true if the body continues ahead of the tip: if enough particles that no boundary drives are there. */
@@ -247,7 +248,7 @@ void sif_tip_move(struct sif_cracks *l, const struct particles *p, int k)
     tip->ended = !body_continues(l, p, tip) || sif_distance(to, tip->position) < REST * h;
 }
 
-void sif_tips_end(struct sif_cracks *l)
+void sif_tips_stop_all(struct sif_cracks *l)
 {
     for (int k = 0; k < l->n; k++) l->tip[k].ended = true;
 }

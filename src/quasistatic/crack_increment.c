@@ -16,12 +16,12 @@
  * over; if loads can only grow, at the larger one of both loads. */
 #include <math.h>
 
-#include "advance.h"
+#include "crack_increment.h"
 #include "balance.h"
-#include "led.h"
+#include "sif_cracks.h"
 #include "load_size.h"
-#include "overload.h"
-#include "pieces.h"
+#include "stretch_ratio.h"
+#include "unconstrained.h"
 #include "system.h"
 #include "trial.h"
 
@@ -44,7 +44,7 @@ static real symmetry_share(const struct tips *t, const struct bond_source *sourc
     for (int k = 0; k < t->n && on; k++) {
         bool any = false;
         for (int m = 0; m < source->mirrors; m++)
-            any |= (d < 0 || source->mirror[m].axis == d) && tip_on_mirror(t, &t->tip[k], &source->mirror[m], 1);
+            any |= (d < 0 || source->mirror[m].axis == d) && tip_is_on_mirror(t, &t->tip[k], &source->mirror[m], 1);
         on = any;
     }
     return on ? 0.5 : 1;
@@ -91,7 +91,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
     const struct tips *t = &e->fracture->tips;
-    const real before = statics_released(s, &e->bonds), given = e->scene->steps.energy;
+    const real before = statics_energy_released(s, &e->bonds), given = e->scene->steps.energy;
     const real cost = given > 0 ? given * (1 - 1e-3) : INFINITY, front = front_length(t, &e->source, &e->part);
     const real wide = increment_area(e->scene, t, &e->source, front) * (1 - 1e-3);
     const int64_t most = breaks_most(e->scene, front);
@@ -108,7 +108,7 @@ static status increment_break_try(struct run *e, struct crack_increment *a)
         }
         TRY(equilibrium_at(e, s->t));
     }
-    a->release = (statics_released(s, &e->bonds) - before) / square(statics_load_size(e, s->t));
+    a->release = (statics_energy_released(s, &e->bonds) - before) / square(statics_load_size(e, s->t));
     return OK;
 }
 
@@ -138,7 +138,7 @@ static status increment_find_now(struct run *e)
     const int64_t bonds = s->next.n;
     if (tried == OK && bonds > 0 && pre_crack_unbroken(&e->fracture->tips, s)) {
         tried = increment_break_try(e, &second);
-        if (second.cost > 0) s->behind = increment_before(&s->ahead, &second);
+        if (second.cost > 0) s->behind = increment_extrapolate_previous(&s->ahead, &second);
     }
     trial_undo(e, &saved, &s->next);
     s->next.n = bonds;
@@ -185,11 +185,11 @@ status crack_increment_find(struct run *e)
     return e->statics->in_contact ? increment_find_at_due(e) : OK;
 }
 
-status crack_increment_make_balanced(struct run *e)
+status crack_increment_apply_balanced(struct run *e)
 {
     const real size = balanced_load_alone(&e->statics->ahead);
     if (isfinite(size)) TRY(equilibrium_at(e, statics_time_of_size(e, size)));
-    return crack_increment_make(e);
+    return crack_increment_apply(e);
 }
 
 int64_t crack_increment_break(struct run *e)
@@ -203,11 +203,11 @@ int64_t crack_increment_break(struct run *e)
     return broken;
 }
 
-status crack_increment_settle(struct run *e, int64_t broken)
+status crack_increment_equilibrate(struct run *e, int64_t broken)
 {
     TRY(equilibrium_at(e, e->statics->t));
     plastic_state_save(e);
     return equilibrium_convert(e, broken);
 }
 
-status crack_increment_make(struct run *e) { return crack_increment_settle(e, crack_increment_break(e)); }
+status crack_increment_apply(struct run *e) { return crack_increment_equilibrate(e, crack_increment_break(e)); }

@@ -1,6 +1,6 @@
 /* Unconstrained fragments: parts of the body that supports, bonds and contact leave free to move as rigid bodies. */
-#ifndef CLEAVE_PIECES
-#define CLEAVE_PIECES
+#ifndef CLEAVE_UNCONSTRAINED
+#define CLEAVE_UNCONSTRAINED
 
 #include "quasistatic/statics.h"
 #include "run/run.h"

@@ -1,5 +1,5 @@
 /* Removes temporary files and ends children when a signal ends the process. */
-#include "base/leavings.h"
+#include "base/interrupt_cleanup.h"
 
 #include <pthread.h>
 #include <signal.h>
@@ -50,17 +50,17 @@ static void leavings_watch(void)
     watched = true;
 }
 
-void leaving_set(enum leaving which, const char *path, int process)
+void interrupt_cleanup_set(enum leaving which, const char *path, int process)
 {
     leavings_watch();
     leavings[which].process = 0;
     leavings[which].path[0] = '\0';
     if (path && strlen(path) < PATH_LONGEST) strcpy(leavings[which].path, path);
-    if (process > 0) setpgid(process, process); /* as leavings_child, whichever is first */
+    if (process > 0) setpgid(process, process); /* as interrupt_cleanup_in_child, whichever is first */
     leavings[which].process = process;
 }
 
-void leavings_hold(bool hold)
+void interrupt_cleanup_block(bool hold)
 {
     sigset_t these;
     sigemptyset(&these);
@@ -68,8 +68,8 @@ void leavings_hold(bool hold)
     pthread_sigmask(hold ? SIG_BLOCK : SIG_UNBLOCK, &these, NULL);
 }
 
-void leavings_child(void)
+void interrupt_cleanup_in_child(void)
 {
     setpgid(0, 0);
-    leavings_hold(false);
+    interrupt_cleanup_block(false);
 }

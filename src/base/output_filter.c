@@ -1,6 +1,6 @@
 /* Standard output and error as streams of the C library with a writer that replaces control characters. Where the
  * library has no such streams (neither glibc nor BSD), only messages of status_set are protected. */
-#include "base/harmless.h"
+#include "base/output_filter.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@ static const char erase_line[] = "\033[K";
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
-    bytes_harmless(to, length);
+    bytes_replace_controls(to, length);
     for (size_t k = 0; k < length; k++)
         if (from[k] == '\n' || from[k] == '\t' || (from[k] == '\r' && first && k == 0))
             to[k] = from[k];
@@ -68,7 +68,7 @@ static FILE *stream_open(const int *fd) { return fwopen((const void *)fd, stream
 static FILE *stream_open(const int *fd) { return (void)fd, NULL; }
 #endif
 
-void harmless_output_start(void)
+void output_filter_start(void)
 {
     FILE *output = stream_open(&output_fd), *error = stream_open(&error_fd);
     if (output) {

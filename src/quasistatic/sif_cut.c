@@ -2,11 +2,11 @@
  * each increment is due. */
 #include <math.h>
 
-#include "led.h"
+#include "sif_cracks.h"
 #include "balance.h"
 #include "load_size.h"
-#include "overload.h"
-#include "touch.h"
+#include "stretch_ratio.h"
+#include "contact_set.h"
 #include "trial.h"
 
 #include "base/memory.h"
@@ -28,14 +28,15 @@ static void row_bonds_cut(const struct sif_cracks *l, const struct bonds *b, con
     real X[DIM_MAX] = {0}, Y[DIM_MAX] = {0};
     bool close = false;
     sif_plane_project_particle(&l->plane, p, b->particle[r], X);
-    for (int w = 0; w < segments->n; w++) close |= crack_near(&segments->crack[w], X, l->source->family.cutoff, 2);
+    for (int w = 0; w < segments->n; w++)
+        close |= crack_may_cut_near(&segments->crack[w], X, l->source->family.cutoff, 2);
     for (struct bond_iterator it = bonds_of_row(b, r); close && bond_next(&it);) {
         bool cut = false;
         if (it.bond.w == 0) continue;
         sif_plane_project_particle(&l->plane, p, it.bond.nbr, Y);
         for (int w = 0; w < segments->n; w++) cut |= crack_cuts(&segments->crack[w], X, Y, 2);
         if (!cut) continue;
-        const struct broken_bond record = bond_record(b, p, &l->source->limit, &it.bond, r);
+        const struct broken_bond record = bond_make_record(b, p, &l->source->limit, &it.bond, r);
         break_list_add(list, &record);
     }
 }
@@ -83,7 +84,7 @@ static real segment_bonds(const struct sif_cracks *l, const struct bonds *b, con
     return cost;
 }
 
-void sif_tip_cut_behind(struct run *e, const struct sif_crack_tip *tip)
+void sif_tip_break_behind(struct run *e, const struct sif_crack_tip *tip)
 {
     const struct sif_cracks *l = &e->statics->sif;
     const real length = real_min(tip->length_behind, e->source.family.cutoff + 2 * e->scene->spacing);
@@ -130,7 +131,8 @@ static status tips_turn_all(struct run *e)
         marked = 0;
         for (int k = 0; k < l->n; k++)
             if (!l->tip[k].ended)
-                sif_tip_turn(l, &e->part, closed, &l->tip[k]), marked += segment_convert(l, &e->part, &l->tip[k]);
+                sif_tip_choose_direction(l, &e->part, closed, &l->tip[k]),
+                    marked += segment_convert(l, &e->part, &l->tip[k]);
         if (marked > 0) TRY(equilibrium_convert(e, 0));
     }
     return OK;
@@ -139,15 +141,17 @@ static status tips_turn_all(struct run *e)
 /* Breaks the bonds of a list, finds the equilibrium, and stores the energy release of the increment in a->release. */
 static status list_break_try(struct run *e, const struct break_list *l, struct crack_increment *a)
 {
-    const real before = statics_released(e->statics, &e->bonds);
+    const real before = statics_energy_released(e->statics, &e->bonds);
     bonds_break_listed(e, l);
     const status tried = equilibrium_at(e, e->statics->t);
-    a->release = (statics_released(e->statics, &e->bonds) - before) / square(statics_load_size(e, e->statics->t));
+    a->release =
+        (statics_energy_released(e->statics, &e->bonds) - before) / square(statics_load_size(e, e->statics->t));
     return tried;
 }
 
-/* Stores the fictitious previous increment of the tip of a pre-crack that has not grown (increment_before), from its
- * next increment, whose bonds are broken, and a trial of the one after it, straight ahead. */
+/* Stores the fictitious previous increment of the tip of a pre-crack that has not grown
+ * (increment_extrapolate_previous), from its next increment, whose bonds are broken, and a trial of the one after it,
+ * straight ahead. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
     struct sif_crack_tip beyond = *tip;
@@ -158,8 +162,8 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     second.cost = segment_bonds(&e->statics->sif, &e->bonds, &e->part, &beyond, &list);
     if (list.n > 0) {
         tried = list_break_try(e, &list, &second);
-        bonds_mend(e->statics, &e->bonds, &e->part, &list);
-        tip->behind = increment_before(&tip->ahead, &second);
+        bonds_restore_broken(e->statics, &e->bonds, &e->part, &list);
+        tip->behind = increment_extrapolate_previous(&tip->ahead, &second);
     }
     memory_free(list.bond);
     return tried;

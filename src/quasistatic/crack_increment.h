@@ -1,6 +1,6 @@
 /* Crack increments. */
-#ifndef CLEAVE_ADVANCE
-#define CLEAVE_ADVANCE
+#ifndef CLEAVE_CRACK_INCREMENT
+#define CLEAVE_CRACK_INCREMENT
 
 #include "run/run.h"
 
@@ -11,25 +11,25 @@ status crack_increment_find(struct run *e);
 
 /* Makes the next crack increment under the present loads: breaks its bonds and finds the equilibrium without them.
  * Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to stop. */
-status crack_increment_make(struct run *e);
+status crack_increment_apply(struct run *e);
 
 /* Breaks the bonds of the next crack increment and moves the tips of SIF-driven cracks, without finding the new
- * equilibrium (crack_increment_settle does). Returns the number of directed bonds broken. */
+ * equilibrium (crack_increment_equilibrate does). Returns the number of directed bonds broken. */
 int64_t crack_increment_break(struct run *e);
 
 /* Finds the equilibrium after crack_increment_break has broken bonds, and converts material points near the crack to
  * peridynamic particles. broken: number of directed bonds that were broken. Returns FAILED if no equilibrium is found,
  * INTERRUPTED if the run is to stop. */
-status crack_increment_settle(struct run *e, int64_t broken);
+status crack_increment_equilibrate(struct run *e, int64_t broken);
 
 /* Scales the loads to the size at which the next crack increment releases as much energy as it costs, finds the
  * equilibrium there, and makes the increment. Returns FAILED if no equilibrium is found, INTERRUPTED if the run is to
  * stop. */
-status crack_increment_make_balanced(struct run *e);
+status crack_increment_apply_balanced(struct run *e);
 
 /* Makes the next crack increment as a dynamic release (release.c): breaks its bonds, integrates the motion of the body
  * in time under fixed loads until the body is at rest, and finds the equilibrium. Returns FAILED if the motion
  * diverges or no equilibrium is found, INTERRUPTED if the run is to stop. */
-status crack_increment_make_dynamic(struct run *e);
+status crack_increment_apply_dynamic(struct run *e);
 
 #endif

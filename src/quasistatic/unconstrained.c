@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "pieces.h"
+#include "unconstrained.h"
 #include "unknowns.h"
 
 #include "base/memory.h"
@@ -58,7 +58,7 @@ static void cells_join(const struct search *s)
     const struct mesh *mesh = s->mesh;
     for (int64_t I = 0; I < mesh->grid.n && mesh->points > 0; I++) {
         int32_t first = -1;
-        if (!mesh_cell_holds(mesh, I)) continue;
+        if (!mesh_cell_has_body(mesh, I)) continue;
         for (int c = 0; c < 1 << s->part->dim; c++) {
             const int32_t k = s->node[mesh_node(mesh, I, c)];
             if (k < 0) continue;
@@ -416,7 +416,7 @@ void unconstrained_find(struct run *e)
     supports_resist(&search);
     images_resist(&search, &e->bonds);
     mirror_nodes_resist(&search);
-    contact_terms(e->contact, &e->part, contact_resists, &search);
+    contact_visit_springs(e->contact, &e->part, contact_resists, &search);
     for (int64_t q = 0; q < search.n; q++) s->fragments += motions_free(&search.candidate[q], m, free) > 0;
     s->fragment = NEW("pieces.free", s->fragments, struct unconstrained_fragment);
     s->fragments = 0;

@@ -1,7 +1,7 @@
 /* SIF-driven cracks: the direction of growth of their tips follows from the stress-intensity factors (struct
  * sif_cracks). Positions are reference positions in the plane of the tips (struct sif_plane). */
-#ifndef CLEAVE_LED
-#define CLEAVE_LED
+#ifndef CLEAVE_SIF_CRACKS
+#define CLEAVE_SIF_CRACKS
 
 #include <math.h>
 
@@ -9,7 +9,7 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* ---- the plane of the tips (led_plane.c) ------------------------------------------------------------------------- */
+/* ---- the plane of the tips (sif_plane.c) ------------------------------------------------------------------------- */
 
 /* Finds the plane in which the tips of the pre-cracks move, and stores its axes, the direction and middle of the crack
  * fronts and its planes of symmetry in *plane. The caller has set the members dim, spacing, section, body_mirrors and
@@ -52,7 +52,8 @@ static inline void sif_point_ahead(const real *from, real distance, const real *
 /* Returns the distance between the points a and b of the plane, two coordinates each [m]. */
 static inline real sif_distance(const real *a, const real *b) { return hypot(a[0] - b[0], a[1] - b[1]); }
 
-/* ---- tips (led.c) ------------------------------------------------------------------------------------------------ */
+/* ---- tips (sif_cracks.c)
+ * ------------------------------------------------------------------------------------------------ */
 
 /* Returns true if the crack segment that ends at the tip lies on a plane of symmetry. */
 bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_tip *tip);
@@ -61,8 +62,8 @@ bool sif_tip_along_mirror(const struct sif_plane *plane, const struct sif_crack_
  * fit of crack-tip fields to the displacements around the tip (fracture/tip_fit.h), in a frame whose x axis is
  * tip->along. closed: crack faces are in contact (statics_faces_closed), which makes K_I at least 0. Returns false if
  * too few particles are near the tip. */
-bool sif_tip_measure(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
-                     bool closed, real K[2]);
+bool sif_tip_compute_factors(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
+                             bool closed, real K[2]);
 
 /* Computes the position at which the next increment of a tip ends, two coordinates in the plane [m]. The increment is
  * 2 particle spacings long or, if the key steps.energy is set, as long as that energy suffices for; it ends at the
@@ -70,13 +71,14 @@ bool sif_tip_measure(const struct sif_cracks *l, const struct particles *p, cons
 void sif_tip_next_position(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                            real position[2]);
 
-/* Returns the crack energy per area [J/m^2] of the material at a tip (toughness_of). */
+/* Returns the crack energy per area [J/m^2] of the material at a tip (toughness_of_material). */
 real sif_tip_toughness(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip);
 
 /* Computes the stress-intensity factors of a tip and sets tip->heading, the direction of its next increment, by the
  * criterion of maximum hoop stress (Erdogan & Sih 1963). The direction remains unchanged while tip->straight is
  * positive or if too few particles are near the tip. closed: crack faces are in contact. */
-void sif_tip_turn(const struct sif_cracks *l, const struct particles *p, bool closed, struct sif_crack_tip *tip);
+void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles *p, bool closed,
+                              struct sif_crack_tip *tip);
 
 /* Moves the tip with index `tip` to the end of its next increment, appends the segment to the path of the cracks, and
  * sets `ended` of the tip if it has reached a surface or another crack. */
@@ -93,16 +95,16 @@ void sif_leading_position(const struct sif_cracks *l, real position[DIM_MAX]);
 
 /* Sets `ended` of all tips, so that none grows any more. Call this function if bonds have broken away from the tips,
  * since the tips then no longer describe the cracks. */
-void sif_tips_end(struct sif_cracks *l);
+void sif_tips_stop_all(struct sif_cracks *l);
 
 /* Frees the stored path of the cracks and clears *l. */
 void sif_cracks_free(struct sif_cracks *l);
 
-/* ---- increments (led_cut.c) -------------------------------------------------------------------------------------- */
+/* ---- increments (sif_cut.c) -------------------------------------------------------------------------------------- */
 
 /* Breaks the intact bonds that cross the last part of the pre-crack behind a tip, at no cost of energy. Needed after a
- * tip has been moved off a row of particles (led_start.c). */
-void sif_tip_cut_behind(struct run *e, const struct sif_crack_tip *tip);
+ * tip has been moved off a row of particles (sif_start.c). */
+void sif_tip_break_behind(struct run *e, const struct sif_crack_tip *tip);
 
 /* Determines the next crack increment of the SIF-driven cracks under the present loads. For each tip that can grow, a
  * trial equilibrium with the bonds of its increment broken gives the energy that is released. Stores the bonds to
@@ -113,7 +115,7 @@ status sif_increment_find(struct run *e);
 /* Moves all tips that take part in the present crack increment (member `selected`) to the ends of their increments. */
 void sif_tips_advance(struct sif_cracks *l, const struct particles *p);
 
-/* ---- start (led_start.c) ----------------------------------------------------------------------------------------- */
+/* ---- start (sif_start.c) ----------------------------------------------------------------------------------------- */
 
 /* Finds the plane and the tips of the pre-cracks on the first call. Returns true if a tip can grow; false also if the
  * cracks of the scene are not SIF-driven, with the reason in sif.fault of e->statics. */

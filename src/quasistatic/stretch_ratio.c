@@ -1,7 +1,7 @@
 /* Bonds whose stretch exceeds the critical stretch, and the order in which they break: largest ratio first. */
 #include <math.h>
 
-#include "overload.h"
+#include "stretch_ratio.h"
 #include "toughness.h"
 
 #include "base/memory.h"
@@ -71,12 +71,12 @@ static real half_energy_to_limit(const struct bonds *b, const struct particles *
         hardening = b->yield.hardening[b->pair[bond->entry]];
         yield = b->yield.stretch[b->pair[bond->entry]] + hardening * b->plastic_path[bond->entry];
     }
-    const real work = stretch_work(real_max(0, elastic), yield, hardening);
+    const real work = bond_stretch_work(real_max(0, elastic), yield, hardening);
     return 0.5 * b->stiffness * bond->w * work / bond->inverse_length;
 }
 
-struct broken_bond bond_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                               const struct bond *bond, int64_t row)
+struct broken_bond bond_make_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                    const struct bond *bond, int64_t row)
 {
     const int32_t i = b->particle[row];
     return (struct broken_bond){.i = i,
@@ -116,7 +116,7 @@ static void row_block_overstretched(struct overstretched *o, const struct bonds 
         for (struct bond_iterator it = bonds_of_row(b, r); bond_next(&it);) {
             const real over = it.bond.w == 0 ? 0 : stretch_ratio_of(p, limit, &it.bond, b->particle[r]);
             if (!(over > least)) continue;
-            const struct broken_bond record = bond_record(b, p, limit, &it.bond, r);
+            const struct broken_bond record = bond_make_record(b, p, limit, &it.bond, r);
             overstretched_add(o, over, &record);
         }
 }
@@ -207,7 +207,7 @@ void bonds_break_listed(struct run *e, const struct break_list *l)
     e->statics->precondition_stale = e->statics->fragments_stale = true;
 }
 
-void bonds_mend(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l)
+void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l)
 {
     for (int64_t k = l->n; k-- > 0;) {
         const struct broken_bond *record = &l->bond[k];

@@ -1,6 +1,6 @@
 /* Bonds whose stretch exceeds the critical stretch, and lists of broken bonds. */
-#ifndef CLEAVE_OVERLOAD
-#define CLEAVE_OVERLOAD
+#ifndef CLEAVE_STRETCH_RATIO
+#define CLEAVE_STRETCH_RATIO
 
 #include "bonds/bonds.h"
 #include "quasistatic/statics.h"
@@ -23,15 +23,15 @@ void bonds_break_listed(struct run *e, const struct break_list *l);
 
 /* Restores the bonds of the list l, which must be the bonds that were broken last, and the energies, damage and flags
  * of their rows (all bonds of one particle) and particles from the records of the list. */
-void bonds_mend(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
+void bonds_restore_broken(struct statics *s, struct bonds *b, struct particles *p, const struct break_list *l);
 
 /* Appends a copy of *record to the list l, which grows as needed. */
 void break_list_add(struct break_list *l, const struct broken_bond *record);
 
-/* Returns the record of an intact bond, from which bonds_mend can restore it. row: index of the row (all bonds of one
- * particle) that contains the bond. limit: rule for the critical stretch; it determines the member `held`, half of the
- * energy of the bond at its critical stretch [J]. */
-struct broken_bond bond_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
-                               const struct bond *bond, int64_t row);
+/* Returns the record of an intact bond, from which bonds_restore_broken can restore it. row: index of the row (all
+ * bonds of one particle) that contains the bond. limit: rule for the critical stretch; it determines the member `held`,
+ * half of the energy of the bond at its critical stretch [J]. */
+struct broken_bond bond_make_record(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
+                                    const struct bond *bond, int64_t row);
 
 #endif

@@ -7,8 +7,8 @@
  * change of all energies, not the work of the forces along the path. */
 #include <math.h>
 
-#include "touch.h"
-#include "pieces.h"
+#include "contact_set.h"
+#include "unconstrained.h"
 #include "springs.h"
 #include "unknowns.h"
 
@@ -51,7 +51,7 @@ void statics_contact_start(struct run *e)
 {
     if (!e->statics->has_contact) return;
     e->contact->marked = true;
-    loads_mirror(&e->loads, &e->part);
+    loads_update_images(&e->loads, &e->part);
     if (!e->contact->made || !e->contact->touch) statics_contact_search(e, CARRIED);
 }
 
@@ -71,7 +71,7 @@ int statics_substeps(const struct scene *s, const struct rigid_set *rigid, real 
  * computed [J]. */
 static real energy_present(struct run *e)
 {
-    return sample_strain(e) + contact_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
+    return sample_strain_energy(e) + contact_energy(e->contact, &e->part) + bond_plastic_work(&e->bonds);
 }
 
 bool statics_in_contact(const struct statics *s, const struct contact *c) { return s->in_contact || c->touching > 0; }
@@ -88,13 +88,13 @@ void statics_contact_begin(struct run *e, real t)
     statics_contact_start(e);
     q->force(e, &q->u, &q->f);
     s->energy = energy_present(e) - (touched ? 0 : contact_energy(e->contact, &e->part));
-    for (int k = 0; k < e->scene->rigids; k++) rigid_put(&e->rigid->body[k], t);
+    for (int k = 0; k < e->scene->rigids; k++) rigid_set_position(&e->rigid->body[k], t);
     s->in_contact = statics_contact_search(e, CARRIED) > 0 || touched;
     s->largest = q->largest;
     if (!s->in_contact) return;
     unconstrained_update(e);
     q->force(e, &q->u, &q->f);
-    q->reach = contact_sight(e->contact);
+    q->reach = contact_list_reach(e->contact);
 }
 
 /* Computes the norm of the loads from the final contact forces, not from forces in intermediate states. */
@@ -105,9 +105,9 @@ bool statics_contact_settle(void *engine)
     struct contact *c = e->contact;
     if (!e->statics->has_contact) return true;
     unknowns_move(s, &e->part, &e->frame->mesh, &s->balance.u);
-    loads_mirror(&e->loads, &e->part);
+    loads_update_images(&e->loads, &e->part);
     const int64_t changed =
-        contact_has_come(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_mark(c, &e->part, 0);
+        contact_search_needed(c, &e->part) ? 1 + statics_contact_search(e, 0) : contact_select(c, &e->part, 0);
     s->balance.applied = applied_forces_norm(s, &e->part, c);
     s->balance.largest = s->largest;
     if (changed > 0) unconstrained_update(e);
@@ -117,7 +117,7 @@ bool statics_contact_settle(void *engine)
 void statics_contact_laws(void *engine, bool settled)
 {
     struct run *e = engine;
-    if (e->statics->has_contact) contact_marks_use(e->contact, settled);
+    if (e->statics->has_contact) contact_use_selection(e->contact, settled);
 }
 
 real statics_contact_end(struct run *e, real work, real lost)
@@ -132,7 +132,7 @@ real statics_contact_end(struct run *e, real work, real lost)
         for (int d = 0; d < e->part.dim; d++)
             range += 0.5 * fabs((e->rigid->body[k].force[d] - e->rigid->body[k].force_previous[d]) *
                                 e->rigid->body[k].increment[d]);
-        rigid_book(&e->rigid->body[k]);
+        rigid_add_work(&e->rigid->body[k]);
         work += e->rigid->body[k].work - before;
     }
     if (statics_in_contact(s, e->contact)) q->lost = lost + work - (energy_present(e) - s->energy);

@@ -1,6 +1,6 @@
 /* Contact and rigid bodies in equilibrium states. */
-#ifndef CLEAVE_TOUCH
-#define CLEAVE_TOUCH
+#ifndef CLEAVE_CONTACT_SET
+#define CLEAVE_CONTACT_SET
 
 #include "quasistatic/statics.h"
 #include "run/run.h"
