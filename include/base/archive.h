@@ -5,7 +5,8 @@
 
 #include "base.h"
 
-/* State in an archive. A state function without state of a scope exchanges nothing in it. */
+/* Part of the state of a run that an archive holds. A state function saves and restores nothing if none of its state
+ * belongs to the scope of the archive. */
 enum archive_scope {
     ARCHIVE_ALL,      /* everything that a resumed run needs */
     ARCHIVE_REBUILD,  /* state passed on when a body is rebuilt with other particles, except particles, bonds, nodes and
@@ -14,7 +15,8 @@ enum archive_scope {
     ARCHIVE_ACCOUNTS, /* sums since the start, saved before forces are computed that no step follows */
 };
 
-/* A store of named entries (a checkpoint, or memory), open either for saving or for restoring. */
+/* A store of named entries, in a checkpoint file or in memory, open either for saving or for restoring. The same call
+ * of `exchange` saves or restores an entry, depending on `saving`. */
 struct archive {
     bool saving;
     /* Saves or restores `size` bytes under a name that is unique in the archive ('/' and letters). Restoring fails if
@@ -32,12 +34,13 @@ struct archive {
 /* Saves or restores a variable; returns from the calling function on failure. */
 #define ARCHIVE_VALUE(a, name, variable) TRY((a)->exchange((a), (name), &(variable), sizeof(variable)))
 
-/* Saves or restores an array of n elements of `size` bytes, one per particle (and image). If archive->now is set,
- * elements are restored to the new indices of their particles; elements of particles that were absent keep their
- * value. */
+/* Saves n elements of `size` bytes, one per particle (mirror images included), or restores them. If a->now is set while
+ * restoring, the run has other particles than the stored one: each element goes to the new index of its particle, and
+ * elements of particles that were not stored keep their value. Returns the status of a->exchange. */
 status archive_particle_array(struct archive *a, const char *name, void *array, int64_t n, size_t size);
 
-/* Replaces n restored indices of particles by their new ones. Does nothing while saving, or if archive->now is NULL. */
+/* Replaces each of n particle indices that have been restored by the new index of that particle, a->now[index]; -1 if
+ * it no longer exists. Does nothing while saving, or if a->now is NULL (equal particles). */
 void archive_renumber(const struct archive *a, int32_t *index, int64_t n);
 
 #endif

@@ -37,7 +37,8 @@ enum { DIM_MAX = 3, SYM_MAX = 6, NAME_MAX_LENGTH = 64 };
 /* Returns the number of components of a symmetric tensor. */
 static inline int symmetric_count(int dim) { return dim * (dim + 1) / 2; }
 
-/* Computes row and column of component s of a symmetric tensor. */
+/* Computes row and column (0 .. 2) of component s of a symmetric tensor. Order of the components: xx, yy, zz, xy, yz,
+ * zx in 3D; xx, yy, xy in 2D. */
 static inline void symmetric_axes(int dim, int s, int *row, int *column)
 {
     *row = s < dim ? s : s == dim ? 0 : s == dim + 1 ? 1 : 2;
@@ -54,10 +55,12 @@ status status_set(status s, const char *format, ...) __attribute__((format(print
 /* Returns the message of the last failure in this thread. */
 const char *status_message(void);
 
-/* Length of a position in a scene as it begins a message: `file:line:column: key: `; "": unknown. */
+/* Capacity of the text `file:line:column: key: ` at the beginning of a message about a scene; the text is empty if the
+ * position is unknown. */
 enum { PLACE_LENGTH = 512 };
 
-/* Prepends `place` to the message of a refusal that has no position yet. Returns `s`. */
+/* Prepends `place`, a position in the scene file such as `file:line:column: key: `, to the message set by status_set.
+ * Does nothing if s is not REFUSED, if the message has a position already, or if `place` is empty. Returns s. */
 status status_prepend_location(const char *place, status s);
 
 /* Ends the program by invariant_broken if `condition` is false. For conditions that hold in every run of a correct
@@ -79,7 +82,8 @@ void invariant_set_cleanup(void (*remove)(void));
  * does not act on it. */
 void text_replace_controls(char *text);
 
-/* Replaces control characters as text_replace_controls in `length` bytes, which may include zeros. */
+/* Replaces every control character among the `length` bytes of `text` by `?`, zero bytes included;
+ * text_replace_controls does so up to the first zero byte. */
 void bytes_replace_controls(char *text, size_t length);
 
 /* A name for printing, without control characters, cut if it is very long: `printable_name(folder).text`, valid until
@@ -88,10 +92,11 @@ struct printable_name {
     char text[512];
 };
 
-/* Returns a name for printing. */
+/* Returns a copy of `name` for printing, at most 511 bytes long, with `?` in place of control characters. */
 struct printable_name printable_name(const char *name);
 
-/* Sorts n > 0 numbers in place and returns the median; for even n the upper of the two middle ones. */
+/* Sorts the n > 0 numbers in `value`, in place, and returns their median; for even n the upper of the two middle
+ * ones. */
 double median_of(double *value, int64_t n);
 
 /* Returns from the calling function with the status of `call` if it is not OK. */

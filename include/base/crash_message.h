@@ -2,7 +2,8 @@
 #ifndef CLEAVE_CRASH_MESSAGE
 #define CLEAVE_CRASH_MESSAGE
 
-/* Installs handlers by which such a crash prints one line on standard error and exits with status 1. */
+/* Installs handlers for crashes inside libraries that are caused by lack of memory or by a damaged file: the program
+ * then prints one line on standard error and exits with status 1. */
 void crash_message_install(void);
 
 /* Announces that HDF5 is about to read the file `path`; NULL: it has finished. A crash in between is reported as a

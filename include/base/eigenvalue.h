@@ -4,13 +4,14 @@
 
 #include "base.h"
 
-/* Computes y = A x for vectors of n numbers. */
+/* Type of a function that computes y = A x for a matrix A and vectors of n numbers. context: data of the caller, which
+ * describe A. */
 typedef void matrix_product_fn(void *context, const real *x, real *y);
 
-/* Returns the largest eigenvalue of A (n x n, symmetric), 0 if n = 0, by Lanczos' iteration (Golub & Van Loan, ch. 10)
- * from a fixed vector. Converges from below; stops when eight iterations add less than a thousandth; exact after n
- * iterations. A bounded spectrum without gaps takes 20 to 40 iterations, a third of those of the power method. context:
- * for `apply`. */
+/* Returns the largest eigenvalue of a symmetric n x n matrix A by Lanczos' iteration (Golub & Van Loan, ch. 10) from a
+ * fixed vector; 0 if n = 0. apply(context, x, y) computes y = A x. The estimate increases towards the eigenvalue; the
+ * iteration ends when eight steps increase it by less than a thousandth, at the latest after n steps. 20 to 40 steps
+ * suffice for a bounded spectrum without gaps. */
 real largest_eigenvalue(int64_t n, matrix_product_fn *apply, void *context);
 
 /* Returns the largest eigenvalue of the symmetric tridiagonal matrix with a[n] on its diagonal and b[k] between a[k]

@@ -6,17 +6,18 @@
 
 enum leaving { LEAVING_PICTURE, LEAVING_FRAME, LEAVING_FILM, LEAVINGS };
 
-/* Sets a file to be removed, and a child process to be killed before with all processes it started, when SIGINT,
- * SIGTERM or SIGHUP ends this process. path is copied; NULL: no file. process: 0: no child. Signals that are ignored or
- * have a handler are left alone. */
+/* Sets what is cleaned up if SIGINT, SIGTERM or SIGHUP ends this process: first the child `process` (id; 0: none) is
+ * killed with all processes that it started, then the file `path` (copied; NULL: none) is removed. which: kind of file;
+ * replaces its previous entry. A signal that is ignored or already has a handler is left alone. */
 void interrupt_cleanup_set(enum leaving which, const char *path, int process);
 
-/* Blocks these signals (hold true) while a file or child exists that interrupt_cleanup_set does not know yet, and
- * unblocks them (false). A child inherits the state of its parent. */
+/* Blocks SIGINT, SIGTERM and SIGHUP in the calling thread (hold true), or unblocks them (false). Block them while a
+ * temporary file or child process exists that has not yet been passed to interrupt_cleanup_set. A child process
+ * inherits the block. */
 void interrupt_cleanup_block(bool hold);
 
-/* For a child between fork and exec: creates a process group, so that the processes it starts are killed with it, and
- * unblocks the signals. */
+/* Prepares a child process, between fork and exec: puts it into a process group of its own, so that processes that it
+ * starts are killed with it, and unblocks SIGINT, SIGTERM and SIGHUP. */
 void interrupt_cleanup_in_child(void);
 
 #endif

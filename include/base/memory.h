@@ -9,16 +9,19 @@
  * Never returns NULL; count 0 gives a valid pointer. Release with memory_free. */
 void *memory_new(const char *label, int64_t count, size_t size);
 
-/* Returns an array without zeroing, to be written at once and completely by the threads that will use it. Otherwise as
- * memory_new. */
+/* Allocates `count` elements of `size` bytes with undefined contents, to be written at once and completely by the
+ * threads that will use them. Never returns NULL: out of memory, the program ends with a message that contains `label`.
+ * Release with memory_free. */
 void *memory_new_uninitialised(const char *label, int64_t count, size_t size);
 
-/* Returns an array without zeroing of which most is never written: small pages, and only written ones take memory.
- * Otherwise as memory_new. */
+/* Allocates `count` elements of `size` bytes with undefined contents, most of which will never be written: only pages
+ * that are written take memory. Never returns NULL: out of memory, the program ends with a message that contains
+ * `label`. Release with memory_free. */
 void *memory_new_sparse(const char *label, int64_t count, size_t size);
 
-/* Returns a zeroed array of which most is never written: pages take memory when first written. Otherwise as
- * memory_new. */
+/* Allocates `count` zeroed elements of `size` bytes, most of which will never be written: a page takes memory when it
+ * is first written. Never returns NULL: out of memory, the program ends with a message that contains `label`. Release
+ * with memory_free. */
 void *memory_new_lazy_zero(const char *label, int64_t count, size_t size);
 
 /* Grows or shrinks an array of memory_new and returns it; the first min(old, new) elements are kept, new ones are zero.
@@ -30,15 +33,17 @@ void *memory_resize(const char *label, void *pointer, int64_t old_count, int64_t
  * array of memory_new, or NULL, which stays NULL for count 0. */
 void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, size_t size);
 
-/* Grows an array of memory_new_sparse or memory_new_uninitialised and returns it; new elements are not written.
- * `pointer` is invalid afterwards. */
+/* Grows an array of memory_new_sparse or memory_new_uninitialised from old_count to `count` elements of `size` bytes
+ * and returns it; it may have moved, so that `pointer` is invalid afterwards. The contents of the new elements are
+ * undefined. */
 void *memory_resize_uninitialised(const char *label, void *pointer, int64_t old_count, int64_t count, size_t size);
 
 /* Releases an array; NULL is allowed. */
 void memory_free(void *pointer);
 
-/* Keeps released arrays for new ones of similar size, if `reuse`; else releases them. For runs, which rebuild equal
- * arrays whenever particles convert; set-up needs the memory that this takes. */
+/* Sets whether memory_free keeps released arrays for later allocations of similar size (reuse true) or returns them to
+ * the system (false), including those kept so far. Keeping them saves time in the time loop, which rebuilds equal
+ * arrays whenever particles convert. */
 void memory_set_reuse(bool reuse);
 
 /* Returns the largest resident size of the process so far, from the operating system [byte]. */
@@ -51,7 +56,8 @@ struct memory_limit {
     const char *name;
 };
 
-/* Returns the tightest limit. */
+/* Returns the tightest limit of memory for this process, from ulimit and control groups: the bytes that are left
+ * (INT64_MAX: no limit) and the name of the limit. */
 struct memory_limit memory_limit(void);
 
 #define NEW(label, count, type) ((type *)memory_new(label, count, sizeof(type)))

@@ -17,13 +17,15 @@ struct memory_archive {
     struct memory_entry *entry; /* [n] in the order of saving */
 };
 
-/* Initialises an empty archive for saving. State functions are given &m->archive. Release with memory_archive_free. */
+/* Initialises an empty archive in memory, open for saving. scope: part of the state that it holds. State is saved by
+ * calling the state functions of the modules with &m->archive. Release with memory_archive_free. */
 void memory_archive_make(struct memory_archive *m, enum archive_scope scope);
 
-/* Switches a saved archive to restoring, from its first entry; may be called any number of times. */
+/* Switches an archive in memory from saving to restoring and returns to its first entry, so that the state functions,
+ * called in the same order with &m->archive, restore what they saved. May be repeated. */
 void memory_archive_rewind(struct memory_archive *m);
 
-/* Releases the entries. Does nothing if there are none. */
+/* Frees all entries of an archive in memory. Does nothing if it has none. */
 void memory_archive_free(struct memory_archive *m);
 
 #endif

@@ -13,9 +13,10 @@ struct quadratic {
     const real *low, *high;      /* [n] bounds; low = high: the unknown is fixed */
 };
 
-/* Minimises from x, in place, until the projected gradient is `close` times its initial size, with at most `products`
- * products (MPRGP, Dostal & Schoeberl 2005). Equal bits on any number of threads if the product has them. Returns the
- * number of products used. */
+/* Minimises the function q within its bounds, starting from x[n], which is overwritten by the result (MPRGP, Dostal &
+ * Schoeberl 2005). Stops when the norm of the projected gradient is at most `close` times its initial value, or after
+ * about `products` products with the matrix. Returns the number of products, without those that estimate the largest
+ * eigenvalue. The result is bit-identical for any number of threads if q->product is. */
 int quadratic_minimise(const struct quadratic *q, real *x, real close, int products);
 
 #endif

@@ -28,12 +28,14 @@ struct rise {
 /* Growth rates: tenfold within RISE_STEPS, slower, or undecided. */
 enum growth_rate { RISE_FAST, RISE_SLOW, RISE_UNSURE };
 
-/* Records a value, unless the last record is less than RISE_CLOSEST steps old. */
+/* Records `value` at time step number `step` in r, unless the last record is less than RISE_CLOSEST steps old. The last
+ * RISE_VALUES records are kept. */
 void growth_rate_add_sample(struct rise *r, int64_t step, real value);
 
-/* Returns the rate of the last tenfold increase, to `value` > 0 at `step`; *steps: its approximate duration [steps],
- * INFINITY if it is longer than the record. FAST: within RISE_STEPS, assuming exponential growth between two records.
- * SLOW: a value above a tenth of `value` is older than RISE_STEPS, or one near a tenth is older by more than that. */
+/* Returns how fast the quantity recorded in r has grown to `value` > 0 at time step number `step`: RISE_FAST if it
+ * increased tenfold within RISE_STEPS steps (growth between two records is taken as exponential), RISE_SLOW if that
+ * took longer, RISE_UNSURE if the records do not decide. *steps receives the approximate duration of the last tenfold
+ * increase [steps], INFINITY if it is longer than the records. */
 enum growth_rate growth_rate(const struct rise *r, int64_t step, real value, real *steps);
 
 #endif

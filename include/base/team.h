@@ -17,10 +17,12 @@ struct machine {
  * calling thread moves to the first core and keeps the mask. Returns the number of threads. */
 int team_set_threads(int threads);
 
-/* Returns the properties of the machine. */
+/* Returns the number of cores, the sizes of caches and memory, as far as this process may use them, and the name of the
+ * processor. */
 struct machine machine_properties(void);
 
-/* Returns the memory of the machine, or what limits leave of it [byte]; read by team_set_threads. */
+/* Returns the memory that this process may use [byte]: that of the machine or, if it is less, what a limit (ulimit,
+ * control group) had left when team_set_threads was called. */
 int64_t machine_memory_size(void);
 
 /* Returns the name of the limit that machine_memory_size reports: "memory of the machine", "ulimit -v", ... */
@@ -29,8 +31,9 @@ const char *machine_memory_limit_name(void);
 /* Returns the number of physical cores that the process may use. */
 int machine_cores(void);
 
-/* Divides the cores into equal shares, for processes that run side by side. Returns NULL if there are too few. Release
- * with core_shares_free. */
+/* Divides the cores that this process may use into `shares` equal parts, for processes that run side by side
+ * (core_share_bind). Returns NULL if there are fewer cores than shares, or only one share. Release with
+ * core_shares_free. */
 struct core_shares *core_shares_make(int shares);
 
 /* Binds the calling thread, and processes that it starts, to a share; share -1 restores its previous binding. s NULL:
@@ -53,8 +56,9 @@ enum { SUM_BLOCK = 1024, TERMS_MAX = 8 };
  * threads. term(context, i) must not write. */
 real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), const void *context);
 
-/* Computes several sums in one pass, as reproducible_sum: `block` adds the terms first .. end-1 to the `terms` <=
- * TERMS_MAX sums that it is given. */
+/* Computes `terms` <= TERMS_MAX sums over n terms in one pass, with bit-identical results for any number of threads.
+ * block(context, first, end, sum) adds the terms first .. end - 1 of all sums to sum[terms]. sum: receives the
+ * results. */
 void reproducible_sums(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                        const void *context, real *sum);
 
@@ -67,10 +71,10 @@ struct timers {
     double last, spent[TIMERS];
 };
 
-/* Starts the stop watch and clears all sections. */
+/* Sets the time spent in every section to 0 and starts timing the first one. */
 void timers_start(struct timers *l);
 
-/* Books the time since the last call (or start) on section `which`. */
+/* Adds the time since the last call of timer_add_elapsed (or timers_start) to section `which`. */
 void timer_add_elapsed(struct timers *l, enum timer which);
 
 #endif

@@ -14,22 +14,26 @@ struct warnings {
     char **text;
 };
 
-/* Adds a warning, unless it is already in the list. Returns true if it is new. */
+/* Appends a warning to the list w, composed as by printf, with `?` in place of control characters, unless the list
+ * contains it already. Returns true if it was appended. */
 bool warnings_add(struct warnings *w, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Adds the warnings of another list from number `first` on. */
+/* Appends the warnings number `first`, first + 1, ... of the list `from` to the list w, except those that w contains
+ * already. */
 void warnings_append_from(struct warnings *w, const struct warnings *from, int first);
 
-/* Prints the warnings from number `first` on, one line each: `warning: text`. */
+/* Prints the warnings number `first`, first + 1, ... of the list w to `out`, each as one line `warning: text`. */
 void warnings_print(const struct warnings *w, int first, FILE *out);
 
-/* Adds a warning of a running run and, if it is new and the list is not silent, prints it on standard error. */
+/* Appends a warning to the list w while a run is in progress and, if the list did not contain it and is not silent,
+ * prints it on standard error. */
 void warnings_add_and_print(struct warnings *w, const char *text);
 
-/* Prints the warnings from number `first` on, on standard error, unless the list is silent. */
+/* Prints the warnings number `first`, first + 1, ... of the list w on standard error, unless the list is silent. */
 void warnings_print_new(const struct warnings *w, int first);
 
-/* Saves or restores the warnings; restored ones are added to the list. */
+/* Saves the warnings of the list w to the archive if a->saving, else appends the stored ones to w. Returns FAILED if
+ * the archive cannot be read or written or its entries are inconsistent. */
 status warnings_archive(struct warnings *w, struct archive *a);
 
 /* Releases all texts. */

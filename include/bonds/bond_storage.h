@@ -76,8 +76,9 @@ struct clamped {
     struct clamp_end *end;
 };
 
-/* State of the families (all neighbours of a particle) in state-based models; not used in bond-based ones. Material
- * points with bonds then have the fields end_* of struct particles. */
+/* State of each particle's family (all its neighbours) in state-based models, from which bond forces follow: weighted
+ * volume Q, pressure P, spring g and, in models with particle rotations, rotation R. Not used in bond-based models.
+ * Material points with bonds have the fields end_* of struct particles instead. */
 enum { STATE_NUMBERS = 2 + ROTATION }; /* P, g and the entries of R */
 struct state {
     const struct state_modulus *modulus; /* [materials]; NULL: bond-based model */

@@ -40,8 +40,8 @@ static inline real spring_bound_of(const struct spring_bound *s, int dim)
  * of particles i and j of p. */
 bool cracks_separate_particles(const struct crack *crack, int cracks, const struct particles *p, int64_t i, int64_t j);
 
-/* Returns an upper bound of the number of neighbours of any particle, from counts of particles in search cells
- * (cells_most_neighbours). Computed once at set-up, because reference positions do not change. */
+/* Returns an upper bound of the number of neighbours of any particle within the cutoff, from counts of particles in
+ * search cells. Computed once at set-up, because reference positions do not change. s: inputs of the bonds. */
 int bonds_most_neighbours(const struct bond_source *s);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
@@ -50,9 +50,9 @@ int bonds_most_neighbours(const struct bond_source *s);
 void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
 
 /* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs s. old: NULL, or
- * the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; bonds_make takes over
- * its columns, so it may only be released afterwards. Bonds cut by a pre-crack get weight w = 0 and count as damage.
- * Sets the damage of all peridynamic particles. Release with bonds_free. */
+ * the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts of its storage
+ * move to b, so that afterwards only bonds_free may be called with `old`. Bonds cut by a pre-crack get weight w = 0 and
+ * count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
 void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
 
 /* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. s:

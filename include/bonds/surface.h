@@ -32,10 +32,11 @@ struct surface_weights {
                          away */
 };
 
-/* Computes the factors on the weights of bonds near faces for particles on a lattice, by least squares with bounds. s:
- * inputs of the bonds; rotates: true for models with particle rotations, in which differences between neighbours'
- * rotations store energy, so that the factors differ. Returns REFUSED, with a message and an example in to->apart, if
- * the particles are not on a lattice. Release with surface_weights_free. */
+/* Computes the factors on the weights of bonds near faces, for particles on a lattice, by least squares with bounds. s:
+ * inputs of the bonds; rotates: true for the model with particle rotations, whose factors differ because relative
+ * rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a lattice;
+ * to->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was found). Release
+ * with surface_weights_free. */
 status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s,
                             bool rotates);
 

@@ -48,7 +48,8 @@ struct contact_law {
     const struct region *const *shape; /* [bodies] kept by reference, NULL for a body made from a list */
 };
 
-/* Friction of a particle in contact: a spring along the face that is stretched by the sliding of the particle. */
+/* Friction of a particle in contact: a spring along the face, which the sliding of the particle stretches until its
+ * force reaches the coefficient of friction times the normal force. */
 struct contact_spring {
     real length[DIM_MAX]; /* elongation [m] */
     real drag[DIM_MAX];   /* force on the particle [N] */
@@ -90,8 +91,8 @@ struct contact_near {
     uint8_t *touch;
 };
 
-/* An active contact as a spring: the rate of its gap is the sum of along . v over its particles, its energy 1/2
- * stiffness gap^2. */
+/* A contact that acts, as a linear spring between particles: its energy is 1/2 stiffness gap^2, and its gap changes at
+ * the rate sum_k along[k] . v[k], with the velocities v of its n particles. */
 struct contact_term {
     int n;
     int32_t *particle;      /* [n] images included */
@@ -199,11 +200,12 @@ real contact_patch_diameter(const struct contact *c, const struct particles *p, 
 /* Returns the energy dissipated by friction since the start of the run [J]. */
 real contact_friction_work(const struct contact *c);
 
-/* Searches for pairs (contact_update) and selects the contacts that act in an equilibrium solution: those that
- * overlap, and those between bodies whose gap is less than `close` [spacings]. Selected contacts act as linear
- * springs, also with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the
- * contact law if exactly the overlapping contacts are selected. Forces left by contact_balance are set to 0. family:
- * horizon and lattice. Returns the number of contacts whose selection changed. */
+/* Searches for pairs (contact_update) and selects the contacts that act in an equilibrium solution: those that overlap,
+ * and those between bodies whose gap is less than `close` [spacings]. Selected contacts act as linear springs, also
+ * with a positive gap, until the next selection, so that forces are smooth; an equilibrium satisfies the contact law if
+ * exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps (struct
+ * contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
+ * changed. */
 int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
                        const struct family *family, real close);
 
@@ -225,8 +227,8 @@ void contact_end_selection(struct contact *c);
  * search. */
 bool contact_search_needed(struct contact *c, const struct particles *p);
 
-/* Returns the largest displacement of particles since the last search for which the list of pairs is certainly
- * complete [m]. */
+/* Returns how far any particle may move after a search before a pair that is missing in the list could come into
+ * contact [m]. */
 real contact_list_reach(const struct contact *c);
 
 /* Calls visit(context, term) for each contact selected by contact_select, with the contact as a linear spring; term is
@@ -234,7 +236,8 @@ real contact_list_reach(const struct contact *c);
 void contact_visit_springs(const struct contact *c, const struct particles *p,
                            void (*visit)(void *context, const struct contact_term *term), void *context);
 
-/* Returns the Euclidean norm of the forces of rigid bodies on all particles [N]. */
+/* Returns the root of the sum of squares of the forces of rigid bodies on particles, over all contacts [N], a scale for
+ * residuals. */
 real contact_rigid_force_norm(const struct contact *c, const struct particles *p);
 
 /* Saves the list of pairs with contact distances, friction springs and energies to the archive if a->saving, else

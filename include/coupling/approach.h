@@ -10,9 +10,10 @@
 enum { APPROACH_STEPS = 5 };
 #define APPROACH_REACH 3.0
 
-/* Sets FLAG_NEAR of the material points within `reach` [m] of a particle of another body or of a rigid body, and resets
- * the time since which the stress of peridynamic particles there is low (reversion.h). bodies: number of bodies of the
- * particles; rigid: [rigids]. */
+/* Finds the particles within `reach` [m] of a particle of another body or of a rigid body. Material points among them
+ * get FLAG_NEAR, by which they convert; for peridynamic ones the time since which their stress is low is reset, so that
+ * they do not revert (reversion.h). bodies: number of bodies that consist of particles; rigid: `rigids` rigid
+ * bodies. */
 void flag_points_near_bodies(struct particles *p, int bodies, const struct rigid_body *rigid, int rigids, real reach);
 
 #endif

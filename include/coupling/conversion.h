@@ -24,20 +24,20 @@ struct conversion {
     real reversion_energy;            /* change of the total energy by reversions [J] */
 };
 
-/* Callbacks of a pass. sync: updates n listed particles whose motion is stored on the nodes of a mesh (mesh.h), before
- * bonds to them are made; the list contains each particle once. converted (may be NULL): n listed particles have become
- * peridynamic and have bonds now. context: first argument of both. */
+/* Functions that `convert` calls, with `context` as first argument. sync: brings the motion of n listed particles up to
+ * date if it is stored on the nodes of a mesh (mesh.h), before bonds to them are made; each particle is listed once.
+ * converted (may be NULL): reports that n listed particles have become peridynamic and have bonds. */
 struct conversion_sync {
     void (*sync)(void *context, const int32_t *list, int64_t n);
     void *context;
     void (*converted)(void *context, const int32_t *list, int64_t n);
 };
 
-/* Converts every material point flagged FLAG_STRESSED or FLAG_LOST_BOND (as rule->criteria select) and, with
- * rule->block, its neighbours within the horizon; clears the flags of the step. Rows of bonds and partial stresses
- * (`partial`, NULL: hand-shake without them) are rebuilt only if a particle is converted. Bonds beyond their limit when
- * made are cut at once and their energy is booked as fracture. sync: NULL if no particle is in a mesh; t: time [s].
- * Returns the number of particles converted. */
+/* Converts material points to peridynamic particles at the end of a step: those that lost a bond or are near another
+ * body (FLAG_LOST_BOND, FLAG_NEAR), with the stress criterion of rule->criteria also those with FLAG_STRESSED and, with
+ * rule->block, the neighbours of each within the horizon. Clears these flags, rebuilds the bonds b if a particle
+ * converts, and updates the partial stresses (`partial`, NULL: none) near converted particles and broken bonds. sync:
+ * NULL if no particle is in a mesh; t: time [s]. Returns the number of particles converted. */
 int64_t convert_flagged_points(struct conversion *c, const struct conversion_rule *rule, struct particles *p,
                                struct bonds *b, const struct bond_source *source, struct partial_stress *partial,
                                const struct conversion_sync *sync, real t);
@@ -52,22 +52,25 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
 void initial_pd_region_make(struct region *to, const struct region *given, const struct particles *p,
                             const struct bond_source *source, real radius);
 
-/* Computes for every material point whose cell is crossed by PD-MPM bonds the stiffness tensor T of fourth rank that
- * maps the strain of the point to its partial stress (partial_stress.c): T = (1/V) sum K xi^2 l e e e e over these
- * bonds, with e the direction of the bond and l the share of its reference segment inside the cell. changed[n]:
- * particles converted since the last call, only whose surroundings are recomputed; NULL: all points. */
+/* Computes the partial stress of each material point whose cell is crossed by PD-MPM bonds, the part of its stress that
+ * it leaves to these bonds, as a matrix that maps the stress of the point to it: M = T C^-1 with the elastic stiffness
+ * C of the material and T = (1/V) sum K xi^2 l e e e e (partial_stress.c). The sum is over the bonds: K stiffness, xi
+ * length, e direction, l share of the reference segment inside the cell; V: volume of the point. changed[n]: particles
+ * converted since the last call; only points near them are recomputed. NULL: all points. */
 void partial_stress_make(struct partial_stress *partial, const struct particles *p, const struct bonds *b,
                          const struct bond_source *source, const int32_t *changed, int64_t n);
 
-/* Sets p->end_strain of the material points of state-based PD-MPM bonds on the grid, from their stress. material:
- * [materials]. */
+/* Computes p->end_strain, the contribution of a material point to the mean strain of its family, from the stress of the
+ * point by Hooke's law, for all points on the background grid with state-based PD-MPM bonds. Does nothing in bond-based
+ * models. material: array of the materials. */
 void bonded_points_strain_from_stress(const struct partial_stress *partial, struct particles *p,
                                       const struct material *material);
 
 /* Releases all arrays. */
 void partial_stress_free(struct partial_stress *partial);
 
-/* Saves or restores the results of conversion. */
+/* Saves the results of conversion and reversion so far to the archive if a->saving, else restores them. Returns FAILED
+ * if the archive cannot be read or written or a stored size differs. */
 status conversion_archive(struct conversion *c, struct archive *a);
 
 #endif

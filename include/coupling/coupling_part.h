@@ -22,63 +22,85 @@ struct coupling_state {
     struct region start_region; /* peridynamic from the start; no solids: empty */
 };
 
-/* Sets the kind of coupling, and makes partial stresses and the interface zone for the present bonds. */
+/* Determines how peridynamic particles and material points of run e are coupled (partial stress, hand-shake and so on;
+ * hand-shake unless the method is adaptive), then computes the partial stresses of material points and the interface
+ * zone, in which motion is damped, for the present bonds. */
 void coupling_partial_make(struct run *e);
 
-/* Makes the mesh of the reference frame (frame_make) with the present partial stresses and slits. still: the caller
- * sets the motion of the nodes. */
+/* Makes the mesh of the bodies in the reference frame (frame_make) with the present partial stresses and the slits of
+ * pre-cracks. still: true if the caller sets displacement and velocity of the nodes afterwards. Returns REFUSED or
+ * FAILED, with a message, as frame_make does. */
 status coupling_frame_make(struct run *e, bool still);
 
-/* Rebuilds the interface zone and the marks of material points with PD-MPM bonds. */
+/* Rebuilds, after the bonds b have changed, the marks of material points with PD-MPM bonds (c->bonded, only for FLIP)
+ * and the interface zone, in which motion is damped (c->zone, only for FLIP with partial stress). */
 void interface_make(struct coupling_state *c, const struct particles *p, const struct bonds *b,
                     const struct bond_source *source);
 
-/* Updates the material points of state-based PD-MPM bonds from the strain of their cells or, on the grid, from their
- * stress. material: [materials]. */
+/* Updates p->end_strain, the contribution of a material point to the mean strain of its family, of all points with
+ * state-based PD-MPM bonds: in a mesh from the strain of the cell, on the background grid from the stress of the point.
+ * Does nothing in bond-based models. material: array of the materials. */
 void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
                           const struct material *material);
 
-/* Represents the pre-cracks by slits of the mesh or cut bonds, and converts the particles that are peridynamic from the
- * start. REFUSED if the scene requires slits where they are impossible. */
+/* Decides whether each pre-crack becomes a slit of the mesh or cuts bonds along its length, and makes peridynamic the
+ * particles that are so from the start: those near the ends of slits, those with bonds cut by a pre-crack, those beside
+ * narrow voids, and those in the region that the scene gives. Returns REFUSED, with a message, if the scene requires
+ * slits where they are impossible. */
 status precracks_apply(struct run *e);
 
-/* Writes the representation of pre-crack number `crack` in words to text [room]. */
+/* Writes how pre-crack number `crack` is represented, in words, to `text` (capacity `room` bytes): as a slit of the
+ * mesh, with the size of the zones of bonds at its ends, or by cut bonds, with the reason. spacing: of the particles
+ * [m]. */
 void notch_describe(const struct notches *n, int crack, real spacing, char *text, size_t room);
 
-/* Marks material points beside slits whose faces approach each other (FLAG_NEAR). Returns false if faces are not
- * evaluated in this step. */
+/* Marks (FLAG_NEAR) material points beside slits and narrow voids whose faces approach each other, so that they convert
+ * before the faces touch. The faces are examined every APPROACH_STEPS steps, and only if the scene allows contact of a
+ * body with itself. Returns true if they were examined in this step, whether or not points were marked. */
 bool slits_flag_approaching(struct run *e);
 
-/* Makes the particles on both sides of narrow voids peridynamic where a grid would join them. v: NULL, no voids; uncut:
- * voids do not cut the mesh (mesh_ignores_voids). */
+/* Makes the particles on both sides of narrow voids peridynamic, so that common nodes of a grid do not join the two
+ * sides. Particles of a mesh are included only if `uncut` is true: otherwise the mesh has free surfaces at voids. v:
+ * voids, NULL: none; uncut: result of mesh_ignores_voids. */
 void voids_convert_beside(struct particles *p, const struct voids *v, bool uncut);
 
-/* Returns true if voids do not cut the mesh with the nodes of grid g: in 1D, where a cut separates a line by itself,
- * and with mirrors between nodes, for which extra nodes of cuts are not made. */
+/* Returns true if a mesh with the nodes of grid g has no free surfaces at voids: in 1D, and if a mirror plane of scene
+ * s does not pass through nodes of g, because doubled nodes are not possible then. */
 bool mesh_ignores_voids(const struct grid *g, const struct scene *s);
 
-/* Warns of voids that the run joins: narrow ones on the grid of the current frame, and in bodies made from lists and
- * images. */
+/* Adds warnings to `to` for voids that are too narrow, so that the run treats them as closed: voids whose two sides
+ * share nodes of the background grid, and gaps of one or two particles in bodies made from particle lists or images,
+ * whose surfaces are not known. */
 void voids_warn(const struct run *e, struct warnings *to);
 
-/* Warns of bodies that pass through each other or stick together, and of voids that are joined. */
+/* Adds warnings to `to` for bodies that will pass through each other or stick together, and for voids that are too
+ * narrow to stay open (voids_warn). */
 void warn_of_joined_bodies(const struct run *e, struct warnings *to);
 
-/* Prepares conversion (step 8 of the algorithm): marks material points near other bodies and slits, and extends the
- * active rows. Returns true if points beside slits may have been marked. */
+/* Prepares the conversion of a step: marks (FLAG_NEAR) material points that are near other bodies or beside crack faces
+ * that approach each other, and updates the active row blocks of bonds. Returns true if the faces of cracks and voids
+ * were examined in this step, so that points beside them may be marked. */
 bool conversion_prepare(struct run *e);
 
-/* Converts the marked material points, with all consequences of conversion and of `broken` directed bonds. marked:
- * result of conversion_prepare; fades: bonds of growing cracks fade. Returns the number of particles converted. */
+/* Converts the marked material points to peridynamic particles (convert) and updates all that depends on it: bonds,
+ * contact, partial stresses, interface zone and mesh. broken: number of directed bonds broken in this step; marked:
+ * result of conversion_prepare; fades: true if bonds of growing cracks lose strength gradually. Returns the number of
+ * particles converted. */
 int64_t conversion_apply(struct run *e, int64_t broken, bool marked, bool fades);
 
-/* Updates the mesh and the material points of PD-MPM bonds after `converted` particles have changed their kind. */
+/* Updates the mesh, and the material points with state-based PD-MPM bonds, after `converted` particles have become
+ * peridynamic (0: only partial stresses have changed). Energy lost by removing points from the mesh is added to
+ * e->damped. */
 void conversion_update_mesh(struct run *e, int64_t converted);
 
-/* Returns REFUSED if a scene with reversion has settings that exclude it. */
+/* Checks that the other settings of a scene allow reversion (`conversion.reversion: true`). Returns REFUSED, with a
+ * message, if it has no conversion by stress, another coupling than partial stress or hand-shake, growing cracks, a
+ * solver of a single equilibrium, or a material that yields. Returns OK if the scene has no reversion. */
 status reversion_check(const struct scene *s);
 
-/* Reverts the particles that are due to material points, before a step. */
+/* Turns peridynamic particles back into material points if their stress has been low for long enough and none of their
+ * bonds was ever cut (reversion_choose, reversion_apply). Called before each step, but examines the particles only once
+ * in several steps. Does nothing if the scene has no reversion. */
 void reversion_apply_due(struct run *e);
 
 #endif

@@ -28,20 +28,23 @@ struct interface_zone {
     real scale;         /* s, such that the largest eigenvalue of B is at most 4 [1] */
 };
 
-/* Finds the points of the zone, within the cutoff plus one spacing of a peridynamic particle of their body, and their
- * neighbours within 1.5 spacings in the reference configuration. Pairs cut by a pre-crack and driven particles are left
- * out. */
+/* Finds the points of the interface zone, and their neighbours within 1.5 spacings, in the reference configuration.
+ * Points of the zone are material points at most the cutoff of bonds plus one spacing away from a peridynamic particle
+ * of their body. Pairs cut by a pre-crack and particles with prescribed motion are left out. Replaces the previous
+ * zone. Release with interface_zone_free. */
 void interface_zone_make(struct interface_zone *r, const struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays. */
 void interface_zone_free(struct interface_zone *r);
 
-/* Damps the zone in a step, before the forces. share: strength k [1], at most 1/16 (with which motion that alternates
- * from point to point stops in one step). Impulses J that change velocities from v to v' over a leap-frog step,
- * together with the forces in it, remove the energy -J . (v + v')/2. Returns the half with v [J]. */
+/* Damps the motion in the interface zone before the forces of a step are computed: changes the velocities of its
+ * members by impulses J of fourth-order viscosity. share: strength k [1], at most 1/16, at which motion that alternates
+ * from point to point stops in one step. Returns the first half of the energy removed [J], -J . v/2 with the velocities
+ * v before the change; interface_damp_end returns the second half. */
 real interface_damp_begin(struct interface_zone *r, struct particles *p, real share);
 
-/* Returns the half with v' of the energy that damping removed [J], after the step. */
+/* Returns the second half of the energy that interface_damp_begin has removed in this step [J]: -J . v'/2 with its
+ * impulses J and the velocities v' after the step. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p);
 
 #endif

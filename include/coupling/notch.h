@@ -28,21 +28,25 @@ struct notches {
     const struct voids *voids; /* kept by reference; NULL: no voids */
 };
 
-/* Decides for each pre-crack of the source: it is a slit if it runs through material points of the mesh and ends in the
- * body. radius: of the peridynamic zones round its ends [m]; obstacle: reason why no pre-crack may be a slit, NULL:
- * none. */
+/* Decides for each pre-crack of the source whether it becomes a slit of the mesh: it does if it runs through material
+ * points of the mesh and ends inside the body; otherwise it cuts bonds along all its length. radius: of the peridynamic
+ * zones at the ends of slits [m]; obstacle: reason why no pre-crack may be a slit, NULL: none. Also finds the particles
+ * beside slits and narrow voids. Release with notches_free. */
 void notches_make(struct notches *n, const struct particles *p, const struct bond_source *source, real radius,
                   const char *obstacle);
 
-/* Makes particles round the ends of slits peridynamic, before step 0. */
+/* Makes particles peridynamic, before step 0, that are within n->radius of an end of a slit and whose family the slit
+ * divides. */
 void notches_convert(const struct notches *n, struct particles *p, const struct bond_source *source);
 
 /* Releases all arrays. */
 void notches_free(struct notches *n);
 
-/* Sets FLAG_NEAR of material points beside slits whose faces, within the time `ahead` [s], come closer than at the
- * start by more than NOTCH_GAP, or by more than the width of a notch less NOTCH_GAP. Positions of the faces must be up
- * to date. */
+/* Sets FLAG_NEAR of material points beside slits and narrow voids whose opposite faces are about to touch. Tests the
+ * distance of particles on opposite faces after the time `ahead` [s], extrapolated from present positions and
+ * velocities, which must be up to date. At a slit it must be smaller than one spacing by NOTCH_GAP spacings or, for a
+ * notch of some width, by that width less NOTCH_GAP spacings; at a void, so small that the faces are close to contact.
+ * spacing: of the particles [m]. */
 void notches_flag_approaching(const struct notches *n, struct particles *p, real spacing, real ahead);
 
 #endif

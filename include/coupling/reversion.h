@@ -13,19 +13,21 @@ struct reversion_rule {
     real hold_time;                /* time for which the stress must have been low [s] */
 };
 
-/* Selects the peridynamic particles that may become material points, by their present stress (call compute_bond_stress
- * before). Sets *list to their indices in ascending order, which the caller frees, and returns their number. A particle
- * may if it and all peridynamic particles of its family have had a low stress for the hold time, outside `kept`; no
- * bond of it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside a ball of one
- * horizon that will contain material points only. The remaining peridynamic regions thus consist of full families, as
- * conversion makes them, and reverted regions are at least as wide as a family. */
+/* Selects the peridynamic particles that may become material points at time t [s], by their present stress (call
+ * compute_bond_stress before), and updates p->low_since, the time since which the stress of each is low. *list receives
+ * their indices in ascending order, an array that the caller frees. Returns their number. A particle is selected if it
+ * and all peridynamic particles of its family have had a low stress for rule->hold_time, outside rule->kept; no bond of
+ * it or of a particle within two horizons was ever cut, by load or by a pre-crack; it is inside a ball with the radius
+ * of one horizon that will contain material points only. The remaining peridynamic regions thus consist of full
+ * families, as conversion makes them, and the regions that revert are at least as wide as a family. */
 int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                          int32_t **list);
 
-/* Makes n listed particles material points. Their stress follows from the bonds that cross their cells (state-based
- * models: from the virial of the family), their volume from det F of the family; the velocity gradient is 0; positions
- * and velocities are unchanged. Beside a surface the stress is that of full families under the same strain. Rebuilds
- * the rows of bonds, and partial stresses (NULL: none) around the particles. */
+/* Turns n listed peridynamic particles into material points. Their stress follows from the bonds that cross their cells
+ * (state-based models: from the virial of the family), their volume from the determinant of the deformation gradient of
+ * the family; the velocity gradient becomes 0; positions and velocities are unchanged. Beside a surface the stress is
+ * that of a full family under the same strain. Rebuilds the bonds b, and the partial stresses (`partial`, NULL: none)
+ * around the particles, and counts the reversion in c. */
 void reversion_apply(struct conversion *c, struct particles *p, struct bonds *b, const struct bond_source *source,
                      struct partial_stress *partial, const int32_t *list, int64_t n);
 

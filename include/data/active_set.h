@@ -23,20 +23,24 @@ struct active_set {
     bool over;                     /* sets of row blocks: all active blocks have moved, so no other becomes active */
 };
 
-/* Allocates the set with all blocks active. Release with active_set_free. */
+/* Allocates the active set r of `blocks` blocks of particles or nodes, all active: computations include every block.
+ * Release with active_set_free. */
 void active_set_make(struct active_set *r, int64_t blocks);
 
 /* Releases all arrays. */
 void active_set_free(struct active_set *r);
 
-/* Rebuilds the list of active blocks from the levels. */
+/* Rebuilds r->list and r->active, the blocks that computations visit (level above 0) in ascending order and their
+ * number, after r->level has changed. */
 void active_set_rebuild_list(struct active_set *r);
 
-/* Saves or restores the levels under `name`. After restoring all blocks are visited in the next step, because the
- * forces of inactive blocks are not in the checkpoint. */
+/* Saves the activity levels of the blocks to the archive under `name` if a->saving, else restores them. After
+ * restoring, computations include all blocks in the next step, because the forces of inactive blocks are not stored.
+ * Returns FAILED if the archive cannot be read or written. */
 status active_set_archive(struct active_set *r, const char *name, struct archive *a);
 
-/* Returns the share of the blocks that is inactive [1]. */
+/* Returns the number of inactive blocks over the number of blocks that contain particles [1]; inactive blocks are still
+ * at rest and skipped by computations. */
 static inline real inactive_share(const struct active_set *r)
 {
     const int64_t blocks = r->blocks - r->empty;

@@ -19,7 +19,8 @@ struct box_tree {
     } * node;
 };
 
-/* Creates the tree over n boxes. Release with box_tree_free. */
+/* Creates a search tree over copies of the n boxes in the array `box`, in dim dimensions, with which box_search_start
+ * and box_search_next find the boxes near a point. Release with box_tree_free. */
 void box_tree_make(struct box_tree *t, const struct bounds *box, int n, int dim);
 
 /* Releases the tree. */
@@ -37,11 +38,13 @@ struct box_search {
     } wait[BOXES_WAITING];
 };
 
-/* Starts a search; X is borrowed. */
+/* Starts a search for the boxes of the tree t near the point X (dim components [m]); box_search_next then returns them
+ * one by one. t and X are kept by reference. */
 void box_search_start(struct box_search *q, const struct box_tree *t, const real *X, int dim);
 
-/* Returns the number of a further box whose distance from X, the largest over the directions and negative inside, is at
- * most `reach` [m]; -1 at the end. `reach` may be reduced between calls. */
+/* Returns the number of another box that is at most `reach` [m] away from the point of the search q, or -1 if there are
+ * no more. The distance is the largest over the coordinate directions, negative inside the box. The caller may reduce
+ * `reach` between calls. */
 int box_search_next(struct box_search *q, real reach);
 
 #endif

@@ -15,7 +15,8 @@ struct cells {
     int32_t *order;            /* ascending inside a cell */
 };
 
-/* Sorts the particles into cells for search radii up to `edge` [m]. Release with cells_free. */
+/* Sorts the particles and mirror images of p into search cells by their reference positions, so that neighbours within
+ * a radius of up to `edge` [m] can be found. Release with cells_free. */
 void cells_make(struct cells *c, const struct particles *p, real edge);
 
 /* Releases all arrays. */
@@ -27,8 +28,8 @@ void cells_free(struct cells *c);
 int cells_find_near(const struct cells *c, const struct particles *p, const real *X, real radius, int32_t skip,
                     int32_t *found, int room);
 
-/* Returns an upper bound of the number of particles that cells_find_near finds around any particle, including itself:
- * the largest count in the bounding square. Cheap: it counts cells. */
+/* Returns an upper bound of the number of particles and images within `radius` [m] of any particle, itself included:
+ * the largest number of particles in the search cells around any cell. Fast, because no distances are computed. */
 int cells_most_neighbours(const struct cells *c, real radius);
 
 /* List of near particles that grows as needed; start with {0}, release `at` with memory_free. */
@@ -37,11 +38,14 @@ struct near {
     int n, room;
 };
 
-/* Lists the particles within `radius` [m] of particle i, ascending; itself: includes i. */
+/* Lists the particles and mirror images within `radius` [m] of particle i in near->at, in ascending order, and their
+ * number in near->n. itself: true to include particle i. */
 void particles_find_near(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
                          bool itself);
 
-/* Lists the particles within `radius` [m] of particle i in the order of cells: slightly faster with images. */
+/* Lists the particles and mirror images within `radius` [m] of particle i in near->at, and their number in near->n, in
+ * the order of the search cells: slightly faster than the ascending order of particles_find_near if there are images.
+ * itself: true to include particle i. */
 void particles_find_near_unordered(struct near *near, const struct cells *c, const struct particles *p, int64_t i,
                                    real radius, bool itself);
 

@@ -18,7 +18,7 @@ struct derived_field {
 enum { DERIVED_FIELDS = 5 };
 extern const struct derived_field derived_fields[DERIVED_FIELDS];
 
-/* Returns the derived field of this name, or NULL. */
+/* Returns the entry of derived_fields with the given name, or NULL if there is none. */
 const struct derived_field *derived_field_find(const char *name);
 
 /* Computes the eigenvalues of a symmetric tensor, descending, and unit vectors along its axes in this order, row by

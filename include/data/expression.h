@@ -58,26 +58,28 @@ struct expression {
     bool in_space, in_time; /* contains x, y or z; contains t */
 };
 
-/* Creates an expression from copies of n steps and the text. Release with expression_free. */
+/* Creates the expression e from copies of its n steps step[n], in the order of evaluation on a stack, and of the text
+ * from which it was compiled. Release with expression_free. */
 void expression_make(struct expression *e, const struct expression_step *step, int n, const char *text);
 
-/* Creates an expression that is a number, with its text. Release with expression_free. */
+/* Creates an expression that is the constant `value` [SI], with a copy of its text. Release with expression_free. */
 void expression_make_constant(struct expression *e, real value, const char *text);
 
 /* Releases steps and text. */
 void expression_free(struct expression *e);
 
-/* Returns the value [SI] at X [dim] [m] and t [s]. X may be NULL if the expression is not in space. May be infinite or
- * NaN where the formula is. */
+/* Returns the value of the expression [SI] at the position X (dim components [m]) and the time t [s]. X may be NULL if
+ * the expression does not contain x, y or z. The value may be infinite or NaN, for example after a division by 0. */
 real expression_evaluate(const struct expression *e, const real *X, int dim, real t);
 
-/* Returns the result of an operation on operand a, or on a and b [SI]. Not for operations that push a value. */
+/* Returns the result of the operation op on the operands a and b [SI]; b is ignored by functions of one argument. Not
+ * for operations that push a value on the stack. */
 real expression_apply_operation(enum expression_op op, real a, real b);
 
-/* Returns true if the operation pushes a value. */
+/* Returns true if the operation has no operands: it pushes a number, a coordinate or the time on the stack. */
 static inline bool expression_is_leaf(enum expression_op op) { return op <= EXPRESSION_T; }
 
-/* Returns true if the operation has two operands. */
+/* Returns true if the operation has two operands, which it replaces on the stack by their result. */
 static inline bool expression_has_two(enum expression_op op) { return op >= EXPRESSION_ADD; }
 
 #endif

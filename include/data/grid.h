@@ -70,9 +70,10 @@ struct wall {
     real reaction;           /* impulse in this step, without that of the prescribed change [N s] */
 };
 
-/* Extends the box to cover positions from .. to [m] with a margin of three cells, rounded outwards to whole steps; it
- * never shrinks. *changed: the box changed, all nodal values are then zero. Fails if it would need more than `most`
- * nodes. */
+/* Enlarges the box of nodes of g, if necessary, so that it covers the positions between the corners `from` and `to` [m]
+ * with a margin of three cells. The box grows in steps of several nodes and never shrinks. *changed receives true if
+ * the box changed; all nodal values are then 0. Returns FAILED, with a message, if a position is not finite or too far
+ * away, or if the box would have more than `most` nodes. */
 status grid_extend_box(struct grid *g, const real *from, const real *to, int64_t most, bool *changed);
 
 /* Releases all arrays. */
@@ -87,7 +88,8 @@ void grid_add_mirror_node(struct grid *g, const struct mirror_node *mirror_node)
 /* Appends a dashpot (copied). */
 void grid_add_dashpot(struct grid *g, const struct dashpot *dashpot);
 
-/* Removes all constraints of the step, for a step without points on the grid. */
+/* Sets the numbers of walls (prescribed nodal velocities) and dashpots of this step, and the reactions of mirror nodes,
+ * to 0, for a step without points on the grid. */
 void grid_clear_constraints(struct grid *g);
 
 /* Nodes lighter than this share of a full node are left at rest. 1e-9 is usual; but such a node may have a force, whose
@@ -104,17 +106,19 @@ void grid_clear_constraints(struct grid *g);
  * times its depth bent by a quarter. */
 #define GRID_MASS_STATIC 1e-3
 
-/* Returns the position of node k of the box in direction d [m]. */
+/* Returns coordinate d of the k-th node along direction d of the box of g [m]. */
 static inline real grid_position(const struct grid *g, int d, int64_t k)
 {
     return g->anchor[d] + g->h * (real)(g->first[d] + k);
 }
 
-/* Returns the coordinate of x in direction d, in node distances from the anchor; its floor is the cell. One function,
- * so that all callers round alike. */
+/* Returns the coordinate of position x [m] in direction d in units of the node distance, counted from node 0 at
+ * g->anchor; its floor is the index of the cell that contains x. All callers use this function, so that they round
+ * alike. */
 static inline real grid_place(const struct grid *g, int d, real x) { return (x - g->anchor[d]) * (1 / g->h); }
 
-/* Returns the floor of grid_place, i.e. the cell of x in direction d, without a library call. */
+/* Returns the index in direction d of the cell that contains position x [m], counted from node 0 at g->anchor: the
+ * floor of grid_place, without a library call. */
 static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
 {
     const real place = grid_place(g, d, x);
@@ -122,15 +126,15 @@ static ALWAYS_INLINE int64_t grid_cell(const struct grid *g, int d, real x)
     return k - (place < (real)k);
 }
 
-/* Returns the position along d of the particle next to corner c of cell I, with 2^dim particles at quarters of its
- * edges [m]. */
+/* Returns coordinate d of one of the 2^dim particles of cell I, which are at a quarter and three quarters of each edge
+ * [m]. corner: corner of the cell nearest to the particle; bit d is set on the upper side in direction d. */
 static inline real grid_quarter(const struct grid *g, int64_t I, int corner, int d)
 {
     return grid_position(g, d, I / g->stride[d] % g->count[d]) + (corner >> d & 1 ? 0.75 : 0.25) * g->h;
 }
 
-/* Returns the index in box `to` of cell I of box `from`, whose nodes have equal positions; -1 if it is not in that
- * box. */
+/* Returns the index in grid `to` of the cell that has index I in grid `from`; -1 if the box of `to` does not contain
+ * the cell. Both grids must have the same node positions, but may have different boxes. */
 static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const struct grid *to)
 {
     int64_t J = 0;
@@ -142,8 +146,9 @@ static inline int64_t grid_same_cell(const struct grid *from, int64_t I, const s
     return J;
 }
 
-/* Computes the box of cells around from .. to [m], plus one node, for dim, h and anchor as set; no nodal arrays.
- * Returns false if it has more than `most` nodes. */
+/* Sets the box of g (first, count, n, stride) to the nodes of all cells that contain positions between the corners
+ * `from` and `to` [m]. g->dim, h and anchor must be set; nodal arrays are not allocated. Returns false if the box would
+ * have more than `most` nodes. */
 bool grid_compute_box(struct grid *g, const real *from, const real *to, int64_t most);
 
 #endif

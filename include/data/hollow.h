@@ -17,7 +17,8 @@ struct hollow {
 /* Releases the marks. */
 void hollow_free(struct hollow *h);
 
-/* Returns true if the particle at X [m] is not made. h NULL: all are made. */
+/* Returns true if the particle at the reference position X [m] is not created, because its cell is part of a coarse
+ * cell (mesh/levels.h) and needs no particles. h: these cells; NULL: all particles are created. */
 static inline bool hollow_absent(const struct hollow *h, const real *X)
 {
     int64_t cell = 0;

@@ -39,41 +39,49 @@ struct hull {
 
 enum { HULL_CORNERS_MAX = INT32_MAX / 4 };
 
-/* Creates a closed surface from `faces` faces of `dim` corners; takes ownership of both arrays (memory_new). Faces
- * shared by two elements cancel, faces without area are removed, a surface with inward normals is reversed. Release
- * with hull_free. */
+/* Creates a closed surface from `faces` faces of `dim` corners; takes ownership of both arrays, which memory_new must
+ * have allocated. Pairs of coincident opposite faces, as between two elements of a mesh, and faces without area are
+ * removed; a surface with inward normals is reversed. Stores what it finds, such as open edges, in s. Release with
+ * hull_free. */
 void hull_make(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                int32_t (*face)[DIM_MAX]);
 
-/* Creates an open surface from faces as they are; with equal corners a face is a line or a point. Ownership as
- * hull_make. */
+/* Creates an open surface, which has no inside, from `faces` faces of `dim` corners. The faces are not changed: none is
+ * removed or reversed, and a face with equal corners is a line or a point. s takes ownership of the arrays `corner` and
+ * `face`, which memory_new must have allocated. Release with hull_free. */
 void hull_make_open(struct hull *s, int dim, int64_t corners, real (*corner)[DIM_MAX], int64_t faces,
                     int32_t (*face)[DIM_MAX]);
 
 /* Releases all arrays. */
 void hull_free(struct hull *s);
 
-/* Returns the winding number of the surface around X [1]. */
+/* Returns the winding number of the surface around the point X [1]: 1 inside and 0 outside a closed surface with
+ * outward normals, in between near a hole. */
 real hull_winding_number(const struct hull *s, const real *X);
 
-/* Returns the signed distance of X, negative inside [m]. normal: NULL, or the unit vector away from the surface,
- * outwards. */
+/* Returns the signed distance of the point X from the surface [m], negative inside (an open surface has no inside).
+ * normal: NULL, or receives the unit vector that points away from the surface, outwards. */
 real hull_distance(const struct hull *s, const real *X, real *normal);
 
-/* Returns hull_distance(s, X, NULL) <= most, without searching faces farther away than that. */
+/* Returns true if hull_distance of the point X is at most `most` [m]; faster, because faces farther away than that are
+ * not examined. */
 bool hull_is_within(const struct hull *s, const real *X, real most);
 
 /* Returns the maximum of the scalar product X . along over the corners X of the hull [m] (support function). along:
  * unit vector. */
 real hull_support(const struct hull *s, const real *along);
 
-/* Returns the share of about 4000 sample points of its box at which the winding number is ambiguous [1]. */
+/* Returns the share of about 4000 sample points in the bounding box of the surface at which inside and outside cannot
+ * be distinguished [1]: the winding number there is farther than 0.3 from any integer, or below -0.3. 0 for a closed
+ * surface with outward normals. */
 real hull_ambiguous_share(const struct hull *s);
 
-/* Builds the tree and sorts the faces; part of hull_make (hull_tree.c). */
+/* Builds s->node, the search tree over the faces of the surface, and sorts s->face so that the faces of each tree node
+ * are consecutive. Corners and faces must be set before. Part of hull_make. */
 void hull_build_face_tree(struct hull *s);
 
-/* Computes the area vector of face k [m^2]; of a segment its length times its normal [m]. */
+/* Computes the area vector of face k, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
+ * normal times the length [m]. */
 void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX]);
 
 #endif

@@ -46,35 +46,42 @@ static inline bool material_viscous(const struct material *m)
     return m->viscosity.linear > 0 || m->viscosity.quadratic > 0;
 }
 
-/* Returns Poisson's ratio as imposed by bond-based peridynamics: 1/3 (plane stress), 1/4 (plane strain, 3D), NAN in
- * 1D. */
+/* Returns the only value of Poisson's ratio that bond-based peridynamics can represent: 1/3 in plane stress, 1/4 in
+ * plane strain and in 3D, NAN in 1D, where there is none. */
 real material_bond_poisson(enum space space);
 
-/* Returns the micro-modulus c [N/m^6] from the weighted sum sigma = sum_j r V_j beta [m^4] over a full family:
- * 2E/sigma, 8 k2/sigma, 18 K/sigma (energy of uniform dilatation, Silling & Askari 2005). */
+/* Returns the micro-modulus c of bond-based peridynamics, for a family of discrete particles [N/m^6]: 2 k/sigma in 1D,
+ * 8 k/sigma in 2D, 18 k/sigma in 3D, with k = m->bulk. Bonds then have the energy of the continuum under uniform
+ * dilatation (Silling & Askari 2005). sigma: sum of r V_j beta over a full family [m^4], where beta is the fraction of
+ * the volume of neighbour j within the horizon. */
 real material_micro_modulus(const struct material *m, enum space space, real sigma);
 
-/* Returns the micro-modulus of the continuum [N/m^6]: 2E/(A d^2), 12 k2/(pi h d^3), 18 K/(pi d^4) (Silling & Askari
- * 2005). horizon: d [m]; section: cross-section A [m^2] in 1D, thickness h [m] in 2D, ignored in 3D. */
+/* Returns the micro-modulus c of bond-based peridynamics, for a continuous family [N/m^6]: 2 k/(A d^2) in 1D, 12 k/(pi
+ * h d^3) in 2D, 18 k/(pi d^4) in 3D, with k = m->bulk (Silling & Askari 2005). horizon: d [m]; section: cross-section A
+ * in 1D [m^2], thickness h in 2D [m], ignored in 3D. */
 real material_micro_modulus_continuum(const struct material *m, enum space space, real horizon, real section);
 
-/* Returns the critical stretch from G_c, the energy of all bonds that cross a unit plane [1]. horizon [m]. model:
- * bond-based with the continuum micro-modulus (Silling & Askari 2005), or ordinary state-based (Madenci & Oterkus
- * 2014). The model with rotations has no continuum limit: family_separation_work. */
+/* Returns the critical stretch of the bonds of material m [1]: at this stretch, all bonds that cross a unit area of a
+ * plane have the energy release rate G_c. horizon [m]; model: STRETCH_BOND bond-based with the continuum micro-modulus
+ * (Silling & Askari 2005), STRETCH_OSPD ordinary state-based (Madenci & Oterkus 2014). For the model with particle
+ * rotations use family_separation_work. */
 enum stretch_of { STRETCH_BOND, STRETCH_OSPD };
 real material_critical_stretch(const struct material *m, enum space space, real horizon, enum stretch_of model);
 
-/* Returns the stress at a strain [1] of monotonic uniaxial loading [Pa]. */
+/* Returns the stress in monotonic uniaxial loading at the given strain [1] [Pa]: Young's modulus times strain up to the
+ * yield stress, then with the slope m->yield_tangent. */
 real material_stress_at(const struct material *m, real strain);
 
-/* Computes the derived constants. */
+/* Computes the members of m that follow from those given by the scene: hardening modulus, elastic constants and wave
+ * speeds, for the given space (1D, plane stress, plane strain, 3D). */
 void material_compute_constants(struct material *m, enum space space);
 
 /* Computes the elastic stiffness as a matrix over symmetric components, symmetric_count(dim) squared, row major [Pa]
  * (tensor shear strain: shear rows contain 2G). */
 void material_stiffness(const struct material *m, int dim, real *matrix);
 
-/* Computes the inverse of material_stiffness [1/Pa]. */
+/* Computes the inverse of the elastic stiffness of material_stiffness [1/Pa], as a row-major matrix of
+ * symmetric_count(dim) squared entries. */
 void material_compliance(const struct material *m, int dim, real *matrix);
 
 #endif

@@ -27,7 +27,7 @@ enum { CORNERS_MAX = 8, CELL_UNKNOWNS_MAX = CORNERS_MAX * DIM_MAX, MODES_MAX = 1
 struct mesh_run {
     int32_t cell, cells; /* first cell; number of cells */
     uint8_t material;
-    bool stressed; /* a point may have exceeded the trigger */
+    bool stressed; /* a point may have exceeded the conversion stress */
 };
 
 /* Points of a cell whose motion is needed in every step: bit c of `places` for place c. */
@@ -94,7 +94,7 @@ struct mesh {
     int64_t partial_cells;
     int32_t *partial_cell;     /* [partial_cells, padded to whole groups of LANES] partial cells, ascending */
     uint8_t *partial_material; /* [as partial_cell] material of the cell, of several the one that converts first */
-    bool *partial_stressed;    /* [as partial_cell] a point may have exceeded the trigger */
+    bool *partial_stressed;    /* [as partial_cell] a point may have exceeded the conversion stress */
     real *stiffness; /* [groups][modes (modes + 1)/2][LANES] half of the symmetric stiffness of the modes, over the
                         volume (mesh_partial.h) [Pa] */
     /* [groups + 1] bonded points in the cells of a group: end[ends[group]] .. end[ends[group + 1] - 1]; NULL: none */
@@ -118,57 +118,68 @@ struct mesh {
     real match;        /* alpha, share of consistent inertia in matched cells [1] */
 };
 
-/* Returns the nodes at the corners of cell I if some are extra nodes, else NULL. */
+/* Returns the array of the 2^dim nodes at the corners of cell I if one of them is an extra node (a node that a slit
+ * doubles); NULL otherwise: the corners are then the nodes I + mesh->corner[c] of the grid. */
 static inline const int32_t *mesh_own_corners(const struct mesh *mesh, int64_t I)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && s->cell[I] >= 0 ? s->corner + ((int64_t)s->cell[I] << mesh->grid.dim) : NULL;
 }
 
-/* Returns the node at corner c of cell I. */
+/* Returns the index of the node at corner c of cell I, also if it is an extra node at a slit. c: 0 .. 2^dim - 1, bit d
+ * is set on the upper side in direction d. */
 static inline int64_t mesh_node(const struct mesh *mesh, int64_t I, int c)
 {
     const int32_t *own = mesh_own_corners(mesh, I);
     return own ? own[c] : I + mesh->corner[c];
 }
 
-/* Returns the nodes [2^dim][LANES] at the corners of a group of partial cells if some are extra nodes, else NULL. */
+/* Returns the array [2^dim][LANES] of the nodes at the corners of the eight cells of a group of partial cells, if one
+ * of them is an extra node at a slit; NULL otherwise: all corners are then nodes of the grid. */
 static inline const int32_t *mesh_group_corners(const struct mesh *mesh, int64_t group, const int dim)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->group && s->group[group] >= 0 ? s->lane + ((int64_t)s->group[group] << dim) * LANES : NULL;
 }
 
-/* Returns the node of the grid at the position of node I. */
+/* Returns the node of the regular grid at the position of node I: for an extra node at a slit the node that it doubles,
+ * for all other nodes I itself. */
 static inline int64_t mesh_base(const struct mesh *mesh, int64_t I)
 {
     const struct mesh_slits *s = &mesh->slits;
     return s->cell && I >= s->first && s->base[I - s->first] >= 0 ? s->base[I - s->first] : I;
 }
 
-/* Returns the first cell of which node I may be corner c, -1 if there is none; mesh_node shows whether it is. */
+/* Returns the cell of the regular grid whose corner c is at the position of node I; -1 if there is none. Where slits
+ * divide this cell, mesh_cell_next lists its further parts, and mesh_node shows which of the parts has node I
+ * itself. */
 static inline int64_t mesh_cell_at(const struct mesh *mesh, int64_t I, int c)
 {
     const int64_t cell = mesh_base(mesh, I) - mesh->corner[c];
     return cell >= 0 ? cell : -1;
 }
 
-/* Returns the next cell divided from the grid cell of `cell`, -1 at the end. */
+/* Returns the next one of the cells into which slits divide one cell of the regular grid; -1 after the last one, and
+ * for a cell that is not divided. */
 static inline int64_t mesh_cell_next(const struct mesh *mesh, int64_t cell)
 {
     return mesh->slits.next ? mesh->slits.next[cell] : -1;
 }
 
-/* Returns the number of bending modes of a cell. */
+/* Returns the number of bending modes of a linear cell, its deformations with zero mean strain that store energy: 0 in
+ * 1D, 2 in 2D, 12 in 3D. */
 static inline int mesh_bends(int dim) { return dim * ((1 << dim) - 1 - dim); }
 
-/* Returns the number of modes of a cell that store energy: components of the mean strain, and bending modes. */
+/* Returns the number of deformation modes of a cell that store energy: the components of the mean strain, and the
+ * bending modes (mesh_bends). */
 static inline int mesh_modes(int dim) { return symmetric_count(dim) + mesh_bends(dim); }
 
-/* Returns the number of groups of LANES partial cells. */
+/* Returns the number of groups of LANES (eight) partial cells, which are processed side by side; the last group may be
+ * incomplete. */
 static inline int64_t mesh_groups(const struct mesh *mesh) { return (mesh->partial_cells + LANES - 1) / LANES; }
 
-/* Returns true if a point of any cell may be past its trigger, according to the last force computation. */
+/* Returns true if the stress of a point in any cell may have exceeded the limit at which points convert, according to
+ * the last computation of forces. */
 static inline bool mesh_stressed(const struct mesh *mesh)
 {
     bool any = false;
@@ -177,25 +188,30 @@ static inline bool mesh_stressed(const struct mesh *mesh)
     return any;
 }
 
-/* Returns the block of node I (active_set.h). */
+/* Returns the index of the block that contains node I: eight nodes of a row along x, which are skipped together while
+ * they are at rest (active_set.h). */
 static inline int64_t mesh_block(const struct mesh *mesh, int64_t I)
 {
     return I / mesh->grid.count[0] * mesh->segments + I % mesh->grid.count[0] / LANES;
 }
 
-/* Returns the levels of the blocks of a row of nodes. */
+/* Returns a pointer to the activity levels (active_set.h) of the blocks of eight nodes in row number `row`, a row of
+ * nodes along x. Level 0: the block is at rest and skipped. */
 static inline const uint8_t *mesh_levels(const struct mesh *mesh, int64_t row)
 {
     return mesh->active.level + row * mesh->segments;
 }
 
-/* Returns true if the eight nodes or cells from the k-th of a row on are inactive. */
+/* Returns true if the eight consecutive nodes, or cells, of a row from the k-th one on are at rest, so that they can be
+ * skipped. levels: activity levels of the blocks of this row (mesh_levels). */
 static inline bool mesh_inactive(const uint8_t *levels, int64_t k)
 {
     return (levels[k / LANES] | levels[(k + LANES - 1) / LANES]) == 0;
 }
 
-/* Returns the weight of node `corner` at the point at `place` of its cell [1]: 3/4 or 1/4 per direction. */
+/* Returns the value of the linear shape function of a corner node at a quadrature point of its cell [1]. corner, place:
+ * number of the corner, and of the corner next to the point; bit d is set on the upper side in direction d. The value
+ * is a product over the directions: 3/4 where these bits agree, 1/4 elsewhere. */
 static inline real mesh_weight(int dim, int corner, int place)
 {
     static const real weight[DIM_MAX + 1][CORNERS_MAX] = {
@@ -207,7 +223,8 @@ static inline real mesh_weight(int dim, int corner, int place)
     return weight[dim][corner ^ place];
 }
 
-/* Returns the derivative of mesh_weight along direction d [1/h]. */
+/* Returns the derivative of the linear shape function of a corner node at a quadrature point of its cell along
+ * direction d, in units of 1/h with h the edge of the cell. corner, place: as for mesh_weight. */
 static inline real mesh_slope(int dim, int corner, int place, int d)
 {
     real slope = corner >> d & 1 ? 1 : -1;

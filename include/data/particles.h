@@ -23,7 +23,7 @@ enum kind { KIND_MPM, KIND_PD, KINDS };
 
 enum particle_flag {
     FLAG_LOST_BOND = 1,     /* lost a bond in this step */
-    FLAG_STRESSED = 2,      /* largest principal stress exceeds the trigger */
+    FLAG_STRESSED = 2,      /* largest principal stress exceeds that at which points convert */
     FLAG_DRIVEN = 4,        /* a velocity or fixed condition prescribes a component */
     FLAG_CRACKED = 8,       /* lost a bond; neither particle of the bond was driven */
     FLAG_GRID_COUPLED = 16, /* peridynamic, but moved by the grid (grid_coupled.h) */
@@ -88,7 +88,7 @@ struct image {
     uint8_t load;
 };
 
-/* Returns eight consecutive bytes as one number. */
+/* Returns the eight bytes from[0] .. from[7] as one number, in the byte order of the machine. */
 static inline uint64_t eight_bytes(const uint8_t *from)
 {
     uint64_t eight;
@@ -99,11 +99,11 @@ static inline uint64_t eight_bytes(const uint8_t *from)
 /* A number of eight equal bytes. */
 #define EIGHT_TIMES(byte) ((uint64_t)(byte)*0x0101010101010101)
 
-/* Returns true if eight consecutive bytes are equal. */
+/* Returns true if the eight bytes from[0] .. from[7] are all equal. */
 static inline bool eight_same(const uint8_t *from) { return eight_bytes(from) == EIGHT_TIMES(from[0]); }
 
-/* Returns the index of the next nonzero mark from `first` on, n if there is none. mark: [n + LANES], the last LANES
- * zero; eight zero marks are skipped at a time. */
+/* Returns the index of the first entry of mark[n], from `first` on, that is not 0, or n if there is none. mark must
+ * have LANES more entries, all 0, because eight entries are tested at a time. */
 static inline int64_t next_marked(const uint8_t *mark, int64_t first, int64_t n)
 {
     while (first < n && !mark[first])
@@ -126,7 +126,8 @@ static inline bool bit_is_set(const uint64_t *marks, int64_t i) { return marks[i
 /* Returns how many of the eight indices from `first` on are below n. */
 static inline int eight_at(int64_t first, int64_t n) { return n - first < LANES ? (int)(n - first) : LANES; }
 
-/* Returns the particle of the body from which entry i, an image or an image of an image, comes. */
+/* Returns the particle of the body of which entry i is a mirror image, possibly through images of images; i itself if
+ * it is no image. image: sources of the images, image[0] that of entry p->n. */
 static inline int64_t image_root(const struct particles *p, const struct image *image, int64_t i)
 {
     while (i >= p->n) i = image[i - p->n].source;
@@ -147,8 +148,8 @@ enum {
     WITH_EVERYTHING = 511
 };
 
-/* Description of one array of struct particles. All arrays are allocated, released, sorted, saved and restored by loops
- * over a table of these descriptions. */
+/* Description of one array of struct particles, or of one array per component. Loops over a table of these descriptions
+ * allocate, release, sort, save and restore all arrays. */
 struct particle_field {
     const char *name, *unit, *meaning; /* name in checkpoints; unit; description */
     size_t offset, size;               /* offset of the (first) array pointer in struct particles; entry size [byte] */
@@ -158,35 +159,39 @@ struct particle_field {
 extern const struct particle_field particle_fields[];
 extern const int particle_fields_count;
 
-/* Returns component array k of a field. */
+/* Returns the k-th component array of field f of the particles p, for example k = 1 for the velocities along y; NULL if
+ * an optional field is not allocated. */
 void *particle_field_array(const struct particles *p, const struct particle_field *f, int k);
 
-/* Saves or restores the fields of all particles, images included; in a trial archive only their plastic state. */
+/* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
+ * their plastic state unless a->scope is ARCHIVE_ALL. optional: optional arrays of p, sum of WITH_*. Returns FAILED if
+ * the archive cannot be read or written or a stored size differs. */
 status particles_archive(struct particles *p, int optional, struct archive *a);
 
-/* Stores the reference position of particle i in X [dim] [m]. */
+/* Copies the reference position of particle i to X (dim components [m]). */
 static inline void particle_place(const struct particles *p, int64_t i, real *X)
 {
     for (int d = 0; d < p->dim; d++) X[d] = p->X[d][i];
 }
 
-/* Returns the factor on the critical stretch of the bond i-j: that of its weaker particle. Weibull's distribution is
- * closed under the minimum (weakest link), so bonds, and chains of bonds, have its modulus too. */
+/* Returns the factor on the critical stretch of the bond between particles i and j, the smaller of their strength
+ * factors [1]; 1 if strength is uniform. Weibull's distribution is closed under the minimum (weakest link), so bonds,
+ * and chains of bonds, have its modulus too. */
 static inline real bond_strength(const struct particles *p, int64_t i, int64_t j)
 {
     return p->strength ? (p->strength[i] < p->strength[j] ? p->strength[i] : p->strength[j]) : 1;
 }
 
-/* Returns true if particle i is moved by the grid. */
+/* Returns true if particle i follows the nodes of a grid or mesh: a material point, or a peridynamic particle that is
+ * coupled to the grid. */
 static inline bool particle_on_grid(const struct particles *p, int64_t i)
 {
     return p->kind[i] == KIND_MPM || (p->flag[i] & FLAG_GRID_COUPLED);
 }
 
-/* Returns the stress sigma_zz = nu (sigma_xx + sigma_yy) plus the plastic part; 0 unless in plane strain [Pa]. Bonds
- * have nu = 1/4, as does their material; after conversion plastic sigma_zz is kept, and yielding of bonds adds nothing.
- * Exact for small strain and in the current frame; in the reference frame up to a relative error of the size of the
- * strain. */
+/* Returns the stress sigma_zz of particle i in plane strain [Pa]: nu (sigma_xx + sigma_yy) plus a part due to plastic
+ * flow; 0 in all other spaces. In the reference frame it has a relative error of the size of the strain. Bonds have nu
+ * = 1/4, as does their material; plastic sigma_zz is kept at conversion, and yielding of bonds adds nothing to it. */
 static inline real particle_stress_across(const struct particles *p, int64_t i)
 {
     if (!p->plane_strain) return 0;
@@ -194,29 +199,36 @@ static inline real particle_stress_across(const struct particles *p, int64_t i)
     return p->plane_strain[p->material[i]].poisson * (p->stress[0][i] + p->stress[1][i]) + flow;
 }
 
-/* Allocates n zeroed particles without images. optional: sum of WITH_*. Release with particles_free. */
+/* Allocates n particles without mirror images, with all values 0, in dim dimensions. optional: arrays that are
+ * allocated in addition, sum of WITH_*. Release with particles_free. */
 void particles_make(struct particles *p, int dim, int64_t n, int optional);
 
-/* Grows every array by `images` entries behind the body; pointers change. Called once, at set-up. */
+/* Extends every array of p by `images` zeroed entries for mirror images, behind those of the body; pointers to the
+ * arrays change. optional: optional arrays of p, sum of WITH_*. Called once, at set-up. */
 void particles_add_images(struct particles *p, int64_t images, int optional);
 
 /* Releases all arrays. */
 void particles_free(struct particles *p);
 
-/* Copies all fields of the particles of `old` to p. now: [old->n] index in p, -1: none. */
+/* Copies all fields of the particles of `old` to p, which has other particles. now: [old->n] new index of each particle
+ * in p, -1: the particle is not in p. optional: optional arrays of both, sum of WITH_*. */
 void particles_copy_fields(struct particles *p, const struct particles *old, const int32_t *now, int optional);
 
-/* Sorts the body row by row: by z, then y, then x, in rows of thickness `spacing` [m]; ties by id. Called at set-up. */
+/* Sorts the particles of the body row by row: by z, then y, then x, where z and y are rounded to rows of thickness
+ * `spacing` [m]; equal positions by id. optional: optional arrays of p, sum of WITH_*. Called at set-up, before mirror
+ * images are added. */
 void particles_sort(struct particles *p, real spacing, int optional);
 
-/* Computes the least and largest reference position along d of the first n particles [m]; INFINITY, -INFINITY if there
- * are none. For n = p->n, particles that are not made count. */
+/* Computes the smallest and the largest coordinate d of the reference positions of the first n particles [m]; INFINITY
+ * and -INFINITY if n = 0. If n is p->n, particles of the body that were not created (data/hollow.h) are included. */
 void particles_extent(const struct particles *p, int64_t n, int d, real *low, real *high);
 
-/* Returns the particle of the body whose reference position is nearest to X [m]; the first of equals. */
+/* Returns the index of the particle whose reference position is nearest to X (dim components [m]), the lowest one of
+ * several; mirror images are not considered. */
 int64_t particles_nearest(const struct particles *p, const real *X);
 
-/* Returns the longest edge of the bounding box of the body's particles [m]. */
+/* Returns the longest edge of the bounding box of the reference positions of all particles [m], without mirror
+ * images. */
 real particles_longest_edge(const struct particles *p);
 
 /* Returns the volume of a lattice particle [m^3]. section: A (1D) [m^2], thickness (2D) [m], 1 (3D). One function, so
@@ -228,7 +240,8 @@ static inline real lattice_volume(real section, real spacing, int dim)
     return volume;
 }
 
-/* Returns true if X is a whole number of spacings from `origin`, up to LATTICE_NEAR; stores that number in *site. */
+/* Returns true if the coordinate X is a whole number of spacings from `origin`, up to LATTICE_NEAR spacings; *site
+ * receives the nearest whole number in any case. X, origin, spacing in one unit. */
 static inline bool lattice_site(real X, real origin, real spacing, real *site)
 {
     const real k = (X - origin) / spacing;
@@ -236,10 +249,12 @@ static inline bool lattice_site(real X, real origin, real spacing, real *site)
     return fabs(k - *site) <= LATTICE_NEAR;
 }
 
-/* Rebuilds n_of and list from kind, and n_free and list_free from flag. */
+/* Rebuilds the particle lists of p: the particles of each kind (n_of, list) from p->kind, and the material points on
+ * the background grid (n_free, list_free) from p->kind and p->flag. */
 void particles_update_lists(struct particles *p);
 
-/* Returns true if a criterion marked a particle for conversion in this step. */
+/* Returns true if at least one particle is flagged for conversion: it has lost a bond, has a large stress, or is near
+ * another body (FLAG_LOST_BOND, FLAG_STRESSED, FLAG_NEAR). */
 bool conversion_is_due(const struct particles *p);
 
 #endif

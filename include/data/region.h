@@ -11,32 +11,37 @@
 /* Distance from a surface below which points count as on it, and so inside [spacings]. */
 #define ON_SURFACE 1e-8
 
-/* Returns true if X is in the closed set grown by `tolerance` [m] (shrunk if negative). */
+/* Returns true if the point X (dim components [m]) is inside the region or on its surface, after the region has been
+ * grown by `tolerance` [m] (shrunk if negative). */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance);
 
-/* Returns the least tolerance at which region_contains is true [m]. */
+/* Returns the least tolerance at which region_contains is true for the point X (dim components [m]) [m]: negative
+ * inside the region, 0 on its surface, positive outside. */
 real region_level(const struct region *r, const real *X, int dim);
 
-/* Computes the bounding box from .. to [m], not reduced by intersections and differences. Returns false if it is
- * unbounded. */
+/* Computes a box between the corners `from` and `to` [m] that contains the region. It may be too large, because
+ * intersections and differences are ignored. Returns false if the box is infinite. */
 bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[DIM_MAX]);
 
-/* Returns the signed distance of X from the surface, negative inside [m], and its unit normal: exact outside each of
- * its solids and beside flat faces, for several solids the nearest. All sides of boxes must be finite. */
+/* Returns the signed distance of the point X (dim components [m]) from the surface of the region, negative inside [m].
+ * normal: receives the outward unit normal of the nearest surface. For a single solid, exact outside and beside flat
+ * faces; for several solids, that of the nearest one. No side of a box may be infinite. */
 real region_distance(const struct region *r, const real *X, int dim, real *normal);
 
-/* Returns true if a side of one of its boxes is infinite; such boxes have no distance. */
+/* Returns true if a box of the region, also within a group, has an infinite side, so that region_distance is not
+ * defined. */
 bool region_has_endless_box(const struct region *r, int dim);
 
 /* Returns an upper bound of the scalar product X . along over all points X of the region [m]. along: unit vector, dim
  * components. */
 real region_support(const struct region *r, const real *along, int dim);
 
-/* Returns the volume within the box from .. to [m^dim] by quasi-random sampling, to about 0.1 % of the box. */
+/* Returns the volume of the part of the region within the box between the corners `from` and `to` [m^dim], by
+ * quasi-random sampling, with an error of about 0.1 % of the volume of the box. */
 real region_volume(const struct region *r, int dim, const real *from, const real *to);
 
-/* Builds an index of a long list, so that a point is compared with solids near it only, with bitwise equal results. The
- * list must not change afterwards. */
+/* Builds search trees over the solids of a long list, so that later queries of the region examine only solids near the
+ * point; results stay bitwise equal. The list must not change afterwards. */
 void region_build_index(struct region *r, int dim);
 
 /* Releases all solids and the index. */
@@ -68,10 +73,11 @@ struct time_function {
 /* Returns the factor at t [s]. */
 real time_function_value(const struct time_function *f, real t);
 
-/* Returns the integral of the factor from 0 to t >= 0 [s]. */
+/* Returns the integral of the time function f, a dimensionless factor, from time 0 to t >= 0 [s]. */
 real time_function_integral(const struct time_function *f, real t);
 
-/* Returns the largest slope of the factor between 0 and t, INFINITY if it jumps there [1/s]. */
+/* Returns the largest magnitude of the slope of the time function f between the times 0 and t [1/s], INFINITY if f
+ * jumps there. */
 real time_function_largest_slope(const struct time_function *f, real t);
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
@@ -88,8 +94,8 @@ struct crack {
  * exactly through the crack's end is cut. */
 bool crack_cuts(const struct crack *c, const real *a, const real *b, int dim);
 
-/* Returns false if the crack cuts no bond of a particle at X that is at most `reach` long [m]. Quick, for far
- * particles. */
+/* Returns false if the crack certainly cuts no bond of length `reach` [m] or less of a particle at X; true if it may
+ * cut one. A fast test, by which particles far from the crack are skipped. */
 bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int dim);
 
 /* Computes the area of a crack in 3D as a vector along its normal [m^2]: half of the sum of cross products of
@@ -102,8 +108,9 @@ struct mirror_plane {
     real at;           /* position along the axis [m] */
 };
 
-/* Returns true if the crack reaches X on or beyond a plane of symmetry (within `tolerance` [m]) from inside: it
- * continues there as its image, so X is not a crack end. */
+/* Returns true if the end X of crack c is on or beyond one of the planes of symmetry m[mirrors] and a corner of the
+ * crack is inside: the mirror image continues the crack there, so that X is no crack tip. tolerance: distance from a
+ * plane up to which a point is on it [m]. */
 bool mirrors_continue_crack(const struct mirror_plane *m, int mirrors, const struct crack *c, const real *X,
                             real tolerance);
 
@@ -114,15 +121,17 @@ struct crack_list {
     int *of;
 };
 
-/* Computes the parts of the cracks within a body with planes of symmetry, and their mirror images within `reach` [m] of
- * these planes, so that a bond across a plane and its image are cut alike. Release with crack_list_free. */
+/* Computes the parts of the cracks on the body's side of all planes of symmetry m[mirrors], and their mirror images
+ * within `reach` [m] of these planes, so that a bond across a plane and its image are cut alike. tolerance: distance
+ * from a plane up to which a point is on it [m]. Release with crack_list_free. */
 void cracks_mirrored(struct crack_list *to, const struct crack *crack, int cracks, const struct mirror_plane *m,
                      int mirrors, real reach, real tolerance);
 
 /* Releases the cracks. */
 void crack_list_free(struct crack_list *l);
 
-/* Returns the distance of X from the segment from .. to [m]. */
+/* Returns the distance of the point X from the segment between the points `from` and `to` (dim components each [m])
+ * [m]. */
 real segment_distance(const real *from, const real *to, const real *X, int dim);
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
@@ -144,7 +153,8 @@ struct wave_state {
     real velocity, displacement, strain;
 };
 
-/* Returns the state of the wave at X at t = 0, in material of wave speed c [m/s]. */
+/* Returns velocity, displacement and strain of the plane wave w at time 0 and the position X (dim components [m]), in
+ * material with the wave speed c [m/s]. */
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
 
 #endif

@@ -47,8 +47,9 @@ struct placement {
 };
 #define IMAGES_MOST 4096
 
-/* Union, difference and intersection of solids in the order of the list, starting with nothing, or with everything if
- * the first solid is to be intersected. An empty list means everywhere. */
+/* A set of points: union, difference and intersection of solids in the order of the list, starting with nothing, or
+ * with everything if the first solid is to be intersected. An empty list means everywhere. A run is a sequence of
+ * solids of the list that are all added or all subtracted (region_build_index). */
 struct region {
     int n;
     struct solid *solid;
@@ -77,7 +78,8 @@ struct polygon {
     real sense;        /* sense of the corners: 1 counter-clockwise (x to y), -1 clockwise */
 };
 
-/* A solid. In 2D a disc is a BALL. Bounds of a box may be infinite. */
+/* A solid. `kind` determines which of the members describe it; in 2D a disc is a BALL. Sides of a box may be infinite.
+ * The copies of a solid follow from its motions. */
 struct solid {
     enum solid_kind kind;
     bool subtract;                   /* subtracted from the union so far */
@@ -99,42 +101,53 @@ struct solid {
     struct box_tree tree;            /* over the boxes of the copies */
 };
 
-/* Returns true if the solid is of this kind and placed as described, so that from, to, radius .. give its position. */
+/* Returns true if the solid is of the given kind and has not been moved or copied, so that its members from, to, radius
+ * and so on give its position. */
 static inline bool solid_is(const struct solid *s, enum solid_kind kind) { return s->kind == kind && s->images == 0; }
 
-/* Returns the signed distance of X from the surface, negative inside [m], and its unit normal: exact outside. */
+/* Returns the signed distance of the point X (dim components [m]) from the surface of the solid, negative inside [m];
+ * exact outside. normal: receives the outward unit normal of the nearest surface point. */
 real solid_distance(const struct solid *s, const real *X, int dim, real *normal);
 
-/* Returns the level of X [m], which is <= 0 inside: the distance beside flat faces; for boxes and cylinders the largest
- * of the distances from their faces, so that growing by a tolerance moves their edges. */
+/* Returns a value that is negative inside the solid, 0 on its surface and positive outside [m]; beside a flat face it
+ * is the signed distance. For boxes and cylinders it is the largest of the signed distances from the planes and the
+ * mantle that bound them, so that the points with a level below a tolerance form a larger box or cylinder with sharp
+ * edges. X: dim components [m]. */
 real solid_level(const struct solid *s, const real *X, int dim);
 
-/* Returns solid_level(s, X, dim) <= most, at less cost. */
+/* Returns true if solid_level of the point X (dim components [m]) is at most `most` [m]; faster than computing the
+ * level. */
 bool solid_is_within(const struct solid *s, const real *X, int dim, real most);
 
-/* Computes a box around the solid, slightly larger, for a box_tree; infinite if no box bounds its levels. */
+/* Computes a box that contains the solid with all its copies, slightly enlarged, as box_tree_make needs it. Sides on
+ * which the solid is unbounded are infinite. */
 void solid_bounding_box(const struct solid *s, int dim, struct bounds *box);
 
 /* Returns the maximum of the scalar product X . along over the points X of the solid [m] (support function). along:
  * unit vector, dim components. */
 real solid_support(const struct solid *s, const real *along, int dim);
 
-/* Returns the radius of a ball, cylinder, tube or ring, or the least half axis of an ellipsoid [m]; INFINITY: it has
- * none. */
+/* Returns the radius of a ball, cylinder, tube or ring, or the smallest half axis of an ellipsoid [m]; INFINITY for all
+ * other kinds. */
 real solid_radius(const struct solid *s, int dim);
 
-/* Returns the least thickness [m]: the diameter of the solids of solid_radius and of cones, or the wall of tubes, rings
- * and tori; INFINITY: unknown without a measurement. */
+/* Returns the smallest thickness of the solid, where its dimensions give it directly [m]: the diameter of a ball or
+ * cylinder, the smallest axis of an ellipsoid, the wall of a tube or ring, the diameter of the section of a torus;
+ * INFINITY for all other kinds. */
 real solid_least_thickness(const struct solid *s, int dim);
 
-/* Appends a motion and makes its copies. Returns false if there would be more than IMAGES_MOST. */
+/* Applies the motion m to all present copies of the solid: moves, rotates or reflects them, or multiplies them on a
+ * grid or a ring. Appends m to s->motion. Returns false, without any change, if there would be more than IMAGES_MOST
+ * copies. */
 bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim);
 
-/* Returns the largest distance of X from the box of a solid whose level at X is at most `level`, in any direction [m]:
- * outside, levels are at least 1/sqrt(3) of the distance, as beside the corner of a box. */
+/* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
+ * solid_level is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside the corner
+ * of a box), so that 1.75 times the level suffices; a negative level is returned as it is. */
 static inline real level_reach(real level) { return level > 0 ? 1.75 * level : level; }
 
-/* Returns the number of primitive solids that one query evaluates. */
+/* Estimates the cost of one query of the solid, in queries of a simple solid such as a ball [1]: adds up all copies,
+ * the solids of a group, and the edges of a polygon. */
 real solid_query_cost(const struct solid *s);
 
 /* Releases all that the solid owns. */
@@ -143,8 +156,9 @@ void solid_free(struct solid *s);
 /* Faults of a polygon: edge of no length, no area, crossing edges, edges too short for the corner radius. */
 enum polygon_fault { POLYGON_FINE, POLYGON_SHORT, POLYGON_FLAT, POLYGON_CROSSED, POLYGON_TIGHT };
 
-/* Computes arcs and sense of a polygon from its corners and radius. On failure returns the fault and stores the number
- * of the corner. */
+/* Checks the polygon p and computes its orientation (p->sense) and the arcs of its rounded corners (p->bend) from its
+ * corners and corner radius. Returns POLYGON_FINE, or the fault that was found; *corner then receives the number of the
+ * corner at which it is, if it is at one. */
 enum polygon_fault polygon_make(struct polygon *p, int *corner);
 
 #endif

@@ -30,11 +30,14 @@ struct transfer_order {
     int32_t *block_cell;       /* cells of block b: block_cell[b] .. block_cell[b+1]-1 */
 };
 
-/* Sorts the n listed particles by the grid cell that contains them; the result depends on positions alone. */
+/* Sorts the n particles in `list` by the cell of grid g that contains their position, the cells by block and the blocks
+ * by colour, and stores this order in o, whose arrays grow as needed. The order depends on positions alone, not on the
+ * number of threads. */
 void transfer_order_sort(struct transfer_order *o, const struct particles *p, const int32_t *list, int64_t n,
                          const struct grid *g);
 
-/* Reserves capacity; contents are lost if it grows. Keeps the counts n, blocks and cells. */
+/* Enlarges the arrays of o, if necessary, for n particles, `blocks` blocks and `cells` cells; the contents of an array
+ * that grows are lost. Does not change o->n, o->blocks and o->cells. */
 void transfer_order_reserve(struct transfer_order *o, int64_t n, int64_t blocks, int32_t cells);
 
 /* Releases all arrays. */

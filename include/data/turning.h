@@ -42,20 +42,23 @@ struct turning_groups {
     real *turn[3]; /* [n] lack of a point [kg m^2/s], then the spin of its group [1/s]; 2D: only turn[2] */
 };
 
-/* Creates groups of all particles, on the grid or not. middle: origin of the groups [m]; one: [bodies] first body that
- * is joined to this body; held: [bodies] supports act on it. Release with turning_free. */
+/* Divides all particles into groups of about 6 by 6 (by 6) neighbours of the reference configuration, which later
+ * rotate together; joined bodies share groups, others do not. spacing: of the particles [m]; middle: origin of the
+ * division [m]; one: for each body the first body that is joined to it; held: for each body, true if supports act on
+ * it, so that its points do not rotate in groups. Replaces previous groups; release with turning_free. */
 void turning_make(struct turning_groups *t, const struct particles *p, real spacing, const real *middle, const int *one,
                   const bool *held);
 
 /* Releases all arrays. */
 void turning_free(struct turning_groups *t);
 
-/* Computes centres, inertias and spins of the groups before a step on the grid; stores the spin of each point's group
- * in turn. */
+/* Computes mass, centre, inertia and angular velocity (spin) of each group from its points on the grid, before a step,
+ * and stores in t->turn, for each point, the angular velocity of its group [1/s]. spacing: of the particles [m]. */
 void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing);
 
-/* Adds the rotation that the points of each group lack (turn) to their velocities, then stores their spin in turn.
- * Positions must be those of turning_compute_spins. */
+/* Gives each group the angular momentum that its points have not received from the grid (t->turn [kg m^2/s]), as a
+ * rotation about its centre of mass: adds it to the velocities of the points. Then stores in t->turn, for each point,
+ * the new angular velocity of its group [1/s]. Positions must be those of turning_compute_spins. */
 void turning_restore_spins(struct turning_groups *t, struct particles *p);
 
 #endif

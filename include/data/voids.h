@@ -24,31 +24,35 @@ struct voids {
     uint8_t *near; /* [particles and images] sum of VOID_NEAR, VOID_ACROSS */
 };
 
-/* Returns true if a region has a voxel image among its solids or those of its groups; the surface of images is not
- * exact. */
+/* Returns true if the region contains a solid made from a voxel image, also within a group of solids; the surface of
+ * such a solid is only known to about a voxel. */
 bool region_has_image(const struct region *r);
 
 /* Returns true if a void may be between two points of the shape; false for a single convex solid, an image, or no
  * shape. */
 bool region_has_voids(const struct region *r);
 
-/* Computes v->near by testing all pairs at most `reach` apart [m]; the other members of v are set. image: [p->n_all -
- * p->n]. Release with voids_free. */
+/* Computes v->near, which marks the particles that a void separates from others, by testing all pairs of particles at
+ * most `reach` apart [m]. The other members of v must be set before. cells: search over reference positions; image:
+ * sources of the mirror images. Release with voids_free. */
 void voids_find(struct voids *v, const struct particles *p, const struct cells *cells, const struct image *image,
                 real reach);
 
-/* Returns true if a void is between points a and b [m] of a body. Symmetric in a and b. *across (NULL: not needed): its
- * faces face each other. Gaps of up to 2e-5 spacings count as closed seams. */
+/* Returns true if the segment between the points a and b [m] leaves the shape of body number `body`, so that a void is
+ * between them. Symmetric in a and b. across: NULL, or receives, if there is a void, whether its two surfaces face each
+ * other. Gaps of up to 2e-5 spacings are ignored. */
 bool void_separates_points(const struct voids *v, int body, const real *a, const real *b, bool *across);
 
-/* Returns true if a void is between particles i and j of a body. v NULL: false. Quick for particles without a void
- * nearby. */
+/* Returns true if a void separates the particles i and j of one body. v: NULL if no body has voids; the result is then
+ * false. Fast for particles without a void nearby. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j);
 
-/* Returns a lower bound of the depth of particle i inside the shape of its body [m]. */
+/* Returns a lower bound of the distance of particle i, inside the shape of its body, from the surface of the shape
+ * [m]. */
 real voids_particle_depth(const struct voids *v, const struct particles *p, int64_t i);
 
-/* Returns true if a void hides a particle from particle i. v NULL: false. */
+/* Returns true if a void separates particle i from at least one particle within the reach of voids_find. v: NULL if no
+ * body has voids; the result is then false. */
 static inline bool voids_near(const struct voids *v, int64_t i) { return v && v->near[i]; }
 
 /* Releases all arrays. */

@@ -18,7 +18,8 @@ enum { GREY_MAX = UINT16_MAX, VOXELS_MAX = INT32_MAX };
 /* Releases the array. */
 void voxels_free(struct voxels *v);
 
-/* Returns the grey value at X [m], -1 outside. A point between voxels belongs to the upper one, up to round-off. */
+/* Returns the grey value of the voxel that contains the point X (dim components [m]), or -1 outside the image. A point
+ * on the border of two voxels belongs to the upper one. */
 int voxels_grey_value(const struct voxels *v, const real *X);
 
 /* Range of grey values low .. high, inclusive. */
@@ -36,14 +37,17 @@ struct voxel_part {
     float *level;   /* signed distance of voxel centres from the surface, negative inside [m] */
 };
 
-/* Finds the voxels and their distances; `of` and the ranges must be set. Release with voxel_part_free. */
+/* Finds the voxels of p->of whose grey values are in the ranges p->range: sets p->voxels to their number and p->level
+ * to the signed distance of each voxel centre from the surface of the solid that they form [m]. p->of and the ranges
+ * must be set before. Release with voxel_part_free. */
 void voxel_part_make(struct voxel_part *p);
 
 /* Releases the distances. */
 void voxel_part_free(struct voxel_part *p);
 
-/* Returns the signed distance, negative inside [m]: exact in sign, in value that of the centre of the voxel. normal:
- * NULL, or the unit vector away from the surface. */
+/* Returns the signed distance of the point X [m] from the surface of the solid, negative inside [m]. Its sign is exact;
+ * its value is that of the centre of the voxel that contains X. normal: NULL, or receives the unit vector that points
+ * out of the solid. */
 real voxel_part_distance(const struct voxel_part *p, const real *X, real *normal);
 
 #endif

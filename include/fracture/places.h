@@ -12,12 +12,12 @@ struct place {
 };
 
 /* Divides n positions into groups and computes a representative position of one group. Two positions are in one group
- * if a chain of positions connects them with steps of at most `reach` [m], measured perpendicular to the unit vector
- * `along` (dim components; 0 vector: in all directions). *middle receives dim components [m]: the mean of the counting
- * positions (those without `beside`) of one group, or the nearest of them if none is within `reach` of the mean. If
- * several groups have counting positions, the group is chosen that contains the last of them by x, then y, then z.
- * Returns the number of groups, including those without counting positions, or 0 if no position counts; *middle is
- * then not set. */
+ * if a chain of positions connects them in steps of at most `reach` [m], measured perpendicular to the unit vector
+ * `along` (dim components; zero vector: in all directions). Positions with `beside` connect others, but no result is
+ * computed from them. middle: receives the mean of the other positions of a group or, if none of them is within `reach`
+ * of the mean, the one nearest to it (dim components [m]). Of several groups, that of the last position by x, then y,
+ * then z is used. Returns the number of groups, or 0, without a result, if all positions have `beside`. At most the
+ * first 16384 positions are examined. */
 int64_t positions_group_middle(const struct place *place, int64_t n, int dim, real reach, const real *along,
                                real *middle);
 

@@ -93,10 +93,10 @@ struct tip_surroundings {
     real half;    /* half of the damage of particles beside a plane cut [1] */
 };
 
-/* Returns the crack area created up to the last sample [m^2]. A crack along the front of a pre-crack: growth in strips
- * one spacing wide, at least one spacing in total, without branches. Any other crack: half the number of its particles
- * times the area of a particle. A crack in a plane of symmetry: half of this area, as half of its energy is in the
- * body. s: planes of symmetry and thickness. */
+/* Returns the crack area created up to the last sample [m^2]. A crack that starts at a pre-crack counts with its growth
+ * in strips one spacing wide along its front, without branches; with half of that if it lies in a plane of symmetry,
+ * since half of its energy is in the modelled body. Any other crack counts with half the number of its particles times
+ * the area of a particle. s: planes of symmetry and thickness. */
 real tips_crack_area(const struct tips *t, const struct particles *p, const struct tip_surroundings *s);
 
 /* Frees the arrays of t. */

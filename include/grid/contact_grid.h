@@ -58,9 +58,10 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *sid
  * stored in the forces, of the grids of `side`, c->sides elements. Returns the energy dissipated [J]. */
 real grid_contact_exchange_momentum(struct grid_contact *c, const struct grid_side *side);
 
-/* Returns the additional energy that contact dissipates in this step with the FLIP transfer [J], in which points are
- * strained by velocities that are mapped from the points to the nodes again after they have moved. side: grids of the
- * bodies, c->sides elements. */
+/* Returns the energy that contact dissipates in this step in addition to grid_contact_exchange_momentum with the FLIP
+ * transfer [J], and adds it to c->dissipated: half the contact impulse of each node times the difference between the
+ * relative velocity of the bodies after a second mapping of the moved points to the nodes, which strains the points,
+ * and that just after the impulse. side: grids of the bodies, c->sides elements. */
 real grid_contact_remap_loss(struct grid_contact *c, const struct grid_side *side);
 
 /* Sets the last time of contact, and the first one if there is none yet, to t [s], if bodies touched at nodes in the

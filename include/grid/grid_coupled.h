@@ -22,7 +22,8 @@ struct grid_coupled {
  * all particles. To be called before the forces. */
 void grid_coupled_select(struct grid_coupled *c, enum coupling coupling, struct particles *p, const struct grid *g);
 
-/* Clears the selection of grid_coupled_select and the flags of its particles, if no material points are left. */
+/* Empties the list of peridynamic particles that the grid moves, and clears FLAG_GRID_COUPLED of these particles. For
+ * steps in which no material points are left on the grid. */
 void grid_coupled_clear(struct grid_coupled *c, struct particles *p);
 
 /* Frees the arrays of c. */

@@ -55,8 +55,8 @@ void grid_choose_anchor(const struct scene *s, const real *from, const real *sit
  * the first of them. Returns -1 if there are no more than k. */
 int unjoined_body_index(const struct scene *s, int k);
 
-/* Returns true if a mirror plane of the scene does not pass through nodes of g. Mirror nodes beyond such a plane
- * follow the nodes that they mirror, but the doubled nodes at slits cannot. */
+/* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
+ * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */
 bool grid_mirror_off_nodes(const struct grid *g, const struct scene *s);
 
 /* Sorts the material points into the cells of their background grids, extends the grids as needed, and selects the

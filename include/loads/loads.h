@@ -229,21 +229,22 @@ typedef void pressure_face_fn(void *context, int32_t particle, int axis, int sid
 void pressure_visit_faces(const struct boundary *all, int n, int which, const struct particles *p, real spacing,
                           const uint8_t *selected, pressure_face_fn *found, void *context);
 
-/* Prepares the shares of load l if it has a formula or is a pressure that follows the deformation: multiplies the
- * shares by formulas that do not depend on time, and allocates arrays for the others. Returns REFUSED, with a message,
- * if a formula has no finite value at a particle. */
+/* Prepares load l if it has a formula or is a pressure that follows the deformation: multiplies its shares (areas,
+ * volumes or masses of particles) by formulas that do not depend on time, and allocates arrays for shares that change.
+ * Returns REFUSED, with a message, if a formula has no finite value at a particle. */
 status load_prepare_shares(struct load *l, const struct particles *p);
 
 /* Checks that the formulas of all loads and supports have finite values at their particles at time t [s]. Returns
  * FAILED, with a message that contains boundary, position and time, if one has not. */
 status loads_check_finite(const struct loads *l, const struct particles *p, real t);
 
-/* Updates the time-dependent shares of the loads before loads_add_forces: to their mean over the velocity update (kick)
- * of duration dt_velocity [s] that ends at time t [s]. */
+/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
+ * loads_add_forces: to their mean over the velocity update of duration dt_velocity [s] that ends at time t [s]. */
 void loads_update_shares_for_kick(struct loads *l, const struct particles *p, real t, real dt_velocity);
 
-/* Updates the time-dependent shares of the loads before loads_add_work: to the mean of the two velocity updates
- * (kicks) before and after the change of positions in the step of size dt about t [s]. */
+/* Updates the shares (areas, volumes or masses of particles, times formulas) of loads that change in time, for
+ * loads_add_work: to the mean of the two velocity updates before and after the change of positions in the step of size
+ * dt about t [s]. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt);
 
 /* Releases the arrays that load_prepare_shares has allocated for load l. */
@@ -273,9 +274,9 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
 /* Releases all arrays of all loads. */
 void loads_free(struct loads *l);
 
-/* Sets the particles on which contact forces may act: `list` has n indices in ascending order and is copied. Their
- * forces are cleared before each step, and they are moved after all forces are complete, not already while bond forces
- * are computed. */
+/* Sets the list of particles on which contact forces may act, in place of the previous one: n indices in ascending
+ * order, which are copied. The forces of these particles are cleared before each step, and they are moved after all
+ * forces are complete, not already while bond forces are computed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n);
 
 /* ---- applied forces (loads_applied.c) ---------------------------------------------------------------------------- */
@@ -427,7 +428,7 @@ void loads_flag_clamped_mirrors(struct loads *l, const struct particles *p);
  * last bit of the farthest position. */
 void loads_update_images(const struct loads *l, struct particles *p);
 
-/* Sets p->f = 0 on every particle of every load and support, before the bond forces are computed. */
+/* Sets p->f = 0 for all particles of the lists of loads and supports, before the bond forces are computed. */
 void loads_clear_forces(struct loads *l, struct particles *p);
 
 /* Completes the particle forces p->f after the bond forces were computed: adds the impulse of mirror images to

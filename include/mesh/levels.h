@@ -107,9 +107,9 @@ void levels_free(struct mesh_levels *l);
  * which finer cells are requested, as points near breaking bonds convert next. */
 void levels_set_distances(struct mesh_levels *l, int safe, int roomy);
 
-/* Sets the inertia of coarse cells (kernels/mesh/mesh_inertia.h) so that waves in them have the dispersion of waves in
- * the bonds of a lattice. edge: edge of a cell with lumped mass that has the dispersion of the bonds [m]; wave_speed:
- * longitudinal [m/s]; dt: time step [s]. */
+/* Sets the inertia of coarse cells, between lumped and consistent mass (kernels/mesh/mesh_inertia.h), such that waves
+ * in them have the dispersion of waves in a lattice with bonds. edge: edge of cells with lumped mass that would have
+ * this dispersion [m]; wave_speed: longitudinal [m/s]; dt: time step [s]. */
 void levels_match_dispersion(struct mesh_levels *l, real edge, real wave_speed, real dt);
 
 /* Computes the coarsest admissible refinement level of each cell. A coarse cell must be completely filled with one
@@ -184,9 +184,9 @@ real levels_kinetic_energy(const struct mesh_levels *l);
  * constants of all materials; finite: true if strains are finite, false if small. */
 real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
 
-/* Returns, for the nodes of all coarse levels, the mean kinetic energy before and after a leap-frog velocity update
- * minus the kinetic energy that leap-frog conserves [J], as particles_kick_energy does for particles. dt: time step of
- * level 0 [s]. */
+/* Returns the difference between two kinetic energies of the nodes of all coarse levels in a leap-frog velocity update
+ * [J]: the mean of 1/2 m v^2 before and after it, minus 1/2 m v_old . v_new, which leap-frog conserves. dt: time step
+ * of level 0 [s]. */
 real levels_kick_energy(const struct mesh_levels *l, real dt);
 
 /* Returns the power of the forces on the nodes of all coarse levels, the sum of v . f times 2^L, the number of steps

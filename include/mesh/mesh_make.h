@@ -50,9 +50,10 @@ int64_t mesh_count_parts(const struct particles *p, const struct grid *like, con
 real mesh_remove_converted(struct mesh *mesh, struct particles *p, const struct mesh_source *source,
                            const int32_t *changed, int64_t n);
 
-/* Recomputes the stiffness of cells after only the partial stresses of n points `changed` have changed; all points
- * remain in the mesh. Returns false, without any change, if one of these cells was not or would no longer be a partial
- * cell; call mesh_remove_converted then. */
+/* Recomputes the stiffness of the cells of n points `changed` after only their partial stresses have changed; all
+ * points remain in the mesh. Possible only for partial cells (cells with a stiffness of their own, because points are
+ * missing or leave a part of their stress to bonds): returns false, without any change, if one of the cells was not or
+ * would no longer be partial; call mesh_remove_converted then. */
 bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                                    const int32_t *changed, int64_t n);
 
@@ -66,8 +67,8 @@ real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *l
 /* Returns true if cell I of the mesh contains a part of the body. */
 bool mesh_cell_has_body(const struct mesh *mesh, int64_t I);
 
-/* Lists the exposed points of the mesh, whose positions and velocities other parts of a run need in every step:
- * material points with bonds, loads, or mirror images. l: boundary conditions. */
+/* Lists the exposed points of the mesh, material points with bonds, loads or mirror images: other parts of a run need
+ * their positions and velocities in every step. l: boundary conditions. */
 void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
 
 /* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of

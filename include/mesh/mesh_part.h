@@ -42,7 +42,7 @@ struct reference_frame {
     int room_most;             /* largest value of `room` */
     struct hollow hollow;      /* cells whose particles are not made */
     bool lacks;                /* particles needed at the start are missing: the run must be set up again */
-    struct elastic *coarse;    /* [materials] constants of coarse cells, with a smaller trigger */
+    struct elastic *coarse;    /* [materials] constants of coarse cells, with a smaller conversion stress */
     int rings;
     /* [scene->probes] discs in which cells stay the smallest at present; the first `rings` */
     struct frame_ring *ring;
@@ -73,23 +73,23 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still);
  * included. */
 real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling);
 
-/* Finds again the exposed points of the mesh (points with bonds, loads or mirror images) and the nodes on which the
- * boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
+/* Finds again the points of the mesh that have bonds, loads or mirror images (exposed points), and the nodes on which
+ * the boundary conditions `loads` act, after points or refinement levels of the mesh have changed. */
 void frame_find_exposed_points(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                                struct loads *loads);
 
-/* Updates the positions of the exposed points (mesh_find_exposed) from the nodes, and the strain at points with
- * state-based bonds to peridynamic particles. */
+/* Updates positions and velocities of the exposed points of the mesh (points with bonds, loads or mirror images) from
+ * the nodes, and the strain at points with state-based bonds to peridynamic particles. */
 void frame_update_exposed_points(struct reference_frame *r, struct particles *p);
 
-/* Computes the nodal forces of the reference frame in step number `step`: the forces of bonds on exposed points, which
- * p->f must contain, distributed to the nodes, plus the forces of all cells whose refinement level acts in this step.
- */
+/* Computes the nodal forces of the reference frame in step number `step`: the forces of bonds on points of the mesh,
+ * taken from p->f and distributed to the nodes, plus the forces of all cells whose refinement level acts in this
+ * step. */
 void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_t step);
 
-/* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the exposed points. loads:
- * prescribed velocities, whose work and reactions are added up there; middle: time in the middle of the step [s];
- * dt_velocity: interval over which velocities are advanced [s]. */
+/* Integrates the motion of the nodes under the forces of frame_compute_forces, then updates the points of the mesh that
+ * have bonds, loads or mirror images. loads: prescribed velocities, whose work and reactions are added up there;
+ * middle: time in the middle of the step [s]; dt_velocity: interval over which velocities are advanced [s]. */
 void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loads *loads,
                       const struct run_clock *clock, real middle, real dt_velocity);
 
@@ -197,8 +197,8 @@ void frame_levels_apply(struct run *e, const uint8_t *level);
  * requests finer cells there. To be called before conversion. */
 void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p);
 
-/* Finds again the nodes of coarse cells on which boundary conditions act, the exposed points and the loaded nodes,
- * after refinement levels have changed. */
+/* Updates, after refinement levels have changed, the lists of nodes of coarse cells on which boundary conditions act,
+ * of points of the mesh with bonds, loads or mirror images, and of nodes on which loads act. */
 void frame_levels_find_nodes(struct reference_frame *r, const struct particles *p, const struct bonds *bonds,
                              struct loads *loads);
 

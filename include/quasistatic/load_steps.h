@@ -16,8 +16,9 @@ status engine_solve_static(struct run *e);
  * an equilibrium is not found or a file cannot be written, INTERRUPTED, after a checkpoint, if the run is to stop. */
 status engine_run_load_steps(struct run *e);
 
-/* Initialises the solver that engine_solve_static uses. Returns REFUSED if the loads of the scene admit no equilibrium.
- */
+/* Initialises the solver for one static equilibrium (e->solver) with the loads at the end of the scene's duration, for
+ * engine_solve_static. Returns REFUSED, with a message, if forces or moments are neither balanced nor carried by
+ * supports. */
 status engine_solver_make(struct run *e);
 
 /* Checks that load steps support the bodies, loads and supports of a scene. Returns REFUSED, with the reason, if they

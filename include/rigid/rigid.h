@@ -42,13 +42,15 @@ struct rigid_body {
     real kinetic;
 };
 
-/* Initialises a rigid body whose name is set and whose other members are 0. shape: kept by reference; mass: of a free
- * body [kg], 0: fixed or driven; velocity: initial, or of the drive [dim, m/s]; spacing: of particles [m]. REFUSED if a
+/* Initialises rigid body r, whose name must be set and whose other members must be 0. shape: kept by reference; mass:
+ * of a freely moving body [kg], 0 for a fixed or driven one; velocity: initial velocity of a free body, prescribed
+ * velocity of a driven one (dim components [m/s]); spacing: of the particles [m]. Returns REFUSED, with a message, if a
  * moving body is unbounded or a bounded body has no volume. */
 status rigid_make(struct rigid_body *r, const struct region *shape, int dim, real mass, const real *velocity,
                   real spacing);
 
-/* Returns false if no point of the body is within `reach` of x [m]: a test by bounding spheres. */
+/* Tests by bounding spheres whether a point of the body may be within `reach` [m] of the point x (present position
+ * [m]). Returns false if that is impossible; always true for a fixed body. */
 static inline bool rigid_may_reach(const struct rigid_body *r, const real *x, real reach)
 {
     real far2 = 0;
@@ -63,36 +65,47 @@ real rigid_distance(const struct rigid_body *r, const real *x, real *normal);
 /* Computes the present position x of the material point of the body that was at X at t = 0 [m]. */
 void rigid_point_position(const struct rigid_body *r, const real *X, real *x);
 
-/* Computes the velocity v of the body at point x [m/s]. */
+/* Computes the velocity v of the point of the rigid body at the present position x [m/s], from the velocity of the
+ * centre and the angular velocity. */
 void rigid_velocity(const struct rigid_body *r, const real *x, real *v);
 
-/* Computes the velocity v of a driven body at time t [m/s]. */
+/* Computes the velocity v that is prescribed for a driven rigid body at time t [s] (dim components [m/s]). */
 void rigid_driven_velocity(const struct rigid_body *r, real t, real *v);
 
-/* Computes the displacement u [dim] of a driven body up to time t, 0 for other bodies; returns its length [m]. */
+/* Computes the displacement u that is prescribed for a driven rigid body between the times 0 and t [s] (dim components
+ * [m]); 0 for other bodies. Returns its length [m]. */
 real rigid_displacement(const struct rigid_body *r, real t, real *u);
 
-/* Moves a driven body to its position at time t [s]; the displacement counts for the work of the drive. */
+/* Moves a driven body to its prescribed position at time t [s], and adds the displacement to r->increment, from which
+ * rigid_add_work computes the work of the drive. Does nothing for other bodies. */
 void rigid_set_position(struct rigid_body *r, real t);
 
-/* Advances the body by one step of length dt under `force` and `moment` (leap-frog). middle: time in the middle of the
- * step [s]; dt_velocity: time by which velocities advance [s]. */
+/* Advances a rigid body by one leap-frog step: a free body under r->force, r->moment and its weight, a driven one with
+ * its prescribed velocity. Velocities advance by dt_velocity, positions by dt [s]. middle: time in the middle of the
+ * step [s]. Stores the conserved kinetic energy of the step in r->kinetic. */
 void rigid_move(struct rigid_body *r, real middle, real dt, real dt_velocity);
 
-/* Adds the work of the drive since the last call to r->work, with the mean of the old and the present force. */
+/* Adds the work that the drive of a driven body has done since the last call to r->work: its displacement times the
+ * mean of the contact forces then and now, with opposite sign. */
 void rigid_add_work(struct rigid_body *r);
-void rigid_note(struct rigid_body *r); /* includes the present force in force_most */
 
-/* Returns the work of the drive, and of the weight, up to the present force [J]. */
+/* Updates r->force_most, the largest contact force on the body so far [N], by the present force. */
+void rigid_note(struct rigid_body *r);
+
+/* Returns the work done on the body since t = 0 by its drive and by its weight, up to the present position and force
+ * [J]. */
 real rigid_work(const struct rigid_body *r);
 
-/* Returns the kinetic energy of the present velocities [J]. */
+/* Returns the kinetic energy of a rigid body at its present velocity and angular velocity [J]. */
 real rigid_kinetic_energy(const struct rigid_body *r);
 
-/* Returns the kinetic energy that half a step under the present force and moment adds to first order [J]. */
+/* Returns the change of the kinetic energy of a free body, to first order, by half a time step dt [s] under the present
+ * force, weight and moment [J]; 0 for other bodies. */
 real rigid_kick_energy(const struct rigid_body *r, real dt);
 
-/* Saves or restores the motion of rigid body number `number`. */
+/* Saves the motion of a rigid body to the archive if a->saving, else restores it. number: number of the body in the
+ * scene, by which its entries are named. Returns FAILED if the archive cannot be read or written or a stored size
+ * differs. */
 status rigid_archive(struct rigid_body *r, int number, struct archive *a);
 
 #endif

@@ -17,25 +17,30 @@ struct rigid_set {
     bool met; /* the warning of two rigid bodies inside each other has been given */
 };
 
-/* Makes all rigid bodies of a scene at the start. REFUSED if a body cannot be made (rigid_make). */
+/* Makes all rigid bodies of scene s at the start, and lists the shapes of the deformable bodies for contact. Returns
+ * REFUSED, with a message, if a rigid body is unbounded while it moves or has no volume (rigid_make). */
 status rigids_make(struct rigid_set *rigid, const struct scene *s);
 
-/* Returns REFUSED if a rigid body overlaps particles, or if a free one touches a mirror of the scene. */
+/* Checks the positions of all rigid bodies at the start. Returns REFUSED, with a message, if one overlaps particles, or
+ * if a freely moving one touches a mirror plane of the scene. */
 status rigids_check(const struct rigid_set *rigid, const struct scene *s, const struct particles *p);
 
-/* Books the contact forces of the last step, of length dt_velocity [s]: the work of drives, the largest forces, and the
- * impulse on the rigid bodies, which is subtracted from the impulse on the particles [dim, N s]. */
+/* Accounts for the contact forces on all rigid bodies in the last step: updates the work of the drives and the largest
+ * forces, and subtracts force times dt_velocity [s], the impulse on the rigid bodies, from `impulse`, the impulse on
+ * the particles (dim components [N s]). */
 void rigids_add_impulse(struct rigid_set *rigid, real dt_velocity, real impulse[DIM_MAX]);
 
-/* Advances all bodies by a step of length dt. middle: time in the middle of the step; dt_velocity: time by which
- * velocities advance [s]. */
+/* Advances all rigid bodies by one leap-frog step under their forces or prescribed velocities (rigid_move). middle:
+ * time in the middle of the step; dt: time by which positions advance; dt_velocity: time by which velocities advance
+ * [s]. */
 void rigids_move(struct rigid_set *rigid, real middle, real dt, real dt_velocity);
 
 /* Returns FAILED if a body moves more than half a spacing in a step, so that particles would be inside it before
  * contact acts. */
 status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, const struct run_clock *clock);
 
-/* Warns, once in a run, if a free body overlaps another rigid body at time t [s]. spacing: of particles [m]. */
+/* Adds a warning to `to`, once in a run, if a freely moving rigid body is more than half a spacing inside another rigid
+ * body at time t [s]: rigid bodies exert no forces on each other. spacing: of the particles [m]. */
 void rigids_warn_of_overlap(struct rigid_set *rigid, real spacing, real t, struct warnings *to);
 
 /* Energies of all rigid bodies [J]: kinetic energy before a step (`before`), of the last step as leap-frog conserves it
@@ -44,23 +49,28 @@ struct rigid_energy {
     real before, step, last, work;
 };
 
-/* Returns the energies. dt: time step [s]. */
+/* Returns the sums of the energies of all rigid bodies, in the sense of struct rigid_energy, from their present motion
+ * and forces [J]. dt: time step [s]. */
 struct rigid_energy rigids_energy(const struct rigid_set *rigid, real dt);
 
 /* Describes the columns of rigid bodies in history.csv; column NULL: counts only. Returns the number of columns: force
  * [N], moment [N m], position of the centre [m] and velocity [m/s] of each body. */
 int rigids_columns(const struct run *e, struct column *column);
 
-/* Writes the values of the columns of rigid bodies at the time of the present sample to `record`. */
+/* Writes the values of the columns described by rigids_columns to `record`: for each rigid body the forces and moments
+ * of the last step, then position and velocity at the time of the sample (rigids_store_motion). */
 void rigids_record(struct run *e, real *record);
 
-/* Stores the positions and velocities at time t [s], before a step, in rigid->motion for the present sample. */
+/* Stores the positions and velocities of all rigid bodies in rigid->motion, before a step, for the sample at time t
+ * [s]. The stored velocity of a driven body is the prescribed one at t. */
 void rigids_store_motion(struct rigid_set *rigid, real t);
 
-/* Replaces the stored velocities of free bodies by the mean of the velocities before and after the step. */
+/* Replaces the velocities of free bodies that rigids_store_motion stored before the step by the mean of these and the
+ * present velocities, after the step: the velocities at the time of the sample. */
 void rigids_average_velocities(struct rigid_set *rigid);
 
-/* Replaces the stored velocities by those at time t after the last step (rigids_velocity). */
+/* Replaces the velocities stored by rigids_store_motion by those at time t [s] (rigids_velocity), for the sample after
+ * the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
 
 /* Computes the velocity v of rigid body k at time t [m/s], from the velocity half a step dt [s] behind t and the

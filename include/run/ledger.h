@@ -33,7 +33,7 @@
 #define ENERGY_MEMBER(name, colour, column) real name;
 enum { ENERGIES = ENERGY_ROWS(ENERGY_COUNT) };
 
-/* All energies, by name or by row [J]. */
+/* The energies of a run [J], each accessible by its name in ENERGY_ROWS or by its number there, of[k]. */
 struct energy {
     union {
         struct {
@@ -56,7 +56,7 @@ extern const struct ledger_row ledger[LEDGER_ROWS];
 /* Returns the sum of all energies of u, in the order of ENERGY_ROWS [J]. */
 real energy_sum(const struct energy *u);
 
-/* Returns the sum of the magnitudes of all energies of u [J], a scale for errors of their balance. */
+/* Returns the sum of the absolute values of all energies of u [J], with which errors of their balance are compared. */
 real energy_magnitude(const struct energy *u);
 
 #endif

@@ -27,9 +27,10 @@ real voids_reach(const struct scene *s, real cutoff);
  * particle list or an image. body: number of the first of the joined bodies. */
 bool surface_is_exact(const struct scene *s, int body);
 
-/* Computes correction weights of the bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
- * w; w must therefore outlive `source`. loads: boundary conditions, whose mirrors are named in messages. Returns
- * REFUSED, with a message, if the particles of a body are not on one lattice. */
+/* Computes factors on the weights of bonds near free surfaces (pd.surface: moments) into w and sets source->surface =
+ * w; w must therefore outlive `source`. Returns REFUSED, with a message, if particles that can have bonds, mirror
+ * images included, are not on one lattice. loads: boundary conditions, so that the message can name the boundary whose
+ * mirror plane does not fit the lattice. */
 status run_surface_make(struct surface_weights *w, struct bond_source *source, const struct particles *p,
                         const struct loads *loads, const struct scene *s);
 

@@ -9,7 +9,8 @@
 #include "output/json.h"
 #include "run/run.h"
 
-/* A row of the table. Every function may be NULL. */
+/* Description of a part of a run, such as contact or probes: the functions that the engine calls for each part in turn.
+ * Any of them may be NULL. */
 struct part {
     const char *name;
     size_t at, size;               /* offset in struct run of the pointer to the part; size of the part [byte] */

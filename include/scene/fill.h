@@ -11,20 +11,24 @@
 #define FILL_FARTHEST 1e7
 
 /* Creates the particles of all bodies of s, from lattices and particle lists, and sets their positions, volumes, masses
- * and initial state. optional: sum of WITH_*, the optional arrays of p. hollow: cells without particles, NULL if there
- * are none; the ids of their particles stay unused. The caller owns p. REFUSED for an empty body, an unreadable list,
- * a list in another length unit than the spacing, and two particles at one position; p is empty in these cases. */
+ * and initial state. optional: optional arrays of p, sum of WITH_*; hollow: cells without particles, NULL: none; the
+ * ids of their particles stay unused. Returns REFUSED, with a message and with p empty, for an empty body, an
+ * unreadable list, a list in another length unit than the spacing, or two particles at one position. Release with
+ * particles_free. */
 status fill_particles(struct particles *p, const struct scene *s, const struct hollow *hollow, int optional);
 
-/* Writes the position of one lattice site of a body to X [dim, m]. The body must not come from a particle list. */
+/* Computes the position of one site of the lattice that fills body number `body` into X (dim components [m]). The body
+ * must not come from a particle list. Returns REFUSED, with a message, if the body has no lattice, for example because
+ * the scene gives no spacing. */
 status fill_lattice_site(const struct scene *s, int body, real *X);
 
-/* Marks in hollow->whole [cells of hollow->box] the cells all of whose lattice sites are inside the body. The caller
- * sets hollow->box and frees hollow->whole. */
+/* Finds the cells of hollow->box in which all particle positions are inside body number `body`, and marks them in
+ * hollow->whole, one byte per cell, which is allocated here and freed by the caller. hollow->box must be set before. */
 void fill_mark_whole_cells(struct hollow *hollow, const struct scene *s, int body);
 
-/* Compares the distances between particles of each list with the spacing (fill_lists.c). REFUSED if they differ so much
- * that the list must be in another length unit, or if the bonds would exceed any memory. */
+/* Checks the particle lists of all bodies against the particle spacing of the scene, by the distances between
+ * neighbours in each list. Returns REFUSED, with a message, if they differ so much that the list must be in another
+ * length unit, or if there would be more bonds than memory can hold. */
 status fill_check_lists(const struct particles *p, const struct scene *s);
 
 /* Sets the strength factor of each particle [1] (fill_strength.c): random where the strength of its material scatters,

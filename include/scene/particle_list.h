@@ -48,11 +48,12 @@ struct particle_list {
 };
 
 /* Reads a particle list in `dim` dimensions, in the format that the file name extension implies: .csv, .tsv, .txt,
- * .dat, or .h5, .hdf5, .hdf. Release l with particle_list_free. REFUSED for an invalid value, with file and line or
- * file and entry in the message; nothing has to be released then. An empty list is no error here. */
+ * .dat, or .h5, .hdf5, .hdf. Returns REFUSED for an invalid value, with file and line or file and entry in the message;
+ * nothing has to be released then. An empty list is no error here. Release with particle_list_free. */
 status particle_list_read(struct particle_list *l, const char *path, int dim);
 
-/* Reads only the column names of a particle list, and fails as particle_list_read does. */
+/* Reads only the names of the columns of a particle list file, for `dim` dimensions, and stores in *head what the list
+ * contains. Returns REFUSED, with a message, as particle_list_read does. */
 status particle_list_read_head(struct particle_list_head *head, const char *path, int dim);
 
 /* Returns true if the file name extension is one of a particle list. */

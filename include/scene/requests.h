@@ -35,10 +35,11 @@ enum coupling {
     COUPLING_PGG /* PM and PG on one unified grid, which moves all particles            */
 };
 
-/* Returns true if the grid moves peridynamic particles, at least near the interface. */
+/* Returns true if, with coupling c, the background grid moves peridynamic particles, at least those near the
+ * interface. */
 static inline bool coupling_moves_by_grid(enum coupling c) { return c >= COUPLING_PM; }
 
-/* Returns true if one unified grid moves all peridynamic particles. */
+/* Returns true if, with coupling c, one grid moves all particles, peridynamic ones and material points. */
 static inline bool coupling_unified(enum coupling c) { return c == COUPLING_PMG || c == COUPLING_PGG; }
 
 /* Representation of pre-cracks in the reference frame (notch.h): a slit in the mesh, cut bonds, or a choice by rule. */
@@ -85,7 +86,8 @@ struct growth_rule {
     real toughness;              /* K_Ic: the crack grows while K_eq is at least K_Ic [Pa m^(1/2)] */
 };
 
-/* Returns true if the crack-tip speed is controlled so that K_eq stays at the toughness. */
+/* Returns true if the speed of the crack tip is not given but controlled, such that the equivalent stress-intensity
+ * factor stays at the toughness. */
 static inline bool growth_follows(const struct growth_rule *rule) { return isnan(rule->speed); }
 
 /* ---- probes ------------------------------------------------------------------------------------------------------ */

@@ -258,7 +258,7 @@ static inline bool scene_scatters(const struct scene *s)
     return scatters;
 }
 
-/* Returns true if a probe evaluates broken bonds. */
+/* Returns true if the scene has a probe that evaluates broken bonds (kinds TIP, BREAK, SPALL, GROWTH). */
 static inline bool scene_watches_bonds(const struct scene *s)
 {
     static const bool watches[PROBES] = {
@@ -289,11 +289,12 @@ static inline real scene_section(const struct scene *s)
     return s->space == SPACE_LINE ? s->section : s->space == SPACE_SOLID ? 1 : s->thickness;
 }
 
-/* Returns the index of the material at X [dim, m] in body b: of the last part that contains X, else `material`, the
- * material of the body or of its list. */
+/* Returns the index of the material at the position X (dim components [m]) in body b: that of the last part of the body
+ * that contains X, or `material` if no part does. */
 int scene_material_at(const struct scene *s, const struct scene_body *b, const real *X, int material);
 
-/* Returns true if particles of the body can consist of this material, an index into scene.material. */
+/* Returns true if particles of body b can consist of this material (index into scene.material): it is that of the body
+ * or of one of its parts, or the particle list of the body has a column of materials. */
 bool scene_body_has_material(const struct scene_body *b, int material);
 
 /* Releases the members of a scene; scene_read.h reads one. */
@@ -307,11 +308,11 @@ const char *scene_frame_unsupported(const struct scene *s, int body);
  * static. */
 const char *scene_frame_not_default(const struct scene *s, int body);
 
-/* Prints the table of keys: all keys (key NULL), the keys below a prefix, or one key. REFUSED for an unknown key; the
- * message names the nearest one. */
+/* Prints the table of keys of scenes to `out`: all keys (key NULL), the keys below a prefix, or one key. Returns
+ * REFUSED for an unknown key, with the most similar key in the message. */
 status scene_print_help(FILE *out, const char *key);
 
-/* Returns true for a key of scenes and for a prefix of several keys. */
+/* Returns true if `key` is the name of a key of scenes, or a prefix to which several keys belong. */
 bool scene_has_key(const char *key);
 
 /* Prints the units of numbers. */
@@ -326,7 +327,8 @@ void scene_print_expressions(FILE *out);
 /* Writes the keys for the manual page (troff). */
 void scene_print_manual_keys(FILE *out);
 
-/* Writes the keys that `-s` can set, one per line, with 0 as the index of a list item. */
+/* Writes to `out` the names of all keys that the option `-s` can set, one per line, for completion by a shell; an item
+ * of a list has the index 0 there. */
 void scene_print_override_keys(FILE *out);
 
 /* Writes the reference of all keys as Markdown (inputs/keys.md): first a table of the keys without subkeys, then a

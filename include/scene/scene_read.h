@@ -4,9 +4,9 @@
 
 #include "scene/scene.h"
 
-/* Reads a scene file, applies override[overrides] and checks the scene. The caller releases s with scene_free. REFUSED
- * for an invalid scene, with a message `file:line:column: fault; expected value`, and nothing to release; also for
- * `method: auto`, which pilot runs resolve (study/pilot.h). */
+/* Reads a scene file, applies override[overrides] and checks the scene. Returns REFUSED for an invalid scene, with a
+ * message `file:line:column: fault; expected value`, and for `method: auto`, which pilot runs resolve (study/pilot.h);
+ * nothing has to be released then. Otherwise release s with scene_free. */
 status scene_read(struct scene *s, const char *path, const struct scene_override *override, int overrides);
 
 /* Reads and checks a scene from memory as scene_read does from a file. Opens no file, not even to see whether particle
@@ -28,7 +28,9 @@ struct pilot_wish {
     struct scene provisional;
 };
 
-/* Reads a scene as scene_read does, but accepts `method: auto`: then w->wanted is true, w is filled and s is empty. */
+/* Reads a scene file with override[overrides] as scene_read does, but accepts `method: auto`: then w->wanted is true,
+ * *w describes the requirements on the pilot runs, and *s is empty. Otherwise w->wanted is false and the caller
+ * releases *s with scene_free. */
 status scene_read_or_pilot_wish(struct scene *s, struct pilot_wish *w, const char *path,
                                 const struct scene_override *override, int overrides);
 

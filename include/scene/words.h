@@ -4,14 +4,16 @@
 
 #include "base/base.h"
 
-/* Reads a length with its unit, such as `4mm`, as a number in metres. Returns false on failure and writes to what[room]
- * the rest of a sentence that begins with the text. */
+/* Reads a length with its unit, such as `4mm`, from `text` into *value [m]. Returns false if the text is no length, and
+ * writes what is wrong to `what` (capacity `room` bytes), as the rest of a sentence that begins with the text. */
 bool length_read(real *value, const char *text, char *what, size_t room);
 
-/* Reads a time with its unit, such as `4us`, as a number in seconds; fails as length_read does. */
+/* Reads a time with its unit, such as `4us`, from `text` into *value [s]. Returns false if the text is no time, and
+ * writes what is wrong to `what` (capacity `room` bytes), as the rest of a sentence that begins with the text. */
 bool time_read(real *value, const char *text, char *what, size_t room);
 
-/* Returns the one of n names with the smallest edit distance to `word`. */
+/* Returns the name among the n > 0 names in `name` that has the smallest edit distance to `word`, the first of
+ * several. */
 const char *word_nearest(const char *word, const char *const *name, int n);
 
 #endif
