@@ -8,8 +8,9 @@
 #include "data/grid.h"
 
 /* Returns the impulse of a dashpot along axis d on a node or particle in a step [N s], by the implicit mean velocity
- * (v_old + v_new)/2, and adds impulse, dissipated energy and kick to *a. rate_dt: dashpot rate times the duration of
- * the step, k dt [kg]; mass [kg]; before: velocity v_old [m/s]; change: velocity change by all other forces [m/s]. */
+ * (v_old + v_new)/2. Adds impulse and dissipated energy to *a, and to its member `kick` a quarter of the impulse times
+ * the change of velocity (struct absorbed). rate_dt: dashpot rate times the duration of the step, k dt [kg]; mass [kg];
+ * before: velocity v_old [m/s]; change: velocity change by all other forces [m/s]. */
 static inline real dashpot_kick(struct absorbed *a, int d, real rate_dt, real mass, real before, real change)
 {
     const real mean = (before + 0.5 * change) / (1 + 0.5 * rate_dt / mass), impulse = -rate_dt * mean;

@@ -1,10 +1,11 @@
-/* Tests in every step whether any particle has diverged; diagnostics.c finds the particle when the run stops for it.
- * Reads 32 bytes per particle in 2D. */
+/* Test in every step whether any particle has diverged, i.e. is too fast or has a position or velocity that is not
+ * finite. diagnostics.c finds the particle when the run stops for it. Reads 32 bytes per particle in 2D. */
 #include "divergence.h"
 #include "kernels.h"
 #include "kernels/simd/variants.h"
 
-/* Returns the mask of diverged particles among eight listed ones; limit2: squared speed limit. */
+/* Returns the mask of those of eight listed particles that have diverged. limit2: square of the largest allowed speed
+ * [m^2/s^2]. */
 static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const int32_t *list, real limit2,
                                                const int dim)
 {
@@ -18,7 +19,7 @@ static ALWAYS_INLINE lanes_mask eight_diverged(const struct particles *p, const 
     return has_diverged(speed2, place, limit2);
 }
 
-/* Returns true if any of n listed particles has diverged. */
+/* Returns true if any of n listed particles has diverged. limit2: square of the largest allowed speed [m^2/s^2]. */
 static ALWAYS_INLINE bool any_diverged(const struct particles *p, const int32_t *list, int64_t n, real limit2,
                                        const int dim)
 {

@@ -41,14 +41,15 @@ static inline real point_trigger(const struct elastic *m, const struct particles
     return p->strength ? m->trigger_mean * p->strength[i] : m->trigger;
 }
 
-/* Partial stress (src/coupling/partial_stress.c): the stress that a material point transmits to the grid where PD-MPM
- * bonds cross its cell and carry the rest: sigma_given = sigma - M sigma, M = T C^-1 over symmetric components. A point
- * bonded by state-based bonds transmits P Q local in addition, with P Q = particles.end_pull / volume. */
+/* Partial stress (src/coupling/partial_stress.c). Where PD-MPM bonds cross the cell of a material point, they carry the
+ * part M sigma of its stress sigma, with M = T C^-1 over symmetric components, and the point transmits the rest, sigma
+ * - M sigma, to the grid. A point with state-based bonds of its own transmits P Q local in addition, with P Q =
+ * particles.end_pull / volume. */
 struct partial_stress {
     int32_t *index; /* [n] entry of a particle in `matrix`, -1: transmits all of its stress; NULL: all particles do */
     real *matrix;   /* M, [entries][symmetric^2], row major [1] */
-    /* [entries][symmetric] derivative by strain of the share of the family's mean strain that the cell adds; 0 for
-     * points without bonds; NULL: bond-based model [1] */
+    /* [entries][symmetric] derivative of the mean strain of the point's family by the strain of its cell; 0 for points
+     * without bonds; NULL: bond-based model [1] */
     real *local;
     bool gives_all; /* all stress is transmitted (coupling `handshake`): M and local are 0 */
     int64_t entries;
@@ -57,8 +58,8 @@ struct partial_stress {
     struct partial_table *table; /* table of the segments of lattice bonds in cells (src/coupling/partial_table.c) */
 };
 
-/* Returns true if material point i has state-based bonds of its own; false if bonds at most cross its cell, or the
- * model is bond-based. */
+/* Returns true if material point i has state-based bonds of its own. Returns false if bonds of other points at most
+ * cross its cell, or if the model is bond-based. */
 static inline bool partial_end(const struct partial_stress *partial, int64_t i, int dim)
 {
     if (!partial->local || partial->index[i] < 0) return false;
@@ -79,7 +80,7 @@ struct transfer_data {
     real dt_velocity;              /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */
-    bool second_map;       /* FLIP: all points move with the velocities of the second map */
+    bool second_map;       /* FLIP: all points move with the nodal velocities that remap has computed (second map) */
     real *turn[3]; /* [n] spin or angular momentum of points that rotate with a group (data/turning.h); in 2D only
                       turn[2] */
 };
@@ -103,22 +104,25 @@ struct pd_motion {
 typedef int64_t bond_force_fn(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                               struct pd_motion *motion);
 
-/* Computes the forces of all bonds by the kernel `sweep` of the model, and adds the reactions of bonds to images in
- * clamped planes to the forces on the sources of these images (pd/clamp_force.c). Particles with such bonds, and these
- * sources, must be `loaded`, so that they are moved later. All callers compute bond forces through this function.
- * limit, motion: as in bond_force_fn. Returns the number of directed bonds broken. */
+/* Computes the forces of all bonds by the kernel `sweep` of the model. Adds the reactions of bonds to mirror images in
+ * clamped planes (planes of symmetry along which motion is prevented, too) to the forces on the sources of these images
+ * (pd/clamp_force.c). Particles with such bonds, and these sources, must be set in motion->loaded, so that they are
+ * moved later. All callers compute bond forces through this function. limit, motion: as in bond_force_fn. Returns the
+ * number of directed bonds broken. */
 KERNEL(int64_t, bond_forces,
        (bond_force_fn * sweep, struct bonds *b, struct particles *p, const struct bond_limit *limit,
         struct pd_motion *motion));
 
-/* Computes pressure (dilatation), spring and rotation of all families from the present positions into b->state, the
- * first pass of a state-based force; required before these quantities are read without a force computation. Stores the
- * reactions on the cells of bonded material points in p->end_pull and p->end_moment. */
+/* Computes pressure (from the dilatation), spring stiffness and rotation of all families (all neighbours of a particle)
+ * from the present positions into b->state: the first of the two loops of a state-based force. Call it before these
+ * quantities are read without a force computation. Stores the reactions on the cells of material points with bonds in
+ * p->end_pull and p->end_moment. */
 typedef void state_precompute_fn(struct bonds *b, struct particles *p);
 
-/* Breaks the bonds of one row block (bonds of eight particles) whose stretch exceeds `limit`, and books their last
- * force and energy; the forces of the row block must be up to date. Computed bond by bond, hence called only where a
- * bond may break. Returns the number of directed bonds broken. */
+/* Breaks the bonds of one row block (all bonds of eight particles) whose stretch exceeds `limit`, and adds their energy
+ * to the fracture energy of their rows; their force on the particle is replaced by that of the step in which they break
+ * (pd/bond_last.h). The forces of the row block must be up to date. Slow, since it computes bond by bond: call it only
+ * where a bond may break. Returns the number of directed bonds broken. */
 KERNEL(int64_t, bond_break_row_block,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row_block));
 
@@ -133,8 +137,8 @@ KERNEL(void, bond_fade, (struct bonds *b, struct particles *p, int64_t row, int6
 KERNEL(real, bond_row_block_stretch, (const struct bonds *b, const struct particles *p, int64_t row_block));
 
 /* Breaks the bond with index q in the row (all bonds of one particle) `row` at the present positions, whatever its
- * stretch, and books its energy. limit: supplies the rule for the last force. The caller breaks the bond in the row of
- * its other particle likewise. */
+ * stretch, and adds its energy to the fracture energy of the row. limit: supplies the rule for its force in this step.
+ * The caller breaks the bond in the row of its other particle likewise. */
 KERNEL(void, bond_break_entry,
        (struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q));
 
@@ -166,9 +170,9 @@ KERNEL(real, bond_row_plastic_path, (const struct bonds *b, int64_t row));
  * p->stress [Pa]. */
 typedef void bond_stress_fn(const struct bonds *b, struct particles *p);
 
-/* Integrates velocity and position of those peridynamic particles among the n in `list` that the grid does not move: v
- * += dt_velocity f/m, x += dt v. list: indices, ascending, aligned to 32 bytes. Returns true if one of them has
- * diverged (too fast, or not finite). */
+/* Integrates velocity and position of n listed peridynamic particles, except those that the grid moves: v +=
+ * dt_velocity f/m, x += dt v. list: indices, ascending, aligned to 32 bytes. Returns true if one of them has diverged
+ * (too fast, or not finite). */
 typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, const struct pd_motion *motion);
 
 /* Returns true if one of the n particles in `list` is faster than `limit` [m/s] or has a position or velocity that is
@@ -179,16 +183,19 @@ KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list
  * particle-to-grid map (Zeng et al. 2022, eqs. 33-38). t: order of the points, step sizes, partial stress. */
 typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
 
-/* Updates the velocities of the points, v_p += sum N (f/m dt), then maps their momentum to the nodes of g a second time
- * with equal weights (MUSL, Zeng et al. 2022, steps 4 and 6). Only for FLIP. */
+/* Remapping of MUSL (Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the change of nodal velocities to
+ * the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to the nodes of g; below called
+ * the second map, after the first one by p2g. */
 typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
 
-/* First half of the second map, for points that rotate in groups (mpm/remap_turn.c): updates v_p += sum N (f/m dt), and
- * stores in t->turn the angular momentum that each point loses in this transfer [kg m^2/s]. 2D and 3D. */
+/* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
+ * change of nodal velocities to the points, v_p += sum N (f/m dt), and stores in t->turn the angular momentum that each
+ * point loses in this interpolation [kg m^2/s], for its group. 2D and 3D. */
 typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
 
-/* Second half of the second map, for points that rotate in groups: adds the momentum m N (v_p + turn x (x_I - x_p)) of
- * the points to the nodes of g. t->turn: spin of the group of each point [1/s]. 2D and 3D. */
+/* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
+ * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in t->turn [1/s], to second
+ * order in w dt (mpm/turn.h). 2D and 3D. */
 typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
 
 /* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
@@ -247,10 +254,10 @@ KERNEL(void, grid_clear, (struct grid *g));
 KERNEL(void, grid_advance, (struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass));
 
 /* Applies the constraints of g to the nodal velocities (Zeng et al. 2022, step 3, second part): walls prescribe the
- * velocity of their nodes, and `force` becomes the change of the prescribed motion; nodes beyond planes of symmetry
- * move as mirror images. Adds the reaction of the walls to impulse [N s] and its work to *work [J]; with APIC, whose
- * particles take the nodal velocity itself, including the momentum that was replaced. smallest_mass: as in grid_advance
- * [kg]. */
+ * velocity of their nodes, and `force` becomes the change of the prescribed velocity; nodes beyond planes of symmetry
+ * move as mirror images. Adds the reactions of walls and planes to impulse [N s] and the work of the walls to *work
+ * [J]. With APIC the reaction includes the momentum that the prescribed velocity replaces. smallest_mass: as in
+ * grid_advance [kg]. */
 KERNEL(void, grid_constrain,
        (struct grid *g, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX], real *work));
 
@@ -263,8 +270,9 @@ static inline void grid_move(struct grid *g, enum transfer transfer, real dt_vel
     grid_constrain(g, transfer, smallest_mass, impulse, work);
 }
 
-/* Converts the nodal momentum of the second map to velocity in g->momentum, in place (Zeng et al. 2022, step 6); walls
- * prescribe the velocity of their nodes, nodes lighter than smallest_mass [kg] get 0. */
+/* Divides the nodal momentum that remap has added to g->momentum by the nodal mass, in place: g->momentum becomes a
+ * velocity (Zeng et al. 2022, step 6). Walls prescribe the velocity of their nodes; nodes lighter than smallest_mass
+ * [kg] get 0. */
 KERNEL(void, grid_remapped, (struct grid *g, real smallest_mass));
 
 /* ---- the mesh of the reference frame (mesh.h), any dimension ----------------------------------------------------- */
@@ -288,15 +296,15 @@ KERNEL(real, mesh_move, (struct mesh *mesh, real dt, real dt_velocity, real impu
 /* Interpolates position and velocity of all material points of the mesh from its nodes into p. */
 KERNEL(void, mesh_points_move, (const struct mesh *mesh, struct particles *p));
 
-/* Interpolates position and velocity from the nodes of the mesh into p, for the points to which bonds reach
- * (mesh->exposed_list). */
+/* Interpolates position and velocity from the nodes of the mesh into p, for the exposed points (mesh->exposed_list):
+ * points with bonds or loads, whose motion other parts of a run need in every step. */
 KERNEL(void, mesh_exposed_move, (const struct mesh *mesh, struct particles *p));
 
 /* Interpolates position and velocity from the nodes of the mesh into p, for those of the n particles in `list` that are
  * points of the mesh. */
 KERNEL(void, mesh_listed_move, (const struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n));
-/* Adds the forces p->f on the points to which bonds reach (mesh->exposed_list) to the nodes of the mesh, by their
- * weights. Serial. */
+/* Adds the forces p->f on the exposed points (mesh->exposed_list: points with bonds or loads) to the nodes of the mesh,
+ * by their interpolation weights. Serial. */
 KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p));
 /* Computes Cauchy stress and volume of all material points of the mesh into p. m: elastic constants by material;
  * finite: strain measure as in mesh_force. */

@@ -5,7 +5,8 @@
 #include "mesh_run.h"
 #include "base/team.h"
 
-/* Returns true if nodes first .. end - 1 have no mass; true of most level 0 nodes where cells are coarse. */
+/* Returns true if the nodes first .. end - 1 have no mass, as most nodes of the finest mesh where coarse cells replace
+ * its cells. mass: of each node, or its inverse (0 where there is no mass). */
 static bool none_moves(const real *mass, int64_t first, int64_t end)
 {
     enum { PIECE = 64 };
@@ -19,7 +20,8 @@ static bool none_moves(const real *mass, int64_t first, int64_t end)
     return true;
 }
 
-/* Adds 1/2 m v^2 of nodes first .. end - 1 [J]; for coarse cells half the product of momentum and velocity. */
+/* Adds the kinetic energy of nodes first .. end - 1 to *sum [J]: 1/2 m v^2, or for coarse cells, whose mass matrix is
+ * not diagonal, half the product of momentum and velocity. context: the mesh. */
 static void mesh_energy_kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -41,7 +43,9 @@ real mesh_kinetic(const struct mesh *mesh)
     return sum;
 }
 
-/* Adds 1/4 f^2/m of nodes first .. end - 1, the kick energy over dt^2 [J/s^2]; for coarse cells with blended mass. */
+/* Adds the sum of f^2/(4 m) over the nodes first .. end - 1 to *sum, with the nodal forces f [J/s^2]; times dt^2 it is
+ * the correction of mesh_kick. Nodes of matched coarse cells have the mass matrix of mesh_inertia.h. context: the
+ * mesh. */
 static void mesh_energy_kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct mesh *mesh = context;
@@ -62,7 +66,7 @@ real mesh_kick(const struct mesh *mesh, real dt)
     real sum = 0;
     if (mesh->points == 0) return 0;
     reproducible_sums(mesh->grid.n, 1, mesh_energy_kick_block, mesh, &sum);
-    /* constrained nodes move as prescribed; their work is booked as they move */
+    /* the motion of constrained components is prescribed: no correction; their work is added when they move */
     for (int64_t k = 0; k < mesh->grid.walls; k++) {
         const struct wall *w = &mesh->grid.wall[k];
         sum -= 0.25 * square(mesh->grid.force[w->component][w->node]) * mesh->inverse_mass[w->node];
@@ -70,6 +74,8 @@ real mesh_kick(const struct mesh *mesh, real dt)
     return dt * dt * sum;
 }
 
+/* Arguments of mesh_strain for the functions that compute the energy of one row of cells or one group of partial
+ * cells. */
 struct strain_sum {
     const struct mesh *mesh;
     const struct particles *p;
@@ -85,7 +91,8 @@ static ALWAYS_INLINE real lanes_sum(lanes a)
     return all;
 }
 
-/* Returns the elastic energy of a group of partial cells [J]; lanes beyond the last cell have no stiffness. */
+/* Returns the elastic energy of a group of eight partial cells, those with missing points, partial stresses, several
+ * materials or doubled nodes [J]. Vector lanes beyond the last cell have no stiffness and contribute 0. */
 static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t group, const int dim, const bool finite)
 {
     const struct mesh *mesh = s->mesh;
@@ -102,7 +109,8 @@ static ALWAYS_INLINE real partial_energy(const struct strain_sum *s, int64_t gro
     return lanes_sum(cell_energy(&cell, mesh->volume * (1 << dim), dim));
 }
 
-/* Returns the elastic energy of a run, eight cells at a time [J]; lanes beyond its end contribute 0. */
+/* Returns the elastic energy of a row of consecutive whole cells `run`, computed for eight cells at a time [J]. Vector
+ * lanes beyond its end contribute 0. */
 static ALWAYS_INLINE real run_energy(const struct strain_sum *s, const struct mesh_run *run, const int dim,
                                      const bool finite)
 {

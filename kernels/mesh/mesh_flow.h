@@ -1,4 +1,5 @@
-/* Cells whose points yield, point by point (mpm/plastic.h), from one incremental energy.
+/* Forces and energy of cells whose points yield, by return mapping at each point (mpm/plastic.h), from one incremental
+ * energy.
  *
  * With the plastic state a, r of the last equilibrium, the strain e of a point has the energy per volume
  *
@@ -60,11 +61,11 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
-/* Computes the stresses of the material points number q of eight cells at a time, one cell in each vector lane. cell:
- * eight cell indices, -1 for a lane without cell; s: strain of the cells; m: array of the elastic constants of all
- * materials; stress: receives symmetric components [Pa], 0 in lanes without a point; flows: true to apply return
- * mapping and update the plastic state. Returns the sum of the elastic energies per volume of the eight points [J/m^3]
- * if flows is false, else 0. */
+/* Computes the stresses of the points number q of eight cells, one cell in each vector lane. cell: eight cell indices,
+ * -1 for a lane without cell; s: strain of the cells; m: elastic constants of all materials; stress: receives symmetric
+ * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping, updates the plastic state of
+ * the points and returns 0. If it is false, returns the sum of the elastic energies per volume of the points
+ * [J/m^3]. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                        const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
                                        const int dim, const bool flows)
@@ -135,15 +136,15 @@ static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struc
     return sum * mesh->volume;
 }
 
-/* Lists eight cells of a run (cells with consecutive indices), from its k-th cell on, in `cell`; -1 beyond the last
- * cell of the run. */
+/* Writes the indices of eight cells of a row of consecutive cells `run`, from its k-th cell on, to cell[8]; -1 for
+ * entries beyond the last cell. */
 static ALWAYS_INLINE void run_cells(const struct mesh_run *run, int64_t k, int32_t *cell)
 {
     for (int l = 0; l < LANES; l++) cell[l] = k + l < run->cells ? (int32_t)(run->cell + k + l) : -1;
 }
 
-/* Lists the eight cells of a group of partial cells (cells with missing points, partial stresses, several materials or
- * doubled nodes) in `cell`; -1 beyond the last partial cell. */
+/* Writes the indices of the eight cells of a group of partial cells (cells with missing points, partial stresses,
+ * several materials or doubled nodes) to cell[8]; -1 for entries beyond the last partial cell. */
 static ALWAYS_INLINE void group_cells(const struct mesh *mesh, int64_t group, int32_t *cell)
 {
     for (int64_t l = 0; l < LANES; l++)

@@ -1,8 +1,9 @@
-/* Internal forces of the mesh on its nodes: whole cells in runs, eight at a time; partial cells with their own
- * stiffness.
+/* Internal forces of the mesh on its nodes. Whole cells (all points, one material) are computed in rows of consecutive
+ * cells (struct mesh_run), eight at a time; partial cells have stiffnesses of their own.
  *
- * A run adds to the nodes of its cells, layer by layer. Layers are grouped in bands, and bands of equal parity share no
- * node: two colours give equal bits on any number of threads. */
+ * Rows of cells that add to common nodes must not be computed at the same time: layers of cells are grouped in bands,
+ * and bands of equal parity share no node. First even, then odd bands are computed in parallel, which gives equal bits
+ * on any number of threads. */
 #include <string.h>
 
 #include "mesh_flow.h"
@@ -11,13 +12,14 @@
 
 /* ---- whole cells ------------------------------------------------------------------------------------------------- */
 
-/* Returns {before[7], now[0], .., now[6]}. */
+/* Returns the vector `now` shifted by one lane: {before[7], now[0], .., now[6]}. */
 static ALWAYS_INLINE lanes shifted(lanes before, lanes now)
 {
     return VECTOR_PICK(lanes_mask, before, now, 7, 8, 9, 10, 11, 12, 13, 14);
 }
 
-/* Not inlined: return mapping point by point (mesh_flow.h) would take registers from elastic cells. */
+/* Defines cells_flow_1, _2 and _3: cells_flow for dimension D. Not inlined, because return mapping point by point
+ * (mesh_flow.h) would take registers from elastic cells. */
 #define FLOW(D)                                                                                                        \
     static NEVER_INLINE void cells_flow_##D(const struct mesh *mesh, const struct particles *p,                        \
                                             const struct elastic *m, const int32_t *cell, struct mesh_cell *s)         \
@@ -28,14 +30,18 @@ FLOW(1)
 FLOW(2)
 FLOW(3)
 
-/* Computes stresses and bending forces of eight cells whose points yield, in dimension dim. */
+/* Computes the stress of the mean strain and the forces on the bending modes of eight cells whose points yield into *s,
+ * by return mapping at each point, and updates the plastic state of the points (cells_flow). cell: eight cell indices,
+ * -1 for a lane without cell; m: elastic constants of all materials. */
 static ALWAYS_INLINE void cells_flow_of(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         const int32_t *cell, struct mesh_cell *s, const int dim)
 {
     (dim == 1 ? cells_flow_1 : dim == 2 ? cells_flow_2 : cells_flow_3)(mesh, p, m, cell, s);
 }
 
-/* Computes the forces f [N] on the corners of eight cells, from the k-th of a run on, whose points yield. */
+/* Computes the forces f[c][i] on corner c along axis i of eight cells whose points yield [N], from the k-th cell of the
+ * row of cells `run` on, and updates the plastic state of their points. u[c][i]: displacements of the corners [m]; m:
+ * elastic constants of all materials. */
 static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, int64_t k, lanes u[CORNERS_MAX][3],
                                    lanes f[CORNERS_MAX][3], const int dim, const bool finite)
@@ -50,9 +56,11 @@ static ALWAYS_INLINE void run_flow(const struct mesh *mesh, const struct particl
     cell_corners(&s, mesh->grid.h, mesh->volume * (1 << dim), f, dim, rotates);
 }
 
-/* Adds the forces of a run to the nodes, and sets run->stressed. Cells next to each other share nodes: the forces of a
- * vector of cells on their upper corners along x are shifted by one lane and added to those on the lower corners of the
- * next cells, so that each node of the row is written once. */
+/* Adds the forces of the cells of a row of consecutive cells `run` to the nodes. Sets run->stressed if the principal
+ * stress at a point of an elastic row may exceed the conversion stress; false for rows that yield (flows). Cells next
+ * to each other share nodes: the forces on the upper corners along x of eight cells are shifted by one lane and added
+ * to those on the lower corners of the next cells, so that each node is written once. all: elastic constants of all
+ * materials. */
 static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct particles *p, struct mesh_run *run,
                                     const struct elastic *all, const int dim, const bool finite, const bool flows)
 {
@@ -89,9 +97,9 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
     for (int l = 0; l < LANES; l++) run->stressed |= tension[l] > m->trigger;
 }
 
-/* Instances: the forces of the runs of a band, and of all bands in two colours. Runs whose points yield have a function
- * of their own, since its code would take registers from elastic runs. The parallel region is inside each instance,
- * where dimension and strain measure are literals. */
+/* Defines for dimension D and strain measure FINITE: the forces of one row of cells that yields, of the rows of a band,
+ * and of all bands. Rows that yield have a function of their own, since its code would take registers from elastic
+ * rows. The parallel region is inside, where D and FINITE are literals. */
 #define BANDS(D, FINITE)                                                                                               \
     static NEVER_INLINE void run_flow_##D##_##FINITE(const struct mesh *mesh, const struct particles *p,               \
                                                      struct mesh_run *run, const struct elastic *m)                    \
@@ -120,7 +128,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
 
 /* ---- partial cells ----------------------------------------------------------------------------------------------- */
 
-/* Returns true if all cells of a group of partial cells are inactive. */
+/* Returns true if all cells of a group of eight partial cells are inactive (at rest, so that they need no forces). */
 static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t group)
 {
     uint8_t level = 0;
@@ -129,7 +137,9 @@ static ALWAYS_INLINE bool partial_inactive(const struct mesh *mesh, int64_t grou
     return level == 0;
 }
 
-/* Sets partial_stressed of the cells of a group in which a point may be past its trigger. */
+/* Sets mesh->partial_stressed for those cells of a group of eight partial cells in which the principal stress at a
+ * point may exceed the conversion stress of the material, by the bound cell_tension. s: strain of the cells; m: elastic
+ * constants of all materials. */
 static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *m, int64_t group,
                                        const struct mesh_cell *s, const int dim)
 {
@@ -144,7 +154,8 @@ static ALWAYS_INLINE void partial_mark(struct mesh *mesh, const struct elastic *
     }
 }
 
-/* Computes the forces of a group of partial cells on their corners, into mesh->partial_force [N]. */
+/* Computes the forces on the corners of a group of eight partial cells into mesh->partial_force [N], and sets their
+ * mesh->partial_stressed. Where points yield, their plastic state is updated. m: elastic constants of all materials. */
 static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                         int64_t group, const int dim, const bool finite)
 {
@@ -171,8 +182,8 @@ static ALWAYS_INLINE void partial_force(struct mesh *mesh, const struct particle
         for (int i = 0; i < dim; i++) out[c * dim + i] = f[c][i];
 }
 
-/* Adds the forces of partial cells to the nodes. Several cells share a node: forces are computed in parallel, and added
- * serially in order. */
+/* Adds the forces in mesh->partial_force of all active partial cells to the nodes. Several cells share a node, so the
+ * forces are added serially and in order. */
 static ALWAYS_INLINE void cuts_add(struct mesh *mesh, const int dim)
 {
     for (int64_t group = 0; group < mesh_groups(mesh); group++) {

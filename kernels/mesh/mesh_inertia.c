@@ -3,20 +3,23 @@
 
 #include "kernels/simd/lanes.h"
 
-/* Returns (1, 4, 1) w along x: six times the smoothing of consistent mass, without the factor 1/6. */
+/* Returns w[-1] + 4 w[0] + w[1] along x at eight nodes from *w on: six times the average S w by the consistent mass
+ * matrix of linear cells in 1D, S = (1, 4, 1)/6. */
 static ALWAYS_INLINE lanes line_smooth(const real *w)
 {
     return (lanes_load(w - 1) + lanes_load(w + 1)) + 4.0 * lanes_load(w);
 }
 
-/* Returns 36 times the smoothing S = (1, 4, 1)/6 along x and y. */
+/* Returns 36 times the average S w of the nodal values w at eight nodes from *w on, with S = (1, 4, 1)/6 along x and
+ * along y. row: index distance of neighbours along y. */
 static ALWAYS_INLINE lanes plane_smooth(const real *w, int64_t row)
 {
     return (line_smooth(w - row) + line_smooth(w + row)) + 4.0 * line_smooth(w);
 }
 
-/* Returns S w, with S = (1, 4, 1)/6 along each axis, at eight nodes all of whose cells are matched. row, layer: index
- * distances of neighbours along y and z. */
+/* Returns the average S w of the nodal values w by the consistent mass matrix of linear cells, S = (1, 4, 1)/6 along
+ * each axis, at eight nodes from *w on. All cells at these nodes must be matched. row, layer: index distances of
+ * neighbours along y and z. */
 static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_smooth(w) * (1.0 / 6);
@@ -24,7 +27,8 @@ static ALWAYS_INLINE lanes smooth(const real *w, int64_t row, int64_t layer, con
     return ((plane_smooth(w - layer, row) + plane_smooth(w + layer, row)) + 4.0 * plane_smooth(w, row)) * (1.0 / 216);
 }
 
-/* Returns the velocity of node I, some of whose cells are matched, from w = momentum over mass [m/s]. */
+/* Returns a velocity component of node I from the component w = momentum over mass of all nodes [m/s]. Used where some,
+ * but not all cells at the node are matched. */
 static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, int64_t I, const int dim)
 {
     const int corners = 1 << dim;
@@ -39,7 +43,8 @@ static ALWAYS_INLINE real node_velocity(const struct mesh *mesh, const real *w, 
     return w[I] + mesh->match * mesh->inverse_mass[I] * sum;
 }
 
-/* Computes the velocities v of the nodes of row r from w = momentum over mass [m/s], eight at a time. */
+/* Computes a velocity component v of the nodes of row r (along x) from the component w = momentum over mass [m/s], for
+ * eight nodes at a time. */
 static ALWAYS_INLINE void row_velocity(const struct mesh *mesh, int64_t r, const real *w, real *v, const int dim)
 {
     const int64_t row = dim > 1 ? mesh->corner[2] : 0, layer = dim > 2 ? mesh->corner[4] : 0,

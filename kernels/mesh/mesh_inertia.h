@@ -25,10 +25,10 @@ static ALWAYS_INLINE real mesh_consistent(int dim, int c, int k)
     return share;
 }
 
-/* Returns the quadratic form a . alpha (L - C) a of cell I [N^2/kg], summed over components, with a = f/m at its
- * corners from nodal forces f and masses m, the lumped and consistent mass matrices L and C of the cell, and the share
- * alpha = mesh->match. Sums and differences along the axes diagonalise both matrices: along one axis a . L a = (s^2 +
- * d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
+/* Returns the quadratic form a . alpha (L - C) a of cell I [N^2/kg], summed over components; a quarter of it, times
+ * dt^2, is the contribution of the cell's blended mass matrix to mesh_kick. a = f/m at its corners, from nodal forces f
+ * and masses m; L and C: lumped and consistent mass matrix of the cell; alpha = mesh->match. Sums s and differences d
+ * along the axes diagonalise both matrices: along one axis a . L a = (s^2 + d^2)/4 and a . C a = (s^2 + d^2/3)/4. */
 static inline real mesh_matched_form(const struct mesh *mesh, int64_t I)
 {
     static const real less[DIM_MAX + 1] = {0, 2.0 / 3, 8.0 / 9, 26.0 / 27}; /* 1 - 3^-n for n differences */

@@ -26,13 +26,14 @@ struct mesh_cell {
     lanes R[3][3], e[3][3], P[3][3]; /* rotation; strain and stress of the mean gradient */
 };
 
-/* Loops over sets of axes are unrolled, so that their values stay in registers. */
+/* Unrolls the following loop over sets of axes, so that the values of all modes stay in registers. */
 #define SETS _Pragma("GCC unroll 8")
 
 /* ---- modes ------------------------------------------------------------------------------------------------------- */
 
-/* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by their unscaled modes, in place:
- * v[M] = sum_c sign(M, c) v[c], with a sign for each axis in the set M that is -1 at its lower end. */
+/* Replaces the values v[c] of a nodal variable at the 2^dim corners of eight cells by the amplitudes of the modes of
+ * the cell, without their scale factor, in place: v[M] = sum_c sign(M, c) v[c] for every set of axes M (bit set), where
+ * the sign is the product over the axes in M of -1 at the lower and 1 at the upper end. */
 static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -43,8 +44,8 @@ static ALWAYS_INLINE void modes_of_corners(lanes *v, const int dim)
             }
 }
 
-/* Replaces the unscaled modes v[M] of eight cells by values at their 2^dim corners, in place: v[c] = sum_M sign(M, c)
- * v[M], the transpose of modes_of_corners. */
+/* Replaces values v[M] for all sets of axes M (bit sets) by values at the 2^dim corners of eight cells, in place: v[c]
+ * = sum_M sign(M, c) v[M], the transpose of modes_of_corners. */
 static ALWAYS_INLINE void corners_of_modes(lanes *v, const int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -258,9 +259,9 @@ static ALWAYS_INLINE lanes cell_energy(const struct mesh_cell *s, real volume, c
     return energy * (0.5 * volume);
 }
 
-/* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moment of the
- * stresses: the axial part of the sum of P U^T over all modes, with U = 1 + e of the mean strain, plus `moment`.
- * moment: per volume about each axis, of bonds at points that rotate with the cell [Pa]; overwritten. */
+/* Adds to the stress s->P of eight cells, at finite strain, the antisymmetric part that balances the moments of the
+ * stresses and of bonds. moment: moment of bonds at the points of the cell, per volume about each axis [Pa];
+ * overwritten with its sum with the axial part of P U^T over all modes, U = 1 + e of the mean strain. */
 static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const int dim)
 {
     for (int k = dim == 2 ? 2 : 0; k < 3; k++) {
@@ -272,9 +273,9 @@ static ALWAYS_INLINE void cell_balance(struct mesh_cell *s, lanes *moment, const
     add_skew(s->P, s->e, moment, dim);
 }
 
-/* Adds to the stress s->P of eight cells, at small strain, the antisymmetric part that balances the moments of bonds;
- * the rotation of the cell is then the antisymmetric part of the displacement gradient. moment: per volume about each
- * axis [Pa]. */
+/* Adds to the stress s->P of eight cells, at small strain, an antisymmetric part. It makes the corner forces balance
+ * the moments that state-based bonds exert on the material points of the cells. moment: these moments, per volume about
+ * each axis [Pa]; in 2D moment[2] only. */
 static ALWAYS_INLINE void cell_skew(struct mesh_cell *s, const lanes *moment, const int dim)
 {
     lanes none[3][3];

@@ -5,8 +5,9 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Replaces the force on constrained components by that of the prescribed motion, and adds the impulse [N s] and the
- * work [J] of the walls. The walls of one component are consecutive; their sums are added to the totals at the end. */
+/* Replaces the force on nodal components with prescribed velocity by mass times the change of that velocity per time.
+ * Adds the impulse [N s] and the work [J] that the walls exert to impulse[] and *work, and stores the reaction of each
+ * wall. The walls of one component are consecutive; their sums are added at the end. */
 static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MAX], real *work)
 {
     struct grid *g = &mesh->grid;
@@ -29,8 +30,8 @@ static void walls_force(struct mesh *mesh, real dt_velocity, real impulse[DIM_MA
     }
 }
 
-/* Adds the forces of dashpots to the nodes. The dashpots of mirror nodes are listed at their image nodes, like masses
- * and forces. */
+/* Adds the forces of dashpots to the nodal forces and sets grid.absorbed to their energy and impulse in this step.
+ * Dashpots of mirror nodes are listed at the image nodes. */
 static void dashpots_force(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -46,7 +47,7 @@ static void dashpots_force(struct mesh *mesh, real dt_velocity)
     }
 }
 
-#define OFF_PLACE 1e-6 /* largest deviation of a node from its prescribed place by round-off [cells]; empirical */
+#define OFF_PLACE 1e-6 /* largest deviation from a prescribed position that counts as round-off [cells]; empirical */
 
 /* Sets constrained components to the prescribed velocity exactly, removing round-off from velocity and displacement.
  * A displacement within OFF_PLACE cell edges of its prescribed value is set to that value; one that differs by more,
@@ -74,9 +75,9 @@ void mesh_clear(struct mesh *mesh)
                 lanes_store(mesh->grid.force[d] + I, lanes_of(0));
 }
 
-/* Moves the nodes of a row, in whole vectors: entries beyond the last node have neither force nor mass and stay at
- * rest. Returns the largest velocity component, squared [m^2/s^2], INFINITY where one is not finite: maxima drop NaN,
- * so a sum over all components detects it. */
+/* Advances velocity and displacement of the active nodes of a row (along x) by a leap-frog step, eight at a time;
+ * entries beyond the last node have neither force nor mass and stay at rest. Returns the square of the largest velocity
+ * component [m^2/s^2], INFINITY if one is not finite. Maxima ignore NaN, so the sum of all components is tested. */
 static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
 {
     const int64_t start = row * mesh->grid.count[0], first = mesh->span[2 * row], end = mesh->span[2 * row + 1];
@@ -99,9 +100,10 @@ static real row_move(struct mesh *mesh, int64_t row, real dt, real dt_velocity)
     return isfinite(all) ? largest : INFINITY;
 }
 
-/* A node beyond a mirror plane that is midway between two nodes moves as its image (grid_move.c): during the step the
- * image has the mass and the force of both. Mirror nodes are few and several may share an image: one thread, in
- * order. */
+/* Adds mass and force of each mirror node, a node beyond a plane of symmetry that is midway between two nodes, to its
+ * image node, so that the image moves with the mass and force of both (grid_move.c). Stores the own mass of the image
+ * and the impulse on the mirror node for mesh_mirror_nodes_spread. Several mirror nodes may have one image; they are
+ * few and processed in order by one thread. */
 static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
 {
     struct grid *g = &mesh->grid;
@@ -120,8 +122,9 @@ static void mesh_mirror_nodes_gather(struct mesh *mesh, real dt_velocity)
     }
 }
 
-/* Restores the masses, divides the force between node and image by their masses, gives the mirror node the reflected
- * motion, and computes the reaction of the mirror: a component that changes sign counts twice, for the node and for its
+/* Undoes mesh_mirror_nodes_gather after the step: restores the masses and divides the force between mirror node and
+ * image by their masses. Sets velocity and displacement of the mirror node to the reflected ones of its image. Adds the
+ * reaction of the plane to impulse [N s]: a component that changes sign counts twice, for the node and for its
  * image. */
 static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
 {
@@ -144,7 +147,8 @@ static void mesh_mirror_nodes_spread(struct mesh *mesh, real impulse[DIM_MAX])
     }
 }
 
-/* Updates momentum over mass of the nodes of a mesh of coarse cells, and computes their velocities from it. */
+/* Updates momentum over mass of the nodes of a mesh of coarse cells with the nodal forces, and computes the nodal
+ * velocities from it (mesh_velocity). */
 static void momentum_move(struct mesh *mesh, real dt_velocity)
 {
 #pragma omp parallel for schedule(static)

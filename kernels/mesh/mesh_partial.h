@@ -1,4 +1,5 @@
-/* Eight partial cells at once, each with its own stiffness, which follows from the points that it still has.
+/* Computes the forces of eight partial cells (cells with missing points, partial stresses, several materials or doubled
+ * nodes) at once. Each has a stiffness of its own, which follows from the points that it has.
  *
  * The energy of a cell depends on its mean strain and its bending modes (mesh_law.h), not on translation and rotation:
  * in 3D on 18 modes instead of 24 displacements. The stiffness acts on these modes and is symmetric: one half is

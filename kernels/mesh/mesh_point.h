@@ -1,10 +1,9 @@
-/* Displacement gradient, strain and stress at each material point of one cell of a mesh, point by point; mesh_law.h has
- * the sums over the points in closed form.
+/* Displacement gradient, strain and stress at each material point of one cell of a mesh, point by point (mesh_law.h has
+ * the sums over the points in closed form).
  *
- * Points are at a quarter and three quarters along every axis. Values are interpolated from corners to points, and
- * distributed from points to corners, along one axis after the other, as near + (far - near)/4. The factor 1/4 is
- * exact, so mesh_places and mesh_place_value give equal bits. Place q of a cell is the position of the point next to
- * corner q. */
+ * Point number q of a cell is at a quarter or three quarters of the edge along every axis, next to corner q. Values are
+ * interpolated from corners to points, and distributed from points to corners, along one axis after the other, as near
+ * + (far - near)/4. The factor 1/4 is exact, so mesh_places and mesh_place_value give equal bits. */
 #ifndef CLEAVE_KERNELS_MESH_POINT
 #define CLEAVE_KERNELS_MESH_POINT
 

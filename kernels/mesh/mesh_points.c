@@ -1,4 +1,5 @@
-/* The material points of a mesh: their motion, their stress, and their marks for conversion. */
+/* The material points of a mesh: interpolation of their motion, their stress, and their marks for conversion to
+ * peridynamic particles. Point number q of a cell is the one next to corner q. */
 #include "mesh_flow.h"
 #include "mesh_partial.h"
 #include "mesh_point.h"
@@ -22,7 +23,8 @@ static ALWAYS_INLINE int64_t cell_of_points(const struct mesh *mesh, int64_t k)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Moves the points of cell I whose bits are set in `places`: u_p = sum N u_I, v_p = sum N v_I with constant weights. */
+/* Sets position and velocity of the points of cell I from those of its nodes by linear interpolation, for the point
+ * numbers q whose bit q is set in `places`. */
 static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -42,7 +44,7 @@ static ALWAYS_INLINE void cell_move(const struct mesh *mesh, struct particles *p
     }
 }
 
-/* Moves point i alone. */
+/* Sets position and velocity of the single point i from those of the nodes of its cell by linear interpolation. */
 static ALWAYS_INLINE void point_move(const struct mesh *mesh, struct particles *p, int64_t i, const int dim)
 {
     const int64_t I = mesh->place[i] >> dim;
@@ -109,8 +111,8 @@ void mesh_listed_move(const struct mesh *mesh, struct particles *p, const int32_
 
 /* ---- bonded points ----------------------------------------------------------------------------------------------- */
 
-/* Computes the rotations of the cells of a group, in the layout of particles.end_rotation. rotates: from the finite
- * rotation, else from the antisymmetric part of the gradient. */
+/* Computes the rotations of eight cells with the strain s, in the layout of particles.end_rotation. rotates: true for
+ * the finite rotation s->R, false for that by the antisymmetric part of the displacement gradient. */
 static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotation, const int dim, const bool rotates)
 {
     lanes R[DIM_MAX * DIM_MAX], w[3], square = lanes_of(0);
@@ -136,7 +138,8 @@ static ALWAYS_INLINE void cells_rotate(const struct mesh_cell *s, lanes *rotatio
     for (int k = 0; k < 3; k++) rotation[k] = w[k] * rotation[3];
 }
 
-/* Sets end_strain and end_rotation of the bonded points in a group of partial cells. */
+/* Sets particles.end_strain and, in models with rotations, end_rotation of the points with state-based bonds in a group
+ * of eight partial cells, from the deformation of their cells. */
 static ALWAYS_INLINE void group_ends_update(const struct mesh *mesh, struct particles *p, int64_t group, const int dim,
                                             const bool finite)
 {
@@ -183,7 +186,8 @@ void mesh_ends_update(const struct mesh *mesh, struct particles *p, bool finite)
 
 /* ---- forces of points -------------------------------------------------------------------------------------------- */
 
-/* Adds the forces of the points of cell I whose bits are set in `places` to its nodes. */
+/* Adds the forces p->f of the points of cell I to its nodes with their interpolation weights, for the point numbers q
+ * whose bit q is set in `places`. */
 static ALWAYS_INLINE void cell_pull(struct mesh *mesh, const struct particles *p, int64_t I, unsigned places,
                                     const int dim)
 {
@@ -211,7 +215,8 @@ void mesh_exposed_force(struct mesh *mesh, const struct particles *p)
 
 /* ---- stress ------------------------------------------------------------------------------------------------------ */
 
-/* Stores the Cauchy stress R sym(s U) R^T/det U of point i with the strain e, and at finite strain its volume. */
+/* Stores the Cauchy stress of point i in p: s itself at small strain, R sym(s U) R^T/det U at finite strain, with the
+ * stress s at the strain e, U = 1 + e and the rotation R of the cell. At finite strain stores its volume, too. */
 static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct elastic *m, int64_t i, const real *R,
                                              const real *e, const int dim, bool finite)
 {
@@ -252,7 +257,7 @@ static ALWAYS_INLINE void store_point_stress(struct particles *p, const struct e
     p->volume[i] = p->volume0[i] * det;
 }
 
-/* Stores the Cauchy stresses of the points of cell I. */
+/* Stores Cauchy stress and, at finite strain, volume of the points of cell I in p. */
 static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                       const int dim, bool finite)
 {
@@ -283,7 +288,7 @@ void mesh_points_stress(const struct mesh *mesh, struct particles *p, const stru
         stress_3(mesh, p, m, finite);
 }
 
-/* Stores the displacement gradients of the points of cell I in to[a dim + b]. */
+/* Stores the displacement gradients du_a/dX_b of the points of cell I in to[a dim + b]. */
 static ALWAYS_INLINE void cell_gradient(const struct mesh *mesh, int64_t I, real *const *to, const int dim)
 {
     real g[CORNERS_MAX][DIM_MAX * DIM_MAX];
@@ -315,7 +320,7 @@ void mesh_points_gradient(const struct mesh *mesh, real *const *to)
 
 /* ---- conversion -------------------------------------------------------------------------------------------------- */
 
-/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds the trigger. */
+/* Sets FLAG_STRESSED for the points of cell I whose largest principal stress exceeds their conversion stress. */
 static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                            int64_t I, const int dim, bool finite)
 {
@@ -339,6 +344,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
     }
 DIMENSIONS(CELL_MARK)
 
+/* Calls cell_points_mark for cell I; one function per dimension, not inlined, since few cells are examined. */
 static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m, int64_t I,
                                     const int dim, bool finite)
 {
@@ -350,8 +356,9 @@ static ALWAYS_INLINE void cell_mark(const struct mesh *mesh, struct particles *p
         cell_mark_3(mesh, p, m, I, finite);
 }
 
-/* Returns an upper bound of the largest principal stress of eight cells [Pa], closer than the bound of mesh_force:
- * place by place, at places whose lane of `there` is set (NULL: at all places). */
+/* Returns an upper bound of the largest principal stress at the points of eight cells [Pa], computed at each point and
+ * hence closer than the bound of mesh_force. there[q]: mask of the cells that have point number q; NULL: all cells have
+ * all points. */
 static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                           const int dim)
 {
@@ -377,6 +384,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     }
 DIMENSIONS(TENSION)
 
+/* Returns the bound of places_tension; one function per dimension, not inlined. */
 static ALWAYS_INLINE lanes cells_tension(const struct elastic *m, const struct mesh_cell *s, const lanes_mask *there,
                                          const int dim)
 {
@@ -396,7 +404,7 @@ static ALWAYS_INLINE bool cell_mixed(const struct mesh *mesh, const struct parti
     return false;
 }
 
-/* Returns the bound of places_tension for eight cells, from the k-th of a run on [Pa]. */
+/* Returns the bound of places_tension for eight cells of a row of consecutive cells, from its k-th cell on [Pa]. */
 static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                        int64_t k, const int dim, const bool finite)
 {
@@ -407,7 +415,8 @@ static ALWAYS_INLINE lanes run_tension(const struct mesh *mesh, const struct ela
     return cells_tension(m, &s, NULL, dim);
 }
 
-/* Marks the points past their trigger in a run; cells are tested point by point where the bound exceeds the trigger. */
+/* Sets FLAG_STRESSED of the points in a row of consecutive cells whose principal stress exceeds their conversion
+ * stress. Points are examined one by one only in cells whose bound exceeds it. */
 static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                    const struct mesh_run *run, const int dim, const bool finite)
 {
@@ -419,7 +428,8 @@ static ALWAYS_INLINE void run_mark(const struct mesh *mesh, struct particles *p,
     }
 }
 
-/* Sets mark[cell] = 1 for the cells of a run in which a point may be beyond `share` [1] of the trigger. */
+/* Sets mark[cell] = 1 for the cells of a row of consecutive cells in which the principal stress of a point may exceed
+ * `share` times the conversion stress. */
 static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct elastic *m, const struct mesh_run *run,
                                          real share, uint8_t *mark, const int dim, const bool finite)
 {
@@ -431,8 +441,9 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
     }
 }
 
-/* Marks the points past their trigger in a group of partial cells. Cells are tested point by point where a bound, with
- * the material of the cell, exceeds the trigger, and always where a cell has several materials. */
+/* Sets FLAG_STRESSED of the points in a group of eight partial cells whose principal stress exceeds their conversion
+ * stress. Points are examined one by one in cells whose bound, with the material of the cell, exceeds it, and in cells
+ * with several materials. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {
@@ -455,7 +466,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
     }
 }
 
-/* Returns true if a cell of the group may have a point past its trigger. */
+/* Returns true if mesh_force has marked a cell of the group of partial cells as possibly above the conversion
+ * stress. */
 static inline bool group_stressed(const struct mesh *mesh, int64_t group)
 {
     bool any = false;

@@ -1,11 +1,12 @@
-/* Forces of eight whole cells of a run, by the closed form of mesh_law.h. */
+/* Computes the forces of eight consecutive whole cells (with all points, of one material) by the closed form of
+ * mesh_law.h. A run is a row of consecutive whole cells. */
 #ifndef CLEAVE_KERNELS_MESH_RUN
 #define CLEAVE_KERNELS_MESH_RUN
 
 #include "mesh_law.h"
 
-/* Loads the displacements u[c][i] of corner c along axis i of eight cells of a run (cells with consecutive indices)
- * [m], from its k-th cell on. Vector lanes beyond the last cell of the run are set to 0. */
+/* Loads the displacements of the corners of eight consecutive cells of the row of cells `run`, from its k-th cell on:
+ * u[c][i] of corner c along axis i [m]. Vector lanes beyond the last cell are set to 0. */
 static ALWAYS_INLINE void mesh_run_load(const struct mesh *mesh, const struct mesh_run *run, int64_t k,
                                         lanes u[CORNERS_MAX][3], const int dim)
 {

@@ -16,6 +16,8 @@
 
 enum { STENCIL_MOST = 128, MARGIN = 3 };
 
+/* A lattice of particles and its bonds. Index of a particle: sum of its position times `stride` along each axis, with a
+ * margin of particles around the lattice. */
 struct microbench_lattice {
     int dim;
     int64_t count[DIM_MAX], stride[DIM_MAX], first, n, all; /* particles, index of the first; all: with margins */
@@ -25,7 +27,7 @@ struct microbench_lattice {
     real *x[DIM_MAX], *f[DIM_MAX];
 };
 
-/* Computes the forces on eight particles from index i on. */
+/* Computes the forces of all bonds on eight particles, those with the indices i to i + 7. */
 static ALWAYS_INLINE void stencil_row_block(const struct microbench_lattice *s, int64_t i, const int dim)
 {
     const lanes x0 = lanes_load(s->x[0] + i), x1 = dim > 1 ? lanes_load(s->x[1] + i) : x0;
@@ -79,7 +81,8 @@ static void find_neighbours(struct microbench_lattice *s)
             }
 }
 
-/* Lattice positions with a small non-uniform strain, so that no operand has a special value. */
+/* Sets the positions of all particles to those of a lattice with spacing 1 and a small non-uniform strain, so that no
+ * operand has a special value. */
 static void place_lattice(struct microbench_lattice *s)
 {
     for (int64_t i = 0; i < s->all; i++) {

@@ -20,11 +20,12 @@ struct microbench_points {
     real *m, *px, *py, *fx, *fy, *ux, *uy; /* nodes: mass, momentum, force, velocity */
 };
 
-/* Hat functions and their slopes at the corners of the point's cell. */
+/* Weights N of the linear shape functions of a point at the four corners of its cell, and their slopes gx, gy [1/m]. */
 struct corner {
     real N[CORNERS], gx[CORNERS], gy[CORNERS];
 };
 
+/* Returns weights and slopes of point i at the corners of its cell. cx, cy: position of the cell in the grid. */
 static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p, int64_t i, int cx, int cy)
 {
     const real inverse = 1 / p->h, r = p->x[i] * inverse - cx, s = p->y[i] * inverse - cy;
@@ -33,14 +34,16 @@ static ALWAYS_INLINE struct corner corner_make(const struct microbench_points *p
                            .gy = {-(1 - r) * inverse, -r * inverse, (1 - r) * inverse, r * inverse}};
 }
 
+/* Returns the index of the node at corner k (0 to 3) of cell cx, cy. */
 static ALWAYS_INLINE int64_t corner_node(int cx, int cy, int k) { return (int64_t)(cy + k / 2) * NODES_X + cx + k % 2; }
 
+/* Adds sum[k] to the nodal array `field` at each corner k of cell cx, cy. */
 static void add_corners(real *field, int cx, int cy, const real *sum)
 {
     for (int k = 0; k < CORNERS; k++) field[corner_node(cx, cy, k)] += sum[k];
 }
 
-/* Maps mass, momentum and force of the points of one cell to its nodes (first map). */
+/* Adds mass, momentum and internal force of the points of cell cx, cy to its nodes (first map). */
 static void cell_scatter(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -60,8 +63,8 @@ static void cell_scatter(struct microbench_points *p, int cx, int cy)
     add_corners(p->fx, cx, cy, fx), add_corners(p->fy, cx, cy, fy);
 }
 
-/* Adds the change of the nodal velocities (in fx, fy) to the points of one cell and maps their momentum back to the
- * nodes (second map). */
+/* Adds the change of the nodal velocities (in fx, fy) to the velocities of the points of cell cx, cy, and adds their
+ * momentum to the nodes again (second map). */
 static void cell_remap(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -76,6 +79,8 @@ static void cell_remap(struct microbench_points *p, int cx, int cy)
     add_corners(p->px, cx, cy, px), add_corners(p->py, cx, cy, py);
 }
 
+/* Updates stress and volume of point i by the strain increments xx, yy, xy and the rotation angle `spin` of a step,
+ * with the objective rate of Jaumann. */
 static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, int64_t i, real xx, real yy, real xy,
                                                   real spin)
 {
@@ -86,7 +91,7 @@ static ALWAYS_INLINE void microbench_point_stress(struct microbench_points *p, i
     p->volume[i] *= 1 + xx + yy;
 }
 
-/* Updates motion and stress of the points of one cell. */
+/* Updates position, stress and volume of the points of cell cx, cy. */
 static void cell_gather(struct microbench_points *p, int cx, int cy)
 {
     const int c = cy * CELLS_X + cx;
@@ -107,7 +112,8 @@ static void cell_gather(struct microbench_points *p, int cx, int cy)
     }
 }
 
-/* Runs one map over all cells: even rows, then odd rows. */
+/* Defines map_NAME, which calls cell_NAME for all cells, first in even, then in odd rows of cells, since rows of one
+ * parity share no node. */
 #define MAP(NAME)                                                                                                      \
     static void map_##NAME(struct microbench_points *p)                                                                \
     {                                                                                                                  \
@@ -122,12 +128,14 @@ MAP(scatter)
 MAP(remap)
 MAP(gather)
 
+/* Sets mass, momentum and force of all nodes to 0. */
 static void nodes_clear(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
     for (int I = 0; I < NODES; I++) p->m[I] = p->px[I] = p->py[I] = p->fx[I] = p->fy[I] = 0;
 }
 
+/* Computes the change of velocity (in fx, fy) and the new velocity of all nodes; sets momentum to 0. */
 static void nodes_move(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
@@ -139,6 +147,7 @@ static void nodes_move(struct microbench_points *p)
     }
 }
 
+/* Divides the momentum of all nodes by their mass, after the second map. */
 static void nodes_remapped(struct microbench_points *p)
 {
 #pragma omp parallel for schedule(static)
@@ -157,8 +166,8 @@ double microbench_points_run(struct microbench_points *p)
     return (wall_clock() - start) / (double)p->n;
 }
 
-/* Places points of steel, spacing 0.5 mm, with a weak wave, so that points stay in their cells during the
- * measurement. */
+/* Sets positions, velocities, volumes and masses of the points: steel, spacing 0.5 mm, with a wave so weak that points
+ * stay in their cells during the measurement. */
 static void place_points(struct microbench_points *p)
 {
     for (int c = 0; c < CELLS_X * CELLS_Y; c++) {

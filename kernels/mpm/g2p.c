@@ -17,8 +17,8 @@
 #include "stress.h"
 #include "kernels/simd/variants.h"
 
-/* Returns the elastic constants of the points in a vector [Pa]. Usually all points have one material; other materials
- * are filled in lane by lane. */
+/* Returns the elastic constants of a few points, one per lane [Pa]. point: their numbers. Usually all points have one
+ * material; those of other materials are filled in lane by lane. */
 static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p, const struct transfer_data *t,
                                                       const int32_t *point, const int dim)
 {
@@ -34,9 +34,10 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
     return m;
 }
 
-/* Updates stress [Pa], volume [m^3] and the stretches of cpGIMP from the velocity gradient L [1/s], and sets
- * FLAG_STRESSED. The volume follows the trace of the strain in the space; in plane stress the strain through the
- * thickness is left out (below 1 % strain it changes the volume by less than 0.5 %). */
+/* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
+ * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
+ * the strain in the space; in plane stress the strain through the thickness is left out (below 1 % strain it changes
+ * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points. */
 static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t,
                                         const struct elastic_points *m, const int32_t *point, const row_of_points *L,
                                         const int dim, const enum shape shape)
@@ -62,7 +63,8 @@ static ALWAYS_INLINE void points_strain(struct particles *p, const struct transf
     }
 }
 
-/* Rotates particles.end_rotation of the points by the spin of the step (Cayley transform). */
+/* Multiplies the rotations particles.end_rotation of a few points by the rotation of the step, the Cayley transform of
+ * the antisymmetric part of L dt. point: numbers of the points; L: velocity gradients [1/s]. */
 static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *point, const row_of_points *L, real dt,
                                         const int dim)
 {
@@ -90,9 +92,9 @@ static ALWAYS_INLINE void points_rotate(struct particles *p, const int32_t *poin
     for (int c = 0; c < ROTATION; c++) points_store(p->end_rotation[c], point, next[c], dim);
 }
 
-/* Applies the return mapping to point i: the part of the trial stress beyond the yield surface becomes plastic strain.
- * FLAG_STRESSED is cleared where the returned stress does not exceed the trigger. Runs last and on stored values, so
- * that points that cannot yield keep their values in registers. */
+/* Applies return mapping to point i: the part of its stress beyond the yield surface becomes plastic strain. Clears
+ * FLAG_STRESSED if the resulting stress does not exceed the conversion stress. Works on stored values after all other
+ * updates, so that points that cannot yield keep their values in registers. */
 static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic *m, int64_t i, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -107,7 +109,8 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     if (!(stress_principal(stress, dim) > point_trigger(m, p, i))) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
-/* Adds `step` [m] to the positions of the points. Returns a bit mask of the points that left their cell. */
+/* Adds the displacements `step` [m] to the positions of the points of stencil s. Returns a bit mask: bit k is set if
+ * point k has left cell c. */
 static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c, struct particles *p,
                                      const struct cell_stencil *s, const row_of_points *step, const int dim)
 {
@@ -121,8 +124,8 @@ static ALWAYS_INLINE int points_move(const struct grid *g, const struct cell *c,
     return points_signs((row_of_points)~inside);
 }
 
-/* Returns -1 for points that move with the second map (points with bonds; with momentum_only or second_map all points),
- * 1 for all others. */
+/* Returns in each lane -1 if the point moves with the velocities of the second map (remap.c), else 1. Points with bonds
+ * do; if momentum_only or second_map is set, all do. point: numbers of the points. */
 static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, const int32_t *point, const int dim)
 {
     const bool all = t->momentum_only || t->second_map;
@@ -131,8 +134,9 @@ static ALWAYS_INLINE row_of_points points_bonded(const struct transfer_data *t, 
     return bonded;
 }
 
-/* Computes velocity [m/s] and velocity gradient L [1/s] at the points. The nodes of a row are added first, since they
- * share the weight of the directions across the row. */
+/* Computes velocity[dim] [m/s] and velocity gradient L[dim dim] [1/s] at the points of stencil s of cell c, by
+ * interpolation from the nodes. bonded: result of points_bonded. The nodes of a row are added first, since they have
+ * one weight in the directions across the row. */
 static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell *c, const struct cell_stencil *s,
                                         const row_of_points bonded, row_of_points *velocity, row_of_points *L,
                                         const int dim, const enum shape shape, const enum transfer transfer)
@@ -163,7 +167,8 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
-/* Updates the n listed points, at most AT_ONCE, of cell c. Returns how many left the cell. */
+/* Updates the n listed points (n <= AT_ONCE) of cell c: position, stress, volume, and with APIC velocity and its
+ * gradient. Returns the number of points that have left the cell. */
 static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
                                     const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                     const enum shape shape, const enum transfer transfer)
@@ -187,7 +192,8 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
-/* Prefetches the data that g2p_points reads of the point ORDER_AHEAD entries after entry k of the list. */
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which g2p_points will read; once per
+ * cache line. */
 static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -197,8 +203,8 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
 }
 
-/* Updates the n points of one cell and returns how many left it. The cell is computed again for every AT_ONCE points:
- * most cells need one pass only, so it is not kept in registers. */
+/* Updates the n listed points of one cell (g2p_points). Returns the number of points that have left the cell. The cell
+ * is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       const int32_t *list, int n, const int dim, const enum shape shape,
                                       const enum transfer transfer)

@@ -14,8 +14,9 @@ void grid_clear(struct grid *g)
     }
 }
 
-/* Constrains one velocity component of a wall node: the reaction replaces the force, and with APIC also the momentum.
- * Adds the impulse [N s] and the work [J] of the wall. */
+/* Sets one velocity component of a node to the velocity that the wall w prescribes; the reaction replaces the force,
+ * and with APIC also the momentum. Adds the impulse [N s] and the work [J] of the wall to impulse[] and *work, and
+ * stores w->reaction. Does nothing for nodes lighter than smallest_mass [kg]. */
 static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, real smallest_mass, real impulse[DIM_MAX],
                       real *work)
 {
@@ -42,8 +43,8 @@ static void wall_move(struct grid *g, struct wall *w, enum transfer transfer, re
  * f_g), as if the mirrored body were present, for every shape. Mirror nodes are few and several may share an image;
  * they are processed in order by one thread. */
 
-/* Adds mass, force and momentum of each mirror node to its image and sets them to 0 at the mirror node. `taken` keeps
- * the impulse that the points gave to the mirror node [N s]. */
+/* Adds mass, reflected force and reflected momentum of each mirror node to its image node, and sets them to 0 at the
+ * mirror node. Stores in `taken` the impulse that the points gave to the mirror node [N s]. */
 static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, real dt_velocity)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -61,9 +62,10 @@ static void grid_mirror_nodes_gather(struct grid *g, enum transfer transfer, rea
     }
 }
 
-/* Gives each mirror node the reflected motion of its image, and computes the reaction of the plane. A component that
- * changes sign needs the impulse m_g dv_g - dt f_g at the node and an equal impulse at its image: together they do no
- * work, since node and image move in opposite directions. */
+/* Sets velocity and change of velocity of each mirror node to the reflected ones of its image node, and adds the
+ * reaction of the plane of symmetry to impulse [N s]. A component that changes sign needs the impulse m_g dv_g - dt f_g
+ * at the node and an equal impulse at its image: together they do no work, since node and image move in opposite
+ * directions. */
 static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, real impulse[DIM_MAX])
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++) {
@@ -93,8 +95,8 @@ static void grid_mirror_nodes_spread(struct grid *g, enum transfer transfer, rea
  * no weight in the balance and equals that of its points. Wall nodes neither lead nor follow. FLIP gains no energy from
  * light nodes. Followers are few and processed in order. */
 
-/* Returns the heaviest of the nearest nodes of node I with more mass than g->light_mass, neighbours along axes before
- * neighbours along diagonals; -1 if no such node exists. */
+/* Returns the node that determines the motion of the light node I: the heaviest adjacent node with more mass than
+ * g->light_mass, along the axes if there is one, else along diagonals; -1 if there is none. */
 static int64_t leader_of(const struct grid *g, int64_t I)
 {
     int64_t leader = -1;
@@ -116,13 +118,16 @@ static int64_t leader_of(const struct grid *g, int64_t I)
     return leader;
 }
 
+/* Compares two light nodes by their node index, for sorting. */
 static int by_node(const void *a, const void *b)
 {
     const struct follower *p = a, *q = b;
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Lists the light nodes of this step (struct follower) in ascending order. */
+/* Lists in g->follower the light nodes of this step, heavier than smallest_mass and lighter than g->light_mass [kg],
+ * with the heavier nodes from which their acceleration is extrapolated (struct follower); ascending by node. Nodes held
+ * by walls are left out. */
 static void followers_find(struct grid *g, real smallest_mass)
 {
     int64_t n = 0;
@@ -143,8 +148,8 @@ static void followers_find(struct grid *g, real smallest_mass)
     array_sort(g->follower, n, sizeof *g->follower, by_node);
 }
 
-/* Adds `times` the force and the mass of node I to node J for the computation of its acceleration; keeps the velocity
- * of J. */
+/* Adds `times` the force and the mass of node I to node J, from which the acceleration of J is computed. The momentum
+ * of J is scaled so that its velocity does not change. */
 static void lend(struct grid *g, int64_t I, int64_t J, real times)
 {
     const real more = times * g->mass[I] / g->mass[J];
@@ -155,7 +160,8 @@ static void lend(struct grid *g, int64_t I, int64_t J, real times)
     g->mass[J] += times * g->mass[I];
 }
 
-/* Finds the followers (APIC only) and transfers their force and mass; called before velocities are computed. */
+/* Lists the light nodes (APIC only) and transfers their force and mass to the heavier nodes from which their
+ * acceleration is extrapolated. Called before velocities are computed. */
 static void followers_in(struct grid *g, enum transfer transfer, real smallest_mass)
 {
     g->followers = 0;
@@ -171,7 +177,8 @@ static void followers_in(struct grid *g, enum transfer transfer, real smallest_m
     }
 }
 
-/* Extrapolates the change of velocity of the followers [m/s] and adds it; called after velocities are computed. */
+/* Extrapolates the change of velocity of the light nodes in g->follower from the heavier nodes and adds it to their
+ * velocity. Called after velocities are computed. */
 static void followers_out(struct grid *g)
 {
     for (int64_t k = 0; k < g->followers; k++)
@@ -182,8 +189,9 @@ static void followers_out(struct grid *g)
         }
 }
 
-/* Applies dashpots to the velocities that the forces have given. Nodes lighter than light_mass or smallest_mass are
- * left out. Few; a serial loop keeps sums independent of the threads. */
+/* Applies dashpots to the nodal velocities after the forces have changed them, and sets g->absorbed to their energy and
+ * impulse in this step. Nodes lighter than light_mass or smallest_mass [kg] are left out. Dashpots are few; a serial
+ * loop keeps sums independent of the number of threads. */
 static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
 {
     const real least = smallest_mass > g->light_mass ? smallest_mass : g->light_mass;
@@ -201,7 +209,8 @@ static void grid_absorb(struct grid *g, real dt_velocity, real smallest_mass)
     }
 }
 
-/* Corrects the energy of dashpots to the velocities of the second map, which points take in FLIP. */
+/* Corrects the energy of dashpots in g->absorbed to the velocities of the second map in g->momentum, which points
+ * receive in FLIP. */
 static void grid_absorb_again(struct grid *g)
 {
     for (int64_t k = 0; k < g->dashpots; k++)

@@ -17,17 +17,20 @@
 #include "turn.h"
 #include "kernels/simd/variants.h"
 
-/* Sums over the points of a cell, by rows of its nodes: mass, momentum, force. */
+/* Sums over the points of a cell for every node that they reach, by rows of four nodes: mass [kg], components of
+ * momentum [kg m/s], components of force [N]. */
 typedef row_of_nodes cell_sums[1 + 2 * DIM_MAX][ROWS_MAX];
 
-/* Returns the index of sigma_ab among the components of a symmetric tensor. */
+/* Returns the index of component ab among the stored components of a symmetric tensor, in the order xx, yy, zz, xy, yz,
+ * zx (in 2D xx, yy, xy). */
 static ALWAYS_INLINE int symmetric_place(int a, int b, const int dim)
 {
     return a == b ? a : dim == 2 ? 2 : a + b == 1 ? 3 : a + b == 3 ? 4 : 5;
 }
 
-/* Adds the force of the antisymmetric part of the stress, f_a = -V sum_b skew_ab grad_b. Only bonded points of
- * state-based models have one (partial_stress.c). */
+/* Adds to the force sums of a cell the force of the antisymmetric part of the stress of point `at` of stencil s, f_a =
+ * -V sum_b skew_ab grad_b. Does nothing unless the point has bonds of a state-based model (partial_stress.c). row:
+ * weights and slopes of a row at this point. */
 static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, const struct transfer_data *t,
                                    const struct cell_stencil *s, const struct touch *row, int at, const int dim,
                                    const enum shape shape)
@@ -50,13 +53,15 @@ static ALWAYS_INLINE void p2g_skew(cell_sums sum, const struct particles *p, con
     }
 }
 
-/* Returns true if points extrapolate their velocity to the positions of the nodes. */
+/* Returns true if points extrapolate their velocity to the positions of the nodes, with a velocity gradient: with APIC,
+ * and if points rotate in groups. */
 static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim, const enum transfer transfer)
 {
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Returns the slope of velocity component d along e with which point i extrapolates [1/s]. */
+/* Returns the derivative of velocity component d along axis e with which point i extrapolates its velocity to nodes
+ * [1/s]. */
 static ALWAYS_INLINE real slope_given(const struct particles *p, const struct transfer_data *t, int64_t i, int d, int e,
                                       const int dim, const enum transfer transfer)
 {
@@ -64,8 +69,8 @@ static ALWAYS_INLINE real slope_given(const struct particles *p, const struct tr
     return turn_slope(t, i, d, e, 0.5, dim);
 }
 
-/* Adds mass, momentum and force of point `at` to the sums of its cell. Factors of the directions along a row, equal for
- * all rows, are computed once. */
+/* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
+ * row, equal for all rows, are computed once. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
                                        const struct transfer_data *t, const struct cell_stencil *s, int at,
                                        const int dim, const enum shape shape, const enum transfer transfer)
@@ -114,7 +119,8 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     if (__builtin_expect(p->end_moment[0] != NULL, 0)) p2g_skew(sum, p, t, s, &row, at, dim, shape);
 }
 
-/* Prefetches the data that p2g_particle reads of the point ORDER_AHEAD entries after entry k of the list. */
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which p2g_particle will read; once
+ * per cache line. */
 static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *list, int k, const int dim,
                                     const enum transfer transfer)
 {
@@ -126,7 +132,7 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
 }
 
-/* Maps the n points of one cell to its nodes. */
+/* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. */
 static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const int32_t *list, int n, const int dim, const enum shape shape,
                                    const enum transfer transfer)
@@ -171,7 +177,8 @@ p2g_fn *const p2g_table[DIM_MAX + 1][SHAPES][TRANSFERS] = {SHAPE_VARIANTS(ENTRIE
 
 /* ---- single field of a few points -------------------------------------------------------------------------------- */
 
-/* Adds `value` of point i to `field` with the weights of the first map. */
+/* Adds value N of point i to the nodal array `field`, with the weights N of the first map. half_width: half the
+ * reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void spread_particle(const struct grid *g, const struct particles *p, real half_width, int32_t i,
                                           real value, real *field, const int dim, const enum shape shape)
 {

@@ -1,5 +1,6 @@
-/* Return mappings of the four spaces (Simo & Hughes 1998). `bound` is the yield stress before the step, sigma_y + H
- * a. */
+/* Return mapping of von Mises plasticity in the four spaces (Simo & Hughes 1998). In the functions below s is the trial
+ * stress [Pa], replaced by the stress on the yield surface; `bound` is the yield stress before the step, sigma_y + H a,
+ * with the accumulated plastic strain a; the result da is the increment of a [1], 0 for an elastic step. */
 #include "plastic.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 #define RETURN_CLOSE 1e-15
 enum { RETURN_STEPS = 40 };
 
-/* Maps back a uniaxial stress: |sigma| - E da = bound + H da. Returns da. */
+/* Return mapping of a uniaxial stress s[0]: solves |s| - E da = bound + H da. Returns da. */
 static real return_line(const struct elastic *m, real *s, real bound)
 {
     const real excess = fabs(s[0]) - bound;
@@ -19,8 +20,8 @@ static real return_line(const struct elastic *m, real *s, real bound)
     return more;
 }
 
-/* Computes radial return: q - 3 G da = bound + H da. q2: q^2 of the trial stress. Returns da, and in *left the factor
- * on the deviator. */
+/* Solves q - 3 G da = bound + H da, the radial return of a trial stress with the equivalent stress q. q2: q^2 [Pa^2].
+ * Returns da; *left: receives the factor by which the deviator of the stress is multiplied, unchanged if da = 0. */
 static real return_radial(const struct elastic *m, real q2, real bound, real *left)
 {
     if (!(q2 > bound * bound)) return 0;
@@ -29,7 +30,7 @@ static real return_radial(const struct elastic *m, real q2, real bound, real *le
     return more;
 }
 
-/* Maps back a 3D stress radially. Returns da. */
+/* Radial return of a 3D stress s (xx, yy, zz, xy, yz, zx). Returns da. */
 static real return_solid(const struct elastic *m, real *s, real bound)
 {
     const real mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
@@ -42,8 +43,8 @@ static real return_solid(const struct elastic *m, real *s, real bound)
     return more;
 }
 
-/* Maps back a plane-strain stress radially, with sigma_zz from eps_zz = 0: nu (sigma_xx + sigma_yy) plus the plastic
- * part *out_of_plane, which is updated. Returns da. */
+/* Radial return of a plane-strain stress s (xx, yy, xy). sigma_zz follows from eps_zz = 0: nu (sigma_xx + sigma_yy)
+ * plus the part *out_of_plane due to plastic strain [Pa], which is updated. Returns da. */
 static real return_plane_strain(const struct elastic *m, real *s, real bound, real *out_of_plane)
 {
     const real zz = m->poisson * (s[0] + s[1]) + *out_of_plane, mean = (s[0] + s[1] + zz) / 3;
@@ -56,12 +57,12 @@ static real return_plane_strain(const struct elastic *m, real *s, real bound, re
     return more;
 }
 
-/* Maps back a plane-stress stress, projected onto sigma_zz = 0 (Simo & Hughes 1998, section 3.4): with p = xx + yy and
- * d = xx - yy
+/* Return mapping of a plane-stress stress s (xx, yy, xy) within sigma_zz = 0 (Simo & Hughes 1998, section 3.4). Returns
+ * da. With p = xx + yy and d = xx - yy
  *     q^2 = p^2/4 + 3 d^2/4 + 3 xy^2,   p = p_trial/(1 + A t),   d, xy = trial/(1 + 3 G t),   A = E/(2 (1 - nu))
  * and t = da/q from q (1 - H t) = bound. Written as 1 - H t - bound/q(t) = 0 the left side is decreasing and convex,
  * since 1/q is a power mean of two linear functions, which is concave: Newton's method from t = 0 increases to the
- * root. Returns da. */
+ * root. */
 static real return_plane_stress(const struct elastic *m, real *s, real bound)
 {
     const real p = s[0] + s[1], d = s[0] - s[1], even = 0.25 * p * p, odd = 0.75 * d * d + 3 * s[2] * s[2];

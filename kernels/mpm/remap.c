@@ -5,10 +5,11 @@
 #include "shape.h"
 #include "kernels/simd/variants.h"
 
-/* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
+/* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the change of the nodal velocities to the velocities of the points; `momentum`: their new momentum [kg m/s]. */
+/* Interpolates the change of the nodal velocities (g->force) to the points of stencil s and adds it to their
+ * velocities. momentum[dim]: receives their new momentum, one lane per point [kg m/s]. */
 static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cell_stencil *s, const struct grid *g,
                                        const struct cell *c, struct particles *p, const int dim, const enum shape shape)
 {
@@ -32,7 +33,8 @@ static ALWAYS_INLINE void remap_gather(row_of_points *momentum, const struct cel
     }
 }
 
-/* Prefetches the data that remap_gather reads of the point ORDER_AHEAD entries after entry k of the list. */
+/* Prefetches the data of the point ORDER_AHEAD entries after entry k of the list, which remap_gather will read; once
+ * per cache line. */
 static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *list, int k, const int dim)
 {
     int64_t i;
@@ -41,7 +43,8 @@ static ALWAYS_INLINE void remap_fetch(const struct particles *p, const int32_t *
     for (int d = 0; d < dim; d++) fetch(p->x[d] + i), fetch(p->v[d] + i);
 }
 
-/* Applies both halves of the map to the n listed points (n <= AT_ONCE) of cell c; adds to the sums of the cell. */
+/* Updates the velocities of n listed points (n <= AT_ONCE) of cell c by the change of the nodal velocities, and adds
+ * their new momentum to the sums of the cell. */
 static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, const struct cell *c, struct particles *p,
                                        const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                        const enum shape shape)
@@ -64,7 +67,8 @@ static ALWAYS_INLINE void remap_points(cell_rows sum, const struct grid *g, cons
     }
 }
 
-/* Applies both halves of the map to the n points of one cell. */
+/* Updates the velocities of the n listed points of one cell by the change of the nodal velocities, and adds their new
+ * momentum to the nodes of the grid. */
 static ALWAYS_INLINE void remap_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                      const int32_t *list, int n, const int dim, const enum shape shape)
 {

@@ -1,7 +1,7 @@
-/* The second map of MUSL for points that rotate (data/turning.h), in two halves, because the angular momentum gained by
- * the points of a group is distributed among them in between: points receive the change of the nodal velocities, and
- * the angular momentum that they lack is recorded; then nodes receive the velocity of the points, extrapolated to the
- * node as a rotation. */
+/* The second map of MUSL for points in rotating groups (data/turning.h), in two halves. First points receive the change
+ * of the nodal velocities, and the angular momentum that this interpolation loses is stored for each point. The caller
+ * then distributes the angular momentum of each group to its points. At last nodes receive the momentum of the points,
+ * whose velocity is extrapolated to the node with the spin of the group. */
 #include "kernels/kernels.h"
 #include "scatter.h"
 #include "shape.h"
@@ -11,13 +11,14 @@
 /* Component c of a vector product a x b is a_FIRST b_SECOND - a_SECOND b_FIRST. */
 #define FIRST(c) (((c) + 1) % 3)
 #define SECOND(c) (((c) + 2) % 3)
-/* First component of a spin: in 2D z alone. */
+/* Index of the first component of a spin: in 2D spins have the component z only. */
 #define SPIN_FROM(dim) ((dim) == 2 ? 2 : 0)
 
 /* ---- nodes to points --------------------------------------------------------------------------------------------- */
 
-/* Adds the change of the nodal velocities to the n listed points (n <= AT_ONCE) of cell c. Stores in t->turn the
- * angular momentum m sum N (x_I - x_p) x dv_I, which a point cannot take [kg m^2/s]. */
+/* Interpolates the change dv_I of the nodal velocities (g->force) to n listed points (n <= AT_ONCE) of cell c and adds
+ * it to their velocities. Stores in t->turn the angular momentum m sum N (x_I - x_p) x dv_I of each point, which this
+ * interpolation loses [kg m^2/s]. */
 static ALWAYS_INLINE void turn_gather_points(const struct grid *g, const struct cell *c, struct particles *p,
                                              const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                              const enum shape shape)
@@ -70,10 +71,11 @@ SHAPE_VARIANTS_TURNING(GATHER)
 
 /* ---- points to nodes --------------------------------------------------------------------------------------------- */
 
-/* Sums of momentum by rows of the nodes of a cell [kg m/s]. */
+/* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at` to the sums; w: spin of its group (t->turn) [1/s]. */
+/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at` of stencil s to the sums of its cell, to second order in w
+ * dt (turn.h). w: spin of the group of the point, in t->turn [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
                                              const struct transfer_data *t, const struct cell_stencil *s, int at,
                                              const int dim, const enum shape shape)
@@ -102,7 +104,7 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
     }
 }
 
-/* Maps the momentum of the n points of one cell to its nodes. */
+/* Adds the momentum of the n listed points of one cell to the nodes of the grid (turn_scatter_point). */
 static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct particles *p,
                                             const struct transfer_data *t, const int32_t *list, int n, const int dim,
                                             const enum shape shape)

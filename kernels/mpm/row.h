@@ -1,6 +1,6 @@
-/* Vectors of the four nodes of a row, or of as many points as fit into a register, one node or point per lane. Maps
- * from nodes to points have points in the lanes, maps from points to nodes have nodes in the lanes: neither adds across
- * lanes. */
+/* Vectors of the four nodes of a row of grid nodes, or of as many material points as fit into a register, one node or
+ * point per lane. Interpolation from nodes to points has points in the lanes, summation from points to nodes has nodes
+ * in the lanes: neither adds across lanes. */
 #ifndef CLEAVE_KERNELS_ROW
 #define CLEAVE_KERNELS_ROW
 
@@ -85,14 +85,15 @@ static ALWAYS_INLINE int smaller(int a, int b) { return a < b ? a : b; }
 /* Returns how many of `left` remaining points are processed at once. */
 static ALWAYS_INLINE int at_once(int left, const int dim) { return smaller(left, AT_ONCE(dim)); }
 
-/* Returns true if all lanes are one point. The branch saves time where cells have one point, and costs none where they
- * have four. */
+/* Returns true if all lanes hold the same point, as in cells with one point (2D and 3D). The branch saves time there,
+ * and costs none where cells have four points. */
 static ALWAYS_INLINE bool points_alone(const int32_t *point, const int dim)
 {
     return dim > 1 && point[0] == point[POINTS - 1];
 }
 
-/* Loads the entries of an array for a few points, at any indices. */
+/* Returns the entries from[point[k]] of an array for the listed points, one per lane. point: numbers of POINTS points
+ * (in 1D of two, which are repeated). */
 static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *point, const int dim)
 {
     if (points_alone(point, dim)) return points_of(from[point[0]]);
@@ -101,7 +102,7 @@ static ALWAYS_INLINE row_of_points points_load(const real *from, const int32_t *
     return a;
 }
 
-/* Stores the entries of an array for a few points, at any indices; lanes of one point must have equal values. */
+/* Stores lane k of a in to[point[k]] for the listed points. Lanes that hold the same point must have equal values. */
 static ALWAYS_INLINE void points_store(real *to, const int32_t *point, row_of_points a, const int dim)
 {
     to[point[0]] = a[0];

@@ -5,9 +5,9 @@
 
 #include "kernels/kernels.h"
 
-/* Returns true, once per cache line, when the line of the point ORDER_AHEAD entries after entry k of the list should be
- * prefetched; *i: that point. The cells of a row read two (in 3D four) lines of many arrays, more than the hardware
- * prefetcher follows. */
+/* Returns true if the data of the point ORDER_AHEAD entries after entry k of the list should be prefetched: for one
+ * point per cache line. *i: receives this point. The points of a row of cells occupy two (in 3D four) lines in many
+ * arrays, more than the hardware prefetcher follows. */
 static ALWAYS_INLINE bool fetch_now(const int32_t *list, int k, int64_t *i)
 {
     *i = list[k + ORDER_AHEAD];

@@ -15,7 +15,9 @@
  *
  * Weights are computed for a few points of a cell at once, one point per lane, so that no sum runs across lanes. */
 
-/* Computes hat functions: 1 - t, t. */
+/* Computes weights N and slopes dN/dt of linear (hat) functions at the four nodes of a row, for a few points (one per
+ * lane): 1 - t and t at the two nodes of the cell, 0 at the outer nodes. t: distance from the lower node of the cell,
+ * in node distances. */
 static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     N[0] = N[3] = dN[0] = dN[3] = points_of(0);
@@ -23,17 +25,16 @@ static ALWAYS_INLINE void shape_linear(row_of_points t, row_of_points N[ROW], ro
     dN[1] = points_of(-1), dN[2] = points_of(1);
 }
 
-/* Computes the weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row, for a few points (one per
- * lane): means of linear (hat) functions over the width 2l <= 2 of the particle. t: distance from the lower node of the
- * cell, l: half width, inverse_width: 1/(2 l), all in node distances.
+/* Computes weights N and slopes dN/dt of GIMP shape functions at the four nodes of a row, for a few points (one per
+ * lane): linear (hat) functions averaged over the width 2l of the particle. t: distance from the lower node of the
+ * cell, l <= 1: half width, inverse_width: 1/(2 l), all in node distances.
  *
- * The hat functions of the two nodes of the cell continue as straight lines beyond it. A particle that extends over the
- * lower end of the cell by b = (l - t)_+ gives the node below the weight b^2/4l, and the kink of both hats at that end
- * changes their means by multiples of b^2/4l; the upper end is treated alike. So a node that the particle just touches
- * gets a weight of the correct size, never below 0: such a node may have no other weight, and momentum that a node
- * without mass receives is lost. GIMP keeps 2l <= 1 and has three nodes. A stretched particle (cpGIMP) reaches into the
- * neighbouring cells, whose nodes are the four of its row; contiguous particles then divide every hat without gap or
- * overlap, and a uniform stress leaves no residual (contiguous particles: Bardenhagen & Kober 2004). */
+ * A particle that extends over the lower end of the cell by b = (l - t)_+ gives the node below the cell the weight
+ * b^2/4l, and changes the averages of the two hats with a kink at that end by multiples of b^2/4l; likewise at the
+ * upper end. Computed in this form, the weight of a node that the particle just touches has a correct size and is never
+ * below 0. This matters, since the node may have no other mass, and momentum that a node without mass receives is lost.
+ * GIMP with 2l <= 1 has three nodes with weights. A stretched particle (cpGIMP) reaches all four; contiguous particles
+ * then cover every hat without gap or overlap, and a uniform stress leaves no residual (Bardenhagen & Kober 2004). */
 static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_points inverse_width,
                                      row_of_points N[ROW], row_of_points dN[ROW])
 {
@@ -45,7 +46,9 @@ static ALWAYS_INLINE void shape_gimp(row_of_points t, row_of_points l, row_of_po
     dN[1] = dN[3] - 2 * dN[0] - 1, dN[2] = dN[0] - 2 * dN[3] + 1;
 }
 
-/* Computes the cubic B-spline: t^3/6 and 2/3 - t^2 + t^3/2, from either end. */
+/* Computes weights N and slopes dN/dt of the cubic B-spline at the four nodes of a row, for a few points (one per
+ * lane). t: distance from the lower node of the cell, in node distances. From either end the weights are t^3/6 at the
+ * outer and 2/3 - t^2 + t^3/2 at the inner node. */
 static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row_of_points dN[ROW])
 {
     const row_of_points rest = 1 - t, t2 = t * t, rest2 = rest * rest;
@@ -55,9 +58,10 @@ static ALWAYS_INLINE void shape_cubic(row_of_points t, row_of_points N[ROW], row
     dN[1] = t * (1.5 * t - 2), dN[2] = rest * (2 - 1.5 * rest);
 }
 
-/* Makes the weights add up to 1 to the last bit: every map multiplies momentum by sum N, and on a lattice all points
- * have the same round-off, which would grow with the steps. The missing part goes to the nearer node of the cell, which
- * is never a light one. */
+/* Corrects the weights N of the four nodes of a row so that they add up to 1 without round-off. Every map multiplies
+ * momentum by sum N; on a lattice all points have the same round-off, so that an error would grow with the number of
+ * steps. The missing part is added to the nearer node of the cell, whose weight is never small. t: distance from the
+ * lower node of the cell, in node distances. */
 static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
 {
     const row_of_points missing = 1 - ((N[0] + N[2]) + (N[1] + N[3]));
@@ -65,8 +69,10 @@ static ALWAYS_INLINE void whole(row_of_points t, row_of_points N[ROW])
     N[2] += points_choose(t - 0.5, points_of(0), missing);
 }
 
-/* Computes the weights and slopes of any shape. The quadratic B-spline is the mean of a hat over a whole cell, i.e.
- * GIMP with l = 1/2. */
+/* Computes weights N and slopes dN/dt of a shape function at the four nodes of a row, for a few points (one per lane).
+ * t: distance from the lower node of the cell, l: half width of the particle, inverse_width: 1/(2 l), in node
+ * distances; l and inverse_width are read for GIMP and cpGIMP only. The quadratic B-spline is GIMP with l = 1/2, the
+ * mean of a hat over a whole cell. */
 static ALWAYS_INLINE void shape_row(const enum shape shape, row_of_points t, row_of_points l,
                                     row_of_points inverse_width, row_of_points N[ROW], row_of_points dN[ROW])
 {
@@ -102,16 +108,16 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define ROWS_Z(dim, shape) ((dim) > 2 ? IS_FACE(dim, shape) ? 2 : ACROSS : 1)
 #define ROWS(dim, shape) (ROWS_Y(dim, shape) * ROWS_Z(dim, shape))
 
-/* In 3D a point of a shape with three nodes per direction visits only the rows that it touches; in 2D a weight of zero
- * costs less than finding these rows. */
+/* True if only those rows of nodes are visited that a point touches: in 3D for shapes with three nodes per direction.
+ * In 2D a weight of zero costs less than finding these rows. */
 #define SKIPS(dim, shape) ((dim) > 2 && ((shape) == SHAPE_GIMP || (shape) == SHAPE_QUADRATIC))
 
-/* Loop over the nodes k of a row; the end nodes of a linear row have no weight and are left out. */
+/* Loop over the nodes k of a row; leaves out the two outer nodes of linear shapes, whose weights are 0. */
 #define ROW_END(dim, shape) ((shape) == SHAPE_LINEAR && !IS_FACE(dim, shape) ? 1 : 0)
 #define FOR_NODES(dim, shape) for (int k = ROW_END(dim, shape); k < ROW - ROW_END(dim, shape); k++)
 
-/* Loops over the rows k1, k2 of a patch: over all rows, over those that point `at` of a stencil touches, and over those
- * that any point of the stencil touches. */
+/* Loops over the rows of nodes k1 (along y), k2 (along z) around a cell: FOR_ROWS over all rows, FOR_TOUCHED over the
+ * rows that point `at` of the stencil s touches, FOR_ANY_TOUCHED over the rows that any point of s touches. */
 #define FOR_SPAN(low2, end2, low1, end1)                                                                               \
     for (int k2 = (low2), above = (end2); k2 < above; k2++)                                                            \
         for (int k1 = (low1), beyond = (end1); k1 < beyond; k1++)
@@ -122,16 +128,17 @@ enum { ACROSS = 4, ROWS_MAX = ACROSS * ACROSS };
 #define FOR_ANY_TOUCHED(s, dim, shape)                                                                                 \
     FOR_SPAN(SKIPS(dim, shape) ? (s)->lowest[2] : 0, SKIPS(dim, shape) ? (s)->end[2] : ROWS_Z(dim, shape),             \
              SKIPS(dim, shape) ? (s)->lowest[1] : 0, SKIPS(dim, shape) ? (s)->end[1] : ROWS_Y(dim, shape))
-/* Index of the row number k1 along y, k2 along z (variables of the enclosing loop) in arrays with one entry per row. */
+/* Index of row k1, k2 (variables of the enclosing loop) in arrays with one entry for each row of nodes around a
+ * cell. */
 #define PATCH(dim, shape) (k2 * ROWS_Y(dim, shape) + k1)
 
-/* Position of a cell in the grid. */
+/* A cell of the grid and the nodes around it that its points reach. */
 struct cell {
-    int64_t node;        /* index of the patch's lowest node */
+    int64_t node;        /* index of the lowest of these nodes */
     real place[DIM_MAX]; /* lower corner of the cell, in node distances from the anchor */
 };
 
-/* Returns the cell of point i. */
+/* Returns the grid cell that contains point i, with the lowest node that a point of the cell reaches. */
 static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct particles *p, int64_t i, const int dim,
                                            const enum shape shape)
 {
@@ -144,7 +151,7 @@ static ALWAYS_INLINE struct cell cell_make(const struct grid *g, const struct pa
     return c;
 }
 
-/* Returns the index of the first node of row k1, k2 of the patch of cell c. */
+/* Returns the index of the first node of row k1 (along y), k2 (along z) of the nodes that points of cell c reach. */
 static ALWAYS_INLINE int64_t cell_row(const struct cell *c, const struct grid *g, int k1, int k2, const int dim)
 {
     return c->node + (dim > 1 ? k1 * g->stride[1] : 0) + (dim > 2 ? k2 * g->stride[2] : 0);
@@ -156,7 +163,7 @@ static ALWAYS_INLINE int64_t row_node(const struct grid *g, int k, const int dim
     return IS_FACE(dim, shape) ? k % 2 + k / 2 * g->stride[1] : k;
 }
 
-/* Adds the values of a row to its nodes, from `to` on. */
+/* Adds the values a of the nodes of a row to the nodal array whose entry of the first node is *to. */
 static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes a, const int dim,
                                     const enum shape shape)
 {
@@ -170,7 +177,8 @@ static ALWAYS_INLINE void nodes_add(const struct grid *g, real *to, row_of_nodes
 
 /* ---- weights of a few points of a cell --------------------------------------------------------------------------- */
 
-/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. */
+/* Weights and slopes of the shape functions of a few points of a cell, one point per lane. Weights of a node are the
+ * product of N of its place in the row and the factors A of the row. */
 struct cell_stencil {
     int32_t point[POINTS];           /* padded with the last point */
     row_of_points x[DIM_MAX];        /* position [m] */
@@ -183,16 +191,18 @@ struct cell_stencil {
     int lowest[DIM_MAX], end[DIM_MAX]; /* first row that any point touches; one past the last */
 };
 
-/* Weights [1] of the nodes of a row at one point, and slopes in the directions along the row [1/m]. */
+/* Weights N [1] of the nodes of a row at one point, and their slopes D in the directions along the row [1/m]. */
 struct touch {
     row_of_nodes N, D[2];
 };
 
-/* Largest half width over h of cpGIMP: the four nodes of a row allow no more. A particle that is stretched further
- * keeps this width, and numerical fracture starts: at a stretch of 4 with two particles per cell. */
+/* Largest half width of a cpGIMP particle in node distances: the four nodes of a row allow no more. A particle that is
+ * stretched further keeps this width, and numerical fracture begins: with two particles per cell at a stretch of 4. */
 #define HALF_WIDTH_MOST 1
 
-/* Computes weights and slopes of the corners of a face, products of two hats. */
+/* Computes the weights and slopes in s of linear shape functions in 2D and 3D, where the four nodes of a "row" are the
+ * corners of a cell face z = const: products of two hat functions, and in 3D the factors along z. inverse: 1/h
+ * [1/m]. */
 static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, const int dim)
 {
     const row_of_points X[2] = {1 - s->t[0], s->t[0]}, Y[2] = {1 - s->t[1], s->t[1]};
@@ -206,9 +216,9 @@ static ALWAYS_INLINE void stencil_face(struct cell_stencil *s, real inverse, con
     s->B[2][0] = points_of(-inverse), s->B[2][1] = points_of(inverse);
 }
 
-/* Finds the rows that the points touch in direction d, for shapes with three nodes: for t < l the node above the cell
- * is excluded, else the node below. Without branches: on a lattice t = l up to round-off, so the outcome is
- * unpredictable. */
+/* Finds which rows of nodes the points of s touch in direction d, for shapes with three nodes per direction: a point
+ * with t < l does not touch the upper outer row, others not the lower outer row. l: half widths in node distances. The
+ * code has no branches, because on a lattice t = l up to round-off and the result is unpredictable. */
 static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points l, int d)
 {
     const int all = (1 << POINTS) - 1, upper = ~points_signs(s->t[d] - l) & all;
@@ -216,7 +226,8 @@ static ALWAYS_INLINE void stencil_touched(struct cell_stencil *s, row_of_points 
     s->lowest[d] = upper == all, s->end[d] = 3 + (upper > 0);
 }
 
-/* Computes weights and slopes of the points of a stencil in direction d. */
+/* Computes weights and slopes of the points of s in direction d (not for linear shapes in 2D and 3D). inverse: 1/h
+ * [1/m]; half_width: half the reference edge of a particle [m]. */
 static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct particles *p, real inverse,
                                             real half_width, int d, const int dim, const enum shape shape)
 {
@@ -236,7 +247,8 @@ static ALWAYS_INLINE void stencil_direction(struct cell_stencil *s, const struct
     if (SKIPS(dim, shape) && d > 0) stencil_touched(s, shape == SHAPE_GIMP ? l : points_of(0.5), d);
 }
 
-/* Computes weights and slopes of the n listed points (n <= AT_ONCE) of cell c. half_width: l_p [m]. */
+/* Computes the stencil s: weights and slopes of the shape functions of n listed points (n <= AT_ONCE) of cell c.
+ * half_width: half the reference edge of a particle, l_p [m]. */
 static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct grid *g, const struct cell *c,
                                             const struct particles *p, const int32_t *list, int n, real half_width,
                                             const int dim, const enum shape shape)
@@ -253,7 +265,8 @@ static ALWAYS_INLINE void cell_stencil_make(struct cell_stencil *s, const struct
         for (int d = 0; d < dim; d++) stencil_direction(s, p, inverse, half_width, d, dim, shape);
 }
 
-/* Transposes the weights and slopes of a row to one vector per point, for maps that add to nodes. */
+/* Transposes the weights and slopes of a row from one lane per point to one lane per node (s->from_N, s->from_D), for
+ * maps that add to nodes. */
 static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int dim, const enum shape shape)
 {
     if (IS_FACE(dim, shape)) return;
@@ -261,8 +274,9 @@ static ALWAYS_INLINE void stencil_transpose(struct cell_stencil *s, const int di
     rows_transpose(s->D[0], s->from_D);
 }
 
-/* Returns weights and slopes of a row at point `at`. For the corners of a face a new computation is cheaper than
- * transposing. */
+/* Returns weights and slopes of the four nodes of a row at point `at` of the stencil, one lane per node.
+ * stencil_transpose must have been called. h: node distance [m]. For linear shapes in 2D and 3D they are computed
+ * again, which is cheaper than transposing. */
 static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, int at, real h, const int dim,
                                                 const enum shape shape)
 {
@@ -273,7 +287,8 @@ static ALWAYS_INLINE struct touch stencil_touch(const struct cell_stencil *s, in
     return (struct touch){X * Y, {Y * (right * (1 / h)), X * (up * (1 / h))}};
 }
 
-/* Returns the factor of the weights of row k1, k2 due to the directions across the row, one lane per point [1]. */
+/* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), one lane per
+ * point [1]. */
 static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, int k1, int k2, const int dim,
                                                 const enum shape shape)
 {
@@ -283,7 +298,7 @@ static ALWAYS_INLINE row_of_points stencil_rows(const struct cell_stencil *s, in
     return weight;
 }
 
-/* Returns the derivative of the factor stencil_rows in direction d across the row, one lane per point [1/m]. */
+/* Returns the derivative of the factor stencil_rows along axis d, which is across the row, one lane per point [1/m]. */
 static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, int k1, int k2, int d, const int dim,
                                                   const enum shape shape)
 {
@@ -293,7 +308,8 @@ static ALWAYS_INLINE row_of_points stencil_slopes(const struct cell_stencil *s, 
     return slope;
 }
 
-/* Returns the factor stencil_rows of point `at` alone [1]. */
+/* Returns the factor by which the weights N of a row are multiplied in row k1 (along y), k2 (along z), for point `at`
+ * of the stencil [1]. */
 static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int k1, int k2, const int dim,
                                       const enum shape shape)
 {
@@ -303,7 +319,8 @@ static ALWAYS_INLINE real stencil_row(const struct cell_stencil *s, int at, int 
     return weight;
 }
 
-/* Returns the derivative stencil_slopes of point `at` alone [1/m]. */
+/* Returns the derivative of the factor stencil_row along axis d, which is across the row, for point `at` of the stencil
+ * [1/m]. */
 static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, int k1, int k2, int d, const int dim,
                                         const enum shape shape)
 {
@@ -313,7 +330,8 @@ static ALWAYS_INLINE real stencil_slope(const struct cell_stencil *s, int at, in
     return slope;
 }
 
-/* Returns the distances in direction d, along the row, from point `at` to the nodes of a row [m]. */
+/* Returns the distances along axis d from point `at` of the stencil to the four nodes of a row [m], signed. d: an axis
+ * along which the nodes of a row differ; h: node distance [m]. */
 static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, int at, real h, int d, const int dim,
                                                 const enum shape shape)
 {
@@ -323,7 +341,8 @@ static ALWAYS_INLINE row_of_nodes stencil_along(const struct cell_stencil *s, in
     return (nodes - s->t[d][at]) * h;
 }
 
-/* Returns the distances in direction d from all points of a stencil, one lane each, to node or row k [m]. */
+/* Returns the signed distances along axis d from all points of the stencil, one per lane, to node k of a row, or, if d
+ * is across the rows, to row k [m]. h: node distance [m]. */
 static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, int k, real h, int d, const int dim,
                                                  const enum shape shape)
 {
@@ -331,7 +350,8 @@ static ALWAYS_INLINE row_of_points stencil_lanes(const struct cell_stencil *s, i
     return (node - s->t[d]) * h;
 }
 
-/* Returns the distance in direction d, across the rows, from point `at` to row k [m]. */
+/* Returns the signed distance along axis d from point `at` of the stencil to row k [m]. d: an axis across the rows; h:
+ * node distance [m]. */
 static ALWAYS_INLINE real stencil_across(const struct cell_stencil *s, int at, real h, int d, int k, const int dim,
                                          const enum shape shape)
 {

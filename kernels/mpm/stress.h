@@ -20,7 +20,8 @@
  * steps. */
 #define SPIN_NONE 3e-5
 
-/* Replaces s by R s R^T with the rotation by the angle -w from x to y (w = W_xy). */
+/* Rotates the stress s (xx, yy, xy) in 2D: s = R s R^T with the rotation R by the angle -w from x to y, w = W_xy
+ * [rad]. */
 static inline void stress_rotate_2d(real *s, real w)
 {
     const real c = cos(2 * w), n = sin(2 * w), mean = 0.5 * (s[0] + s[1]), half = 0.5 * (s[0] - s[1]);
@@ -36,7 +37,8 @@ static ALWAYS_INLINE void product_3d(const real a[3][3], const real b[3][3], rea
         for (int j = 0; j < 3; j++) c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
 }
 
-/* Replaces s by R s R^T with R = exp W (Rodrigues' formula). W is given by its components W_xy, W_yz, W_zx. */
+/* Rotates the stress s (xx, yy, zz, xy, yz, zx) in 3D: s = R s R^T with R = exp W (Rodrigues' formula). wxy, wyz, wzx:
+ * components of the antisymmetric matrix W, not all 0 [rad]. */
 static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
 {
     const real S[3][3] = {{s[0], s[3], s[5]}, {s[3], s[1], s[4]}, {s[5], s[4], s[2]}};
@@ -54,7 +56,8 @@ static inline void stress_rotate_3d(real *s, real wxy, real wyz, real wzx)
     s[3] = turned[0][1], s[4] = turned[1][2], s[5] = turned[2][0];
 }
 
-/* Computes W s - s W = W s + (W s)^T for the stress of a few points; w: W_xy, in 3D also W_yz and W_zx. */
+/* Computes the first-order change of the stress by a rotation, more = W s - s W, for a few points (one per lane). s:
+ * symmetric components [Pa]; w: components W_xy, in 3D also W_yz and W_zx, of the antisymmetric matrix W [rad]. */
 static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_points *w, row_of_points *more,
                                       const int dim)
 {
@@ -69,7 +72,8 @@ static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_point
     more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
 }
 
-/* Rotates the stress of a few points, each by its own angle; points with a large angle are rotated exactly. */
+/* Rotates the stress s of a few points (one per lane), each by its own antisymmetric matrix W with components w [rad]:
+ * to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order between. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
 {
     const int n = dim * (dim + 1) / 2;
@@ -101,7 +105,8 @@ struct elastic_points {
     row_of_points c11, c12, shear, trigger, yield; /* [Pa] */
 };
 
-/* Updates the stresses s by the velocity gradient L[a dim + b] = dv_a/dx_b. Returns the trace of the strain increment
+/* Updates the stresses s of a few points (one per lane) for a time step dt [s]: rotation by the spin, then Hooke's law.
+ * L[a dim + b]: velocity gradient dv_a/dx_b [1/s]; m: elastic constants. Returns the trace of the strain increment
  * [1]. */
 static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_points *L,
                                                  const struct elastic_points *m, real dt, const int dim)
@@ -134,7 +139,8 @@ static ALWAYS_INLINE row_of_points stress_update(row_of_points *s, const row_of_
     return trace;
 }
 
-/* Returns the largest principal stress; in 3D by the trigonometric solution of the cubic equation. */
+/* Returns the largest principal stress [Pa], in 3D by the trigonometric solution of the cubic equation. s: symmetric
+ * components. */
 static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -149,8 +155,8 @@ static ALWAYS_INLINE real stress_principal(const real *s, const int dim)
     return mean + 2 * sqrt(j2 / 3) * cos(acos(cosine) / 3);
 }
 
-/* Returns an upper bound of the principal stresses. Cheap: the largest principal stress is computed only where the
- * bound exceeds the trigger. */
+/* Returns an upper bound of the largest principal stress [Pa]. The principal stress itself is computed only where this
+ * bound exceeds the conversion stress. s: symmetric components. */
 static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
 {
     if (dim == 1) return s[0];
@@ -160,7 +166,8 @@ static ALWAYS_INLINE real stress_bound(const real *s, const int dim)
     return most + 2 * (fabs(s[3]) + fabs(s[4]) + fabs(s[5]));
 }
 
-/* Returns an upper bound of the principal stresses of a few points. */
+/* Returns an upper bound of the largest principal stress of a few points, one per lane [Pa]. s: symmetric
+ * components. */
 static ALWAYS_INLINE row_of_points stress_bounds(const row_of_points *s, const int dim)
 {
     if (dim == 1) return s[0];

@@ -4,10 +4,11 @@
 
 #include "kernels/kernels.h"
 
-/* Returns the slope of velocity component d along e about point i [1/s], from the spin w of its group. Leap-frog's
- * velocity v = (x' - x)/dt is that along a chord of the circle: v = w x r - share dt w x (w x r), with share = 1/2 for
- * r at the position x' at the end of the step, -1/2 at its start. Without the second-order term rotating bodies shrink:
- * a square by 0.2 % per turn at 4000 1/s. */
+/* Returns the derivative of velocity component d along axis e by which point i extrapolates its velocity to nodes
+ * [1/s]. It follows from the spin w of the point's group, t->turn. The leap-frog velocity v = (x' - x)/dt is along a
+ * chord of the circle of rotation: v = w x r - share dt w x (w x r). share: 1/2 for r at the position x' at the end of
+ * the step, -1/2 at its start x. Without the second-order term rotating bodies shrink: a square by 0.2 % per turn at
+ * 4000 1/s. */
 static ALWAYS_INLINE real turn_slope(const struct transfer_data *t, int64_t i, int d, int e, const real share,
                                      const int dim)
 {

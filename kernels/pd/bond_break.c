@@ -1,5 +1,6 @@
-/* Breaking of bonds, scalar and exact: a bond whose stretch exceeds its critical stretch breaks for ever; at equality
- * it stays. Its energy is booked half in each of its two rows. */
+/* Breaking of bonds, one bond at a time and without tolerance. A bond whose stretch exceeds its critical stretch breaks
+ * for ever; at equality it stays intact. Each bond is stored in two rows (a row: all bonds of one particle); each row
+ * receives half of its energy. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -9,29 +10,32 @@
 #include "state_last.h"
 #include "state_laws.h"
 
-#define LIMIT_MARGIN 1e-9 /* relative tolerance, for round-off, of the vector test before the exact scalar one */
+#define LIMIT_MARGIN 1e-9 /* relative tolerance for round-off of the vector test that precedes the exact one */
 #define ROUND_OFF 1e-14   /* relative round-off of a squared elongation; matters where limits are close to 0 */
 
-/* Flags are set by the thread of a row and read by threads of neighbouring rows at the same time. The bit that is read
- * does not change; the atomic access only makes this well-defined C. */
+/* Returns true if a boundary condition drives particle i. Flags are written by the thread of the particle's row and
+ * read by other threads at the same time. The bit that is read does not change; the atomic access makes this
+ * well-defined C. */
 static bool is_driven(const struct particles *p, int32_t i)
 {
     return __atomic_load_n(&p->flag[i], __ATOMIC_RELAXED) & FLAG_DRIVEN;
 }
 
+/* Sets the bits `flag` in the flags of particle i, by an atomic store (is_driven). */
 static void set_flag(struct particles *p, int32_t i, int flag)
 {
     __atomic_store_n(&p->flag[i], (uint8_t)(p->flag[i] | flag), __ATOMIC_RELAXED);
 }
 
-/* Returns half the energy of bond q at a stretch [J]; bond-based models only. State-based rows lose a difference of
- * state_row_energy. */
+/* Returns half the elastic energy of bond q at the given stretch [J], the share of one of its two rows. Only for
+ * bond-based models. */
 static real half_energy(const struct bonds *b, int64_t q, real stretch)
 {
     return 0.25 * b->stiffness * b->w[q] * square(bond_elastic_one(b, q, stretch)) / fabs(b->inverse_length[q]);
 }
 
-/* Sets the weight of a bond to 0 for ever and updates damage, counts and flags. The caller books its energy first. */
+/* Marks bond q of a row, from particle i to j, as broken: sets its weight to 0, and updates the counts of broken bonds,
+ * the damage of particle i, and its flags. The caller adds the energy of the bond to the fracture energy before. */
 static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t q, int32_t i, int32_t j)
 {
     b->w[q] = 0;
@@ -43,7 +47,8 @@ static void bond_end(struct bonds *b, struct particles *p, int64_t row, int64_t 
     if (p->kind[i] == KIND_PD) p->damage[i] = b->broken_volume[row] / b->family_volume[row];
 }
 
-/* Updates the weighted volume of a row after a change of its weights, where families are normalised locally. */
+/* Recomputes the weighted volume of a row (all bonds of one particle) after a change of its weights. Only for
+ * state-based models that normalise by the present family, and rows that hold the complete family. */
 static void row_changed(struct bonds *b, int64_t row)
 {
     if (b->state.modulus && b->state.local && b->whole[row])
@@ -52,7 +57,8 @@ static void row_changed(struct bonds *b, int64_t row)
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Replaces the force of a breaking bond on particle i, as the sweep added it, by its `share` [1]. */
+/* Replaces the force of a breaking bond on particle i, which the force kernel has added to p->f, by `share` [1] times
+ * its force with the states before bonds broke. */
 static void last_force(const struct bonds *b, struct particles *p, const struct bond *bond, int32_t i, real share)
 {
     real given[DIM_MAX], f[DIM_MAX];
@@ -61,7 +67,9 @@ static void last_force(const struct bonds *b, struct particles *p, const struct 
     for (int d = 0; d < p->dim; d++) p->f[d][i] += share * f[d] - given[d];
 }
 
-/* Breaks bond q of a row and books its energy. */
+/* Breaks bond q of a row: replaces its force on the particle by that of the step in which it breaks (bond_last.h), adds
+ * its elastic energy to the fracture energy of the row and its plastic work to that of the row, and marks it as
+ * broken. */
 static void bond_break(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row, int64_t q)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -79,6 +87,8 @@ static void bond_break(struct bonds *b, struct particles *p, const struct bond_l
 
 /* ---- rows -------------------------------------------------------------------------------------------------------- */
 
+/* Sets the weight of bond q of a row to w and adds half of the loss of elastic energy to the fracture energy of the row
+ * (kernels.h). */
 void bond_fade(struct bonds *b, struct particles *p, int64_t row, int64_t q, real w)
 {
     const int32_t i = b->particle[row], j = b->nbr[q];
@@ -113,7 +123,8 @@ void bond_restore_entry(struct bonds *b, struct particles *p, int64_t row, int64
     row_changed(b, row);
 }
 
-/* Breaks the bonds of one row that exceed their limit. Returns how many. */
+/* Breaks the bonds of one row (all bonds of one particle) whose stretch exceeds their limit. Returns the number of
+ * bonds broken. */
 static int64_t break_row(struct bonds *b, struct particles *p, const struct bond_limit *limit, int64_t row)
 {
     const int32_t i = b->particle[row];
@@ -129,8 +140,8 @@ static int64_t break_row(struct bonds *b, struct particles *p, const struct bond
     return broken;
 }
 
-/* Returns the smallest critical stretch of all pairs of materials, less a tolerance for the round-off of vectors
- * [1]. */
+/* Returns the smallest critical stretch of all pairs of materials, less a tolerance for the round-off of the vector
+ * test [1]. */
 static real least_limit(const struct bond_limit *limit)
 {
     real least = limit->critical_stretch[0];
@@ -138,8 +149,8 @@ static real least_limit(const struct bond_limit *limit)
     return least * (1 - LIMIT_MARGIN);
 }
 
-/* Returns the larger of `largest` and the squared elongation |y|^2/|xi|^2 of the bonds of a column [1], lane by lane,
- * without a root. Broken bonds have negative values. */
+/* Returns in each lane the larger of `largest` and the squared elongation |y|^2/|xi|^2 [1] of the bond of column s in
+ * that lane. x: [dim] positions of the eight particles of the row block [m]. Broken bonds have negative values. */
 static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct particles *p, const lanes *x,
                                                  const struct column s, const int dim)
 {
@@ -152,7 +163,7 @@ static ALWAYS_INLINE lanes bond_break_largest_of(lanes largest, const struct par
     return column_largest(s, largest, distance2 * (inverse * lanes_size(inverse)));
 }
 
-/* Returns the largest squared elongation in each row of row block g [1]. */
+/* Returns for each of the eight rows of row block g the largest squared elongation |y|^2/|xi|^2 of its bonds [1]. */
 static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct particles *p, int64_t g, const int dim)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -164,7 +175,7 @@ static ALWAYS_INLINE lanes rows_largest(const struct bonds *b, const struct part
     return largest;
 }
 
-/* Returns the mask of rows of row block g with a bond beyond the stretch `least` [1], up to round-off. */
+/* Returns the mask of those rows of row block g that have a bond with a stretch above `least` [1], up to round-off. */
 static ALWAYS_INLINE lanes_mask rows_past(const struct bonds *b, const struct particles *p, int64_t g, lanes least,
                                           const int dim)
 {
@@ -181,7 +192,8 @@ real bond_row_block_stretch(const struct bonds *b, const struct particles *p, in
     return sqrt(most) * (1 + ROUND_OFF) - 1 + LIMIT_MARGIN;
 }
 
-/* Returns the mask of rows of row block g with a bond that may be beyond its limit, in the body's dimension. */
+/* Returns the mask of those rows of row block g that may have a bond above its breaking limit: above the limit stored
+ * for the row where strength is random, else above the smallest critical stretch of all materials. */
 static lanes_mask rows_due(const struct bonds *b, const struct particles *p, const struct bond_limit *limit, int64_t g)
 {
     const lanes least = p->strength ? lanes_load(b->trigger + g * LANES) : lanes_of(least_limit(limit));

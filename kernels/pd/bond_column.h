@@ -1,4 +1,5 @@
-/* Reads the eight bonds of a column with as few bytes as the kind of column allows. All kinds give equal bits. */
+/* Access to the eight bonds of a column of a row block: one bond of each of eight particles. Bonds of a lattice have
+ * data in common; each kind of column reads as few bytes as its bonds allow, and all kinds give equal bits. */
 #ifndef CLEAVE_KERNELS_BOND_COLUMN
 #define CLEAVE_KERNELS_BOND_COLUMN
 
@@ -70,25 +71,28 @@ static ALWAYS_INLINE struct column column_of(const struct bonds *b, int64_t numb
                 VISIT(column_of(B, from_ + k_, stencil_, k_, own_, COLUMN_STENCIL));                                   \
     } while (0)
 
-/* Loads the values of `from` at the eight neighbours. */
+/* Returns the values of the particle array `from` at the neighbours of the eight bonds of column s. */
 static ALWAYS_INLINE lanes column_at(const struct column s, const real *from)
 {
     return s.kind ? lanes_load(from + s.first) : lanes_at(from, (int32_t)s.first, s.b->nbr + s.number * LANES);
 }
 
-/* Returns component d of X_j - X_i of the eight bonds [m]; X: component d of the rows' particles [m]. */
+/* Returns component d of the reference bond vectors X_j - X_i of the eight bonds of column s [m]. X: component d of the
+ * reference positions X_i of the particles of the row block [m]. */
 static ALWAYS_INLINE lanes column_reference(const struct column s, const struct particles *p, int d, lanes X)
 {
     return s.stencil ? lanes_of(s.stencil->xi[d]) : column_at(s, p->X[d]) - X;
 }
 
-/* Returns w (X_j - X_i) of the eight bonds, component d [m]. */
+/* Returns component d of weight times reference bond vector of the eight bonds of column s [m]. w: their weights [1];
+ * xi: component d of their reference vectors [m]. */
 static ALWAYS_INLINE lanes column_weighted_reference(const struct column s, int d, lanes w, lanes xi)
 {
     return s.kind == COLUMN_WHOLE ? lanes_of(s.stencil->w_xi[d]) : s.kind == COLUMN_UNIT ? xi : w * xi;
 }
 
-/* Returns 1/|X_j - X_i| [1/m]; may be negative for broken bonds. */
+/* Returns the inverse reference lengths 1/|X_j - X_i| of the eight bonds of column s [1/m]; those of broken bonds may
+ * be negative. */
 static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
 {
     if (s.stencil) return lanes_of(s.stencil->inverse_length);
@@ -97,13 +101,13 @@ static ALWAYS_INLINE lanes column_inverse_length(const struct column s)
                   : lanes_load(s.b->inverse_length + s.number * LANES);
 }
 
-/* Returns the lanes that have an intact bond, one bit each. */
+/* Returns eight bits: bit l is set if the l-th bond of column s is intact. */
 static ALWAYS_INLINE uint8_t column_intact(const struct column s)
 {
     return s.stencil ? s.stencil->intact : s.b->common[s.number].intact;
 }
 
-/* Returns the weights of the eight bonds [1]. */
+/* Returns the weights of the eight bonds of column s [1], 0 for broken bonds. */
 static ALWAYS_INLINE lanes column_weight(const struct column s)
 {
     if (s.kind == COLUMN_UNIT) return lanes_of(1);
@@ -113,29 +117,30 @@ static ALWAYS_INLINE lanes column_weight(const struct column s)
     return s.kind == COLUMN_ALIKE ? lanes_keep(c->intact, lanes_of(c->w)) : lanes_load(s.b->w + s.number * LANES);
 }
 
-/* Stretch |y|/|xi| - 1 (broken bonds: possibly -|y|/|xi| - 1), rounded to a multiple of 2^-49 by passing through the
- * range 8 to 16, so that it is exactly 0 where nothing has moved. Half of that, 8 units of 2^-53, exceeds the
- * round-off: 3.5 units for the stored inverse (three squares, root, division), 1.5 for three squares, 2.1 for the root
- * and 2 for products, if all were at their worst with one sign in one bond. Without rounding such a bond would have a
- * force, and its rows would not stay at rest (active_set.h). The last bit of a position causes far more, 1e-14 in a
- * body of 100 spacings. */
+/* Computes the stretch |y|/|xi| - 1 of a bond from its length |y| and inverse reference length, rounded to a multiple
+ * of 2^-49 by passing through the range 8 to 16. Rounding makes the stretch exactly 0 where nothing has moved, so that
+ * undeformed bonds have no force and their particles stay at rest (active_set.h). Half of the unit, 8 units of 2^-53,
+ * exceeds the largest round-off of one bond: 3.5 units for the stored inverse (three squares, root, division), 1.5 for
+ * three squares, 2.1 for the root and 2 for products. Broken bonds may have a negative inverse length, which gives
+ * -|y|/|xi| - 1. */
 #define STRETCH_OF(LENGTH, INVERSE_LENGTH) (((LENGTH) * (INVERSE_LENGTH) + 8.0) - 9.0)
 
-/* Returns the larger of a and `other`, lane by lane, where the bond is intact, else a. In FREE columns broken bonds
- * have negative lengths, hence values below a. */
+/* Returns in each lane the larger of a and `other` if the bond of column s in that lane is intact, else a. Columns of
+ * the kind FREE are not masked: their broken bonds have negative lengths and hence values below a. */
 static ALWAYS_INLINE lanes column_largest(const struct column s, lanes a, lanes other)
 {
     return s.kind == COLUMN_FREE || s.kind >= COLUMN_WHOLE ? lanes_max(a, other)
                                                            : lanes_max_kept(column_intact(s), a, other);
 }
 
-/* Returns the smaller of a and `other`, lane by lane, where the bond is intact, else a. */
+/* Returns in each lane the smaller of a and `other` if the bond of column s in that lane is intact, else a. */
 static ALWAYS_INLINE lanes column_smallest(const struct column s, lanes a, lanes other)
 {
     return s.kind >= COLUMN_WHOLE ? lanes_min(a, other) : lanes_min_kept(column_intact(s), a, other);
 }
 
-/* Stores the eight values of a row block at its particles; rows: how many of the eight exist; aligned: particles are
+/* Stores the values of the eight particles of a row block in the particle array `to`. row: the numbers of these
+ * particles; rows: how many of them exist, less than 8 in the last row block; aligned: true if the numbers are
  * consecutive. */
 static ALWAYS_INLINE void rows_store(real *to, const int32_t *row, int rows, bool aligned, lanes value)
 {

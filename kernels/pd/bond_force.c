@@ -1,11 +1,12 @@
-/* Forces of all intact bonds on the particles of their rows (Silling & Askari 2005), and the breaking of bonds
+/* Forces of all intact bonds of bond-based models on particles (Silling & Askari 2005), and breaking of bonds that are
  * stretched beyond their limit.
  *
  *     s = |x_j - x_i| / |X_j - X_i| - 1,   f_i = sum_j stiffness w_ij law(s) (x_j - x_i)/|x_j - x_i|
  *
- * Eight rows at a time, column by column; each row is written by its own lane only, so the result does not depend on
- * the number of threads. Both rows of a bond compute its stretch from equal numbers with equal operations (a difference
- * and its negative), so they break it in one step without communication. */
+ * A row holds all bonds of one particle. Eight rows (a row block) are computed at a time, column by column; each row is
+ * written by its own lane only, so the result does not depend on the number of threads. Both rows of a bond compute its
+ * stretch from equal numbers with equal operations (a difference and its negative), so they break it in one step
+ * without communication. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -16,16 +17,17 @@
 #include "sweep.h"
 #include "kernels/simd/variants.h"
 
-#define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
+#define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
-/* Positions and force sums of a row block while its columns are visited; stretch, press: largest, smallest stretch
- * [1]. */
+/* Sums over the columns of a row block: positions x0, x1, x2 of its eight particles [m], forces on them over the
+ * stiffness f0, f1, f2, and the largest (stretch) and smallest (press) stretch of their bonds [1]. */
 struct bond_sums {
     lanes x0, x1, x2, f0, f1, f2, stretch, press;
 };
 
-/* Adds the forces of a column. Computing the stretch over the length as a difference of inverse lengths would be
- * cheaper, but gives a body in free fall three times the round-off. */
+/* Adds the forces of the eight bonds of column s to the sums of a row block, and updates largest and smallest stretch.
+ * The force over the length is computed from the stretch: as a difference of inverse lengths it would be cheaper, but a
+ * body in free fall would have three times the round-off. */
 static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, const struct particles *p,
                                                         const struct column s, const int dim, const enum pd_model model)
 {
@@ -46,8 +48,9 @@ static ALWAYS_INLINE struct bond_sums bond_force_column(struct bond_sums sum, co
     return sum;
 }
 
-/* Computes the forces of one row block, without cores. Returns true if a bond may be beyond its limit; sets *pressed if
- * a bond is within its core. */
+/* Computes the forces of the bonds on the particles of row block g, without their repulsive cores (bond_core.h), into
+ * p->f. Returns true if a bond may exceed its breaking limit. *pressed: set to true if a bond is compressed into its
+ * core. */
 static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                const enum pd_model model, bool *pressed)
 {
@@ -74,7 +77,8 @@ static ALWAYS_INLINE bool bond_force_row_block(const struct bonds *b, struct par
     return lanes_any(sum.stretch > lanes_load(b->trigger + g * LANES));
 }
 
-/* Computes the forces of one row block and breaks its bonds. Returns the number of bonds broken. */
+/* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
+ * limit. Returns the number of directed bonds broken. */
 static ALWAYS_INLINE int64_t bond_force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                   int64_t g, const int dim, const enum pd_model model)
 {

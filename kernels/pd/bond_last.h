@@ -28,21 +28,23 @@ static inline real stretch_limit(const struct particles *p, const struct bond_li
     return limit->critical_stretch[p->material[i] * limit->materials + p->material[j]] * bond_strength(p, i, j);
 }
 
-/* When a bond breaks: `lag`, time before the present positions [s], and `share`, the share of its force that acts in
- * this step's kick [1]. */
+/* When a bond breaks within a time step: `lag`, the time before the present positions at which its stretch exceeded the
+ * limit [s], and `share`, the fraction of its force that acts in the velocity update of this step [1]. */
 struct bond_last {
     real lag, share;
 };
 
-/* Returns, for the bond between particles i and j that has exceeded its stretch `limit`, the time before the present
- * positions at which it did so (lag [s]) and the share of its force that acts in this step [1], by the rule
- * limit->last_force. inverse_length: 1/|xi| [1/m]; plastic: plastic stretch s_p of the bond [1]. Results are bitwise
- * equal for i-j and j-i. Lag and share are 0 if the bond had already exceeded its limit one step before (rule MOMENT).
+/* Computes when the bond between particles i and j exceeded its breaking stretch, and which share of its force acts in
+ * this step, by the rule limit->last_force. inverse_length: 1/|xi| [1/m]; plastic: plastic stretch s_p of the bond [1].
+ * Returns the time before the present positions at which the bond exceeded the limit (lag [s]; 0 for all rules but
+ * MOMENT) and the share [1]. Both are 0 for rule MOMENT if the bond was above its limit already one step before.
+ * Results are bitwise equal for i-j and j-i.
  *
- * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The kick by the
- * forces at x lasts from half a step before x to half a step after. A bond that breaks at t* contributes to this kick,
- * by impulse, a share of (t* - t)/dt + 1/2, negative where the previous kick was too long. By energy: if a bond of
- * energy W and force F breaks with a share S, a leap-frog step loses, up to terms of the kick squared,
+ * In the last step positions moved from x - dt v to x, and the bond passed its limit s_c at time t*. The velocity
+ * update by the forces at x extends from half a step before x to half a step after. By impulse, a bond that breaks at
+ * t* contributes a share of (t* - t)/dt + 1/2 to this update, negative where the previous update was too large. By
+ * energy: if a bond of energy W and force F breaks with a share S, a leap-frog step loses, up to terms of the change of
+ * velocity squared,
  *
  *     W(s) - (1/2 - S) F(s) (|y(t)| - |y(t - dt)|)
  *
@@ -74,7 +76,8 @@ static inline struct bond_last bond_last_of(const struct particles *p, const str
     return (struct bond_last){lag * limit->dt, 0.5 - 0.5 * lag * (1 + part)};
 }
 
-/* Computes lag and share of entry q of a row, with length and plastic stretch as stored. */
+/* Returns the result of bond_last_of for the stored bond with index q between the particles i and j, with its stored
+ * inverse length and plastic stretch. */
 static inline struct bond_last bond_last_stored(const struct bonds *b, const struct particles *p,
                                                 const struct bond_limit *limit, int64_t q, int32_t i, int32_t j)
 {

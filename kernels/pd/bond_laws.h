@@ -9,12 +9,14 @@
 #include "kernels/kernels.h"
 #include "kernels/simd/lanes.h"
 
-/* Updates the plastic state of those of the eight bonds with indices q to q + 7 for which the mask `intact` is set, by
- * return mapping from their total stretch [1], and returns the elastic parts of all eight stretches [1]. Isotropic
- * linear hardening; s_p: plastic stretch, alpha: accumulated plastic stretch, s_y: yield stretch, H: hardening modulus
- * over the elastic one: phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha
- * += g Equals the capped force of Zeng et al. 2021, eq. 18, in monotonic loading; adds elastic unloading, which eq. 18
- * lacks. */
+/* Applies return mapping with linear isotropic hardening to the eight bonds with indices q to q + 7, and updates the
+ * plastic state of those set in the mask `intact`. stretch: total stretch s [1]. With the plastic stretch s_p, the
+ * accumulated plastic stretch alpha, the yield stretch s_y, and H, the hardening modulus over the elastic one,
+ *
+ *     phi = |s - s_p| - (s_y + H alpha),   phi > 0:  g = phi/(1 + H),  s_p += g sign(s - s_p),  alpha += g
+ *
+ * In monotonic loading this is the capped force of Zeng et al. 2021, eq. 18, which lacks elastic unloading. Returns the
+ * elastic parts s - s_p of the eight stretches. */
 static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes stretch, lanes_mask intact)
 {
     const lanes yield = lanes_gather(b->yield.stretch, b->pair + q);
@@ -30,14 +32,16 @@ static ALWAYS_INLINE lanes bond_yields(const struct bonds *b, int64_t q, lanes s
     return stretch - plastic;
 }
 
-/* Returns the force over stiffness and weight [1] of the eight bonds from entry q on: f = c s n (Silling & Askari 2005;
- * Zeng et al. 2022, eqs. 17, 29), with the elastic part of the stretch where bonds yield. Updates the plastic state. */
+/* Returns the force of the eight bonds with indices q to q + 7, divided by stiffness and weight [1]. It equals the
+ * stretch (Silling & Askari 2005; Zeng et al. 2022, eqs. 17, 29), or its elastic part where bonds yield; the plastic
+ * state of those is updated. stretch: total stretch; w: weights, 0 for broken bonds [1]. */
 static ALWAYS_INLINE lanes bond_law(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch, lanes w)
 {
     return model == PD_BOND_PLASTIC ? bond_yields(b, q, stretch, w > 0.0) : stretch;
 }
 
-/* Returns the elastic part of the stretch of the eight bonds from entry q on [1]; updates nothing. */
+/* Returns the elastic part of the stretch of the eight bonds with indices q to q + 7 [1]: the total stretch `stretch`
+ * less the stored plastic stretch of models that yield. */
 static ALWAYS_INLINE lanes bond_elastic(const enum pd_model model, const struct bonds *b, int64_t q, lanes stretch)
 {
     return model == PD_BOND_PLASTIC ? stretch - lanes_load(b->plastic_stretch + q) : stretch;
@@ -49,7 +53,8 @@ static inline real bond_elastic_one(const struct bonds *b, int64_t q, real stret
     return b->plastic_stretch ? stretch - b->plastic_stretch[q] : stretch;
 }
 
-/* Returns the elastic energy over stiffness, weight and reference length [1]. */
+/* Returns the elastic energy of eight bonds divided by stiffness, weight and reference length [1]. elastic: elastic
+ * part of their stretches [1]. */
 static ALWAYS_INLINE lanes bond_law_energy(lanes elastic) { return 0.5 * elastic * elastic; }
 
 /* ---- one bond, for samples and frames ---------------------------------------------------------------------- */

@@ -1,4 +1,5 @@
-/* Elastic energy, plastic work and stress (bond virial) of bond-based rows, for samples and frames. */
+/* Elastic energy, plastic work and stress (virial of the bonds) of bond-based models, for output. A row holds all bonds
+ * of one particle, a row block the rows of eight particles, a column one bond of each row. */
 #include <math.h>
 
 #include "bond_laws.h"
@@ -8,10 +9,10 @@
 #include "base/team.h"
 #include "kernels/simd/variants.h"
 
-#define TINY 1e-300 /* keeps the root of a padding lane's zero distance finite */
+#define TINY 1e-300 /* keeps the root finite in lanes without a bond, where the distance is 0 */
 
-/* Returns 1/|y| [1/m] of the eight bonds of a column from rows at x to neighbours at x + y; stores y [dim] [m] and the
- * stretch [1]. */
+/* Computes bond vectors y [dim] [m] and stretches [1] of the eight bonds of column s, from the positions x of the
+ * particles of the row block. Returns the inverse lengths 1/|y| [1/m]. */
 static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *y, lanes *stretch, const int dim)
 {
@@ -25,7 +26,8 @@ static ALWAYS_INLINE lanes bond_measure_store(const struct column s, const struc
     return inverse;
 }
 
-/* Returns the energies of the bonds of a column over half the stiffness; *press: the smallest stretch, updated. */
+/* Returns the elastic energies of the eight bonds of column s divided by the stiffness. x: positions of the particles
+ * of the row block; *press: lowered to the smallest stretch of the intact bonds. */
 static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struct particles *p, const lanes *x,
                                               lanes *press, const int dim, const enum pd_model model)
 {
@@ -38,7 +40,8 @@ static ALWAYS_INLINE lanes bond_energy_column(const struct column s, const struc
     return lanes_choose(w > 0.0, w * bond_law_energy(elastic) * length, lanes_of(0));
 }
 
-/* Returns the energy of the rows of row block g over half the stiffness (each bond has two rows). */
+/* Returns half the elastic energy of the bonds of the particles in row block g (each bond belongs to two particles),
+ * repulsive cores included, divided by half the stiffness. */
 static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const struct particles *p, int64_t g,
                                                 const int dim, const enum pd_model model)
 {
@@ -53,7 +56,8 @@ static ALWAYS_INLINE real bond_energy_row_block(const struct bonds *b, const str
     return total;
 }
 
-/* Adds sum_j F_ij (x) (x_j - x_i) over the stiffness of the bonds of a column to the symmetric components sum[]. */
+/* Adds the tensor F_ij (x) (x_j - x_i), divided by the stiffness, of the eight bonds of column s to sum[], symmetric
+ * components with one lane per particle. x: positions of the particles of the row block [m]. */
 static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, const struct particles *p,
                                              const lanes *x, const int dim, const enum pd_model model)
 {
@@ -65,8 +69,8 @@ static ALWAYS_INLINE void bond_stress_column(lanes *sum, const struct column s, 
     if (dim > 2) sum[4] += share * y[1] * y[2], sum[5] += share * y[2] * y[0];
 }
 
-/* Computes sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i), F_ij the force on i, for the peridynamic particles of row block
- * g (virial stress; Silling & Askari 2005). */
+/* Computes the virial stress sigma_i = (1/2V) sum_j F_ij (x) (x_j - x_i) of the peridynamic particles of row block g
+ * into p->stress [Pa], where F_ij is the force of bond i-j on i (Silling & Askari 2005). */
 static ALWAYS_INLINE void bond_stress_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                                 const enum pd_model model)
 {
@@ -100,6 +104,7 @@ real bond_row_plastic_path(const struct bonds *b, int64_t row)
     return all > 0 ? sum / all : 0;
 }
 
+/* Returns the plastic work of row `row` for reproducible_sum. context: the bonds. */
 static real bond_measure_plastic_term(const void *context, int64_t row) { return bond_row_plastic_work(context, row); }
 
 real bond_plastic_work(const struct bonds *b)
@@ -107,7 +112,8 @@ real bond_plastic_work(const struct bonds *b)
     return b->plastic_path ? reproducible_sum(b->rows, bond_measure_plastic_term, b) : 0;
 }
 
-/* Row blocks are summed in blocks of fixed size, and the blocks in order: equal bits on any number of threads. */
+/* Row blocks are summed in blocks of ROW_BLOCK_PER_BLOCK, and these sums in order, so that results have equal bits on
+ * any number of threads. */
 enum { ROW_BLOCK_PER_BLOCK = 64, BLOCKS_AT_ONCE = 256 };
 
 #define INSTANCE(D, M)                                                                                                 \

@@ -18,15 +18,16 @@
 #include "state_last.h"
 #include "state_laws.h"
 
-enum { MANY = 4096 }; /* smallest number of bonds for which a thread team pays; empirical */
+enum { MANY = 4096 }; /* number of bonds above which a thread team is faster than one thread; empirical */
 
-/* Eight bonds to clamped images: y from row particle to image [m], weight, 1/|xi|, inverse = 1/|y| [1/m], stretch
- * [1]. */
+/* Eight bonds to mirror images in clamped planes: vector y from particle to image [m], weight w [1], inverse_length
+ * 1/|xi|, inverse 1/|y| [1/m], and stretch [1]. */
 struct across {
     lanes y[DIM_MAX], w, inverse_length, inverse, stretch;
 };
 
-/* Loads and measures the eight bonds from entry k on. */
+/* Computes vector, lengths and stretch of the eight bonds k to k + 7 in the list c of bonds to mirror images in clamped
+ * planes. */
 static ALWAYS_INLINE struct across across_of(const struct clamped *c, const struct particles *p, int64_t k,
                                              const int dim)
 {
@@ -41,7 +42,8 @@ static ALWAYS_INLINE struct across across_of(const struct clamped *c, const stru
     return a;
 }
 
-/* Stores the reactions of eight bonds from k on: minus half of the force that the sweep gave the row (bond-based). */
+/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], for bond-based
+ * models: minus half of the force that the force kernel gave the particle of the row. */
 static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim)
 {
     const struct clamped *c = &b->clamped;
@@ -53,7 +55,8 @@ static ALWAYS_INLINE void bond_reactions(const struct bonds *b, const struct par
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, share * a.y[d]);
 }
 
-/* Stores the reactions of eight bonds from k on: minus the force state of the row (state_laws.h). */
+/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], for state-based
+ * models: minus the force that follows from the state of the particle of the row (state_laws.h). */
 static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct particles *p, int64_t k, const int dim,
                                           const bool rotates)
 {
@@ -73,7 +76,7 @@ static ALWAYS_INLINE void state_reactions(const struct bonds *b, const struct pa
     for (int d = 0; d < dim; d++) lanes_store(c->reaction[d] + k, -a.w * (along * a.inverse * a.y[d] + effective[d]));
 }
 
-/* Stores the reactions of eight bonds from k on, in any model. */
+/* Computes the reactions of bonds k to k + 7 in the list b->clamped into its member `reaction` [N], in any model. */
 static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const struct particles *p, int64_t k,
                                                 const int dim)
 {
@@ -85,7 +88,8 @@ static ALWAYS_INLINE void clamp_force_reactions(const struct bonds *b, const str
         state_reactions(b, p, k, dim, false);
 }
 
-/* Adds the reactions on the h-th particle that has any, as listed in c->end, to its force. */
+/* Adds the reactions on the h-th particle of the list c->particle to its force p->f. Each reaction is reflected from
+ * the mirror image to this particle, its source. */
 static void clamp_force_give(const struct clamped *c, struct particles *p, int64_t h)
 {
     for (int d = 0; d < p->dim; d++) {
@@ -96,15 +100,16 @@ static void clamp_force_give(const struct clamped *c, struct particles *p, int64
     }
 }
 
-/* Copies the weights of the bonds to clamped images from the rows. */
+/* Copies the weights of the bonds to mirror images in clamped planes from the bond arrays to the list b->clamped. */
 static void weights_follow(struct bonds *b)
 {
     struct clamped *c = &b->clamped;
     for (int64_t k = 0; k < c->n; k++) c->w[k] = b->w[c->entry[k]];
 }
 
-/* Replaces the reactions of bonds that the sweep broke by those of the last force: with the share and the states of
- * bond_last.h. The weights copied before the sweep show which bonds broke. */
+/* Replaces the reactions of the bonds in b->clamped that the force kernel has broken in this step by those of their
+ * force in this step: a fraction of the force with the states before they broke (bond_last.h). Bonds that broke are
+ * those whose copied weight is not 0 and whose present weight is 0. */
 static void reactions_last(const struct bonds *b, const struct particles *p, const struct bond_limit *limit)
 {
     const struct clamped *c = &b->clamped;

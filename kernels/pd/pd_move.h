@@ -5,8 +5,9 @@
 #include "kernels/divergence.h"
 #include "kernels/kernels.h"
 
-/* Returns which of the first n of eight particles move now, one bit each: those that are not on the grid and not
- * `loaded` [n, NULL: none]. */
+/* Returns a bit for each of the first n of eight listed particles, set if the particle is moved now: if it is not moved
+ * by the grid and loaded[i] is 0. loaded: [particles] not 0 for particles that are moved later, after the loads are
+ * applied; NULL: none. */
 static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t *list, int n, const uint8_t *loaded)
 {
     const int32_t first = list[0];
@@ -18,7 +19,8 @@ static ALWAYS_INLINE unsigned pd_movers(const struct particles *p, const int32_t
     return bits;
 }
 
-/* Stores a[l] in to[list[l]] for the movers; together: all eight move and are consecutive. */
+/* Stores a[l] in to[list[l]] for those of the eight listed particles whose bit l is set in `movers`. together: true if
+ * all bits are set and the particle numbers are consecutive. */
 static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together, unsigned movers, lanes a)
 {
     if (together)
@@ -28,8 +30,9 @@ static ALWAYS_INLINE void pd_store(real *to, const int32_t *list, bool together,
             if (movers >> l & 1) to[list[l]] = a[l];
 }
 
-/* Moves eight particles: v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21), stored for `movers` only;
- * together: all eight move and are consecutive. Returns true if one of the movers has diverged. */
+/* Advances eight listed particles by a leap-frog step, v += dt_velocity f/m, x += dt v (Zeng et al. 2022, eq. 21). Only
+ * the particles whose bit is set in `movers` are changed. together: true if all bits are set and the particle numbers
+ * are consecutive. Returns true if one of the moved particles has diverged. */
 static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsigned movers, const struct pd_motion *m,
                                   const int dim, const bool together)
 {
@@ -51,8 +54,8 @@ static ALWAYS_INLINE bool pd_step(struct particles *p, const int32_t *list, unsi
     return any;
 }
 
-/* Moves those of the first n of eight listed particles that may move now (pd_movers). list: ascending, aligned to 32
- * bytes. Returns true if one of them has diverged. */
+/* Advances those of the first n of eight listed particles that pd_movers selects by a leap-frog step. list: ascending,
+ * aligned to 32 bytes; loaded: as in pd_movers. Returns true if one of them has diverged. */
 static ALWAYS_INLINE bool pd_move_eight(struct particles *p, const int32_t *list, int n, const uint8_t *loaded,
                                         const struct pd_motion *m, const int dim)
 {

@@ -7,7 +7,8 @@
 
 #include "base/base.h"
 
-/* Computes R in 2D: its angle is that of the vector (M11 + M22, M21 - M12). */
+/* Computes the rotation R nearest to the 2 x 2 matrix M (row major): its angle is that of the vector (M11 + M22, M21 -
+ * M12). The identity if this vector is 0. */
 static inline void polar_rotation_2d(const real *M, real *R)
 {
     const real c = M[0] + M[3], s = M[2] - M[1], size = sqrt(c * c + s * s);
@@ -16,8 +17,9 @@ static inline void polar_rotation_2d(const real *M, real *R)
     R[1] = -R[2];
 }
 
-/* Computes R in 3D by Newton's iteration R <- (R + R^-T)/2 (Higham 1986) from M scaled to unit size. Returns the
- * identity if M is singular or inverted (determinant <= 0), as cut families may be. */
+/* Computes the rotation R nearest to the 3 x 3 matrix M (row major), by Newton's iteration R <- (R + R^-T)/2 (Higham
+ * 1986) from M scaled to unit size. R is the identity if M is singular or inverted (determinant <= 0), as possible for
+ * families that have lost bonds. */
 static inline void polar_rotation_3d(const real *M, real *R)
 {
     real size = 0;

@@ -1,11 +1,12 @@
-/* Storage of particle rotations in state-based sweeps, eight at once: R - 1 times the spring g of the family.
+/* How state-based kernels store the rotation R of a particle: as g (R - 1), with the spring stiffness g of its family
+ * (all neighbours of a particle). In 2D these are the four entries of that matrix.
  *
  * In 3D four numbers replace nine: with the unit quaternion (q, q0) of R, and (a, s) = sqrt(2 g) (q, q0),
  *
  *     g (R - 1) v = 2 g [q0 q x v + q x (q x v)] = a x (s v + a x v)
  *
- * Fewer loads pay: neighbours are read at unaligned addresses, and seven of eight such loads touch two cache lines.
- * Where R is exactly 1, a is exactly 0, and so is the product. */
+ * This saves time because neighbours are read at unaligned addresses, and seven of eight such loads touch two cache
+ * lines. Where R is exactly 1, a is exactly 0, and so is the product. */
 #ifndef CLEAVE_KERNELS_ROTATION
 #define CLEAVE_KERNELS_ROTATION
 
@@ -33,7 +34,8 @@ static ALWAYS_INLINE lanes quaternion_row(const lanes *R, lanes *row)
     return largest;
 }
 
-/* Computes the stored form of rotation R (row major) with spring g [N/m]. */
+/* Computes the stored numbers, rotation[ROTATION], of eight rotations R (row major) of particles whose families have
+ * the spring stiffnesses `spring`, g [N/m]: in 2D g (R - 1), in 3D sqrt(2 g) times the unit quaternion of R. */
 static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes spring, const int dim)
 {
     if (dim == 2) {
@@ -45,7 +47,8 @@ static ALWAYS_INLINE void rotation_make(lanes *rotation, const lanes *R, lanes s
     for (int c = 0; c < ROTATION; c++) rotation[c] *= scale;
 }
 
-/* Subtracts g (R - 1) arm from f, both [dim]. In 2D the matrix is (a, -c; c, a). */
+/* Subtracts the product of the stored matrix g (R - 1) with the vector `arm` from the vector f, for eight particles. f,
+ * arm: [dim]; rotation: numbers stored by rotation_make. In 2D the matrix is (a, -c; c, a). */
 static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lanes *arm, const int dim)
 {
     if (dim == 2) {
@@ -64,11 +67,12 @@ static ALWAYS_INLINE void rotate_back(lanes *f, const lanes *rotation, const lan
     }
 }
 
-/* Returns true if rotate_back reads entry c. */
+/* Returns true if rotate_back reads number c of a stored rotation, so that it must be loaded: in 3D all, in 2D numbers
+ * 0 and 2. */
 static ALWAYS_INLINE bool rotation_reads(int c, const int dim) { return dim > 2 || c % 2 == 0; }
 
-/* Returns true if entry c changes sign under a reflection normal to `axis` (-1: none): all components of a rotation
- * vector change sign but the one along the axis. */
+/* Returns true if number c of a stored rotation changes sign when the particle is reflected in a plane normal to `axis`
+ * (-1: no plane). All components of a rotation vector change sign except the one along the normal. */
 static inline bool rotation_antisymmetric(int c, int axis, int dim)
 {
     return axis >= 0 && (dim == 2 ? c == 1 || c == 2 : c < 3 && c != axis);

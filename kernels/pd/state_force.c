@@ -1,6 +1,6 @@
-/* Forces of state-based peridynamics (state_laws.h): a sweep over the rows for the states of families (pressure,
- * spring, rotation), then a sweep over their bonds for the forces. In both each row is written by one thread: equal
- * bits on any number of threads. */
+/* Forces of state-based peridynamics (state_laws.h). A first loop over the rows (a row: all bonds of one particle, its
+ * family) computes the states of families: pressure, spring stiffness and rotation. A second loop computes the forces
+ * of bonds from these. In both each row is written by one thread, which gives equal bits on any number of threads. */
 #include <math.h>
 #include <string.h>
 
@@ -16,15 +16,16 @@
 
 /* ---- first sweep: states of families ----------------------------------------------------------------------------- */
 
-/* Sums over the families of a row block. stretch, press: largest and smallest bond stretch [1]; moved: nonzero where a
- * bond vector differs from its reference, so that an undeformed family has exactly no rotation; moment: sum w Y (x)
- * xi. */
+/* Sums over the families of the eight particles of a row block: extension, sum w r e; moment, sum w Y (x) xi; largest
+ * (stretch) and smallest (press) stretch of the bonds [1]; moved, nonzero where a bond vector differs from its
+ * reference, so that an undeformed family has exactly no rotation. */
 struct family_sums {
     lanes extension, stretch, press, moment[DIM_MAX * DIM_MAX];
     lanes_mask moved;
 };
 
-/* Adds a column: sum w r e, with e = r (|Y|/r - 1), and sum w Y (x) xi. */
+/* Adds the eight bonds of a column to the sums of a row block: w r e, with the extension e = |Y| - r, and in models
+ * with rotations w Y (x) xi. x, X: [dim] present and reference positions of the eight particles [m]. */
 static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struct particles *p,
                                             const struct column column, const lanes *x, const lanes *X, const int dim,
                                             const enum pd_model model)
@@ -44,7 +45,9 @@ static ALWAYS_INLINE void precompute_column(struct family_sums *sum, const struc
     }
 }
 
-/* Computes the stored rotation of families from their moments; exactly none where no particle has moved. */
+/* Computes the rotations of eight families from their moments, sum w Y (x) xi, in the form in which they are stored
+ * (rotation.h); exactly none where no neighbour has moved (moved = 0). spring: spring stiffness of the families
+ * [N/m]. */
 static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, lanes_mask moved, lanes spring,
                                           const int dim)
 {
@@ -54,14 +57,15 @@ static ALWAYS_INLINE void family_rotation(lanes *rotation, const lanes *moment, 
     rotation_make(rotation, R, spring, dim);
 }
 
-/* Moduli and family sums of eight rows; 0 where a family has no bonds. */
+/* Moduli and weighted volumes Q of the families of eight particles; inverse and share are 0 for families without
+ * bonds. */
 struct own_family {
     lanes A, B;    /* moduli [Pa] */
     lanes inverse; /* 1/Q [1/m^2] */
-    lanes share;   /* V/Q, of a full family if the moduli are [m] */
+    lanes share;   /* V/Q, with the weighted volume of a full family if the moduli refer to it [m] */
 };
 
-/* Computes the moduli and weighted volumes of row block g. */
+/* Returns the moduli and weighted volumes of the families of the eight particles of row block g. */
 static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int32_t *row = b->particle + g * LANES;
@@ -76,12 +80,12 @@ static ALWAYS_INLINE struct own_family own_family_of(const struct bonds *b, cons
     return f;
 }
 
-/* Pressure P, spring g and stored rotation (rotation.h) of eight families. */
+/* Pressure P, spring stiffness g and stored rotation (rotation.h) of the families of eight particles. */
 struct family_state {
     lanes pressure, spring, rotation[ROTATION];
 };
 
-/* Stores the states of row block g. */
+/* Stores the states *k of the families of the eight particles of row block g in b->state. */
 static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const struct family_state *k,
                                            const enum pd_model model)
 {
@@ -96,7 +100,7 @@ static ALWAYS_INLINE void precompute_store(struct bonds *b, int64_t g, const str
 
 /* ---- bonded material points -------------------------------------------------------------------------------------- */
 
-/* Returns the mask of rows of row block g that are material points. */
+/* Returns the mask of those rows of row block g whose particles are material points. */
 static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct particles *p, int64_t g)
 {
     lanes_mask end;
@@ -104,7 +108,9 @@ static ALWAYS_INLINE lanes_mask ends_of(const struct bonds *b, const struct part
     return end;
 }
 
-/* Computes the stored form (rotation.h) of the rotations of the cells with spring g; back: of the inverse rotations. */
+/* Computes the rotations of the cells of eight material points in the form in which rotations are stored (rotation.h),
+ * from particles.end_rotation. row: numbers of the points; own: the first of them if they are consecutive, else -1;
+ * spring: spring stiffness; back: true for the inverse rotations. */
 static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *row, int32_t own, lanes spring,
                                       const bool back, lanes *rotation, const int dim)
 {
@@ -118,8 +124,10 @@ static ALWAYS_INLINE void ends_rotate(const struct particles *p, const int32_t *
     for (int c = 0; c < ROTATION; c++) rotation[c] = (c < 3 ? axis : scale) * lanes_at(p->end_rotation[c], own, row);
 }
 
-/* Stores the moment of the bonds about bonded points, an axial vector: component ji less ij of g R^T M with M = sum w Y
- * (x) xi. */
+/* Stores in particles.end_moment the moment of the bonds about those of eight material points that are set in the mask
+ * `end`, 0 for the others [N m]. It is the axial vector of g R^T M with M = sum w Y (x) xi: component k is entry ji
+ * less entry ij. row, own: as in ends_rotate; rows: number of points that exist; sum: sums of the row block; spring:
+ * spring stiffness g. */
 static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, int rows, int32_t own, lanes_mask end,
                                       const struct family_sums *sum, lanes spring, const int dim)
 {
@@ -140,8 +148,9 @@ static ALWAYS_INLINE void ends_moment(struct particles *p, const int32_t *row, i
     }
 }
 
-/* Updates the states of bonded material points in row block g: the cell adds its share to S, and gives the rotation.
- * Stores the conjugate reactions end_pull and end_moment. */
+/* Updates the states *k of those particles of row block g that are material points: their cells add a part of the mean
+ * strain, which changes the pressure, and determine the rotation. Stores the reactions of the bonds on the cells in
+ * particles.end_pull and end_moment. */
 static __attribute__((noinline)) void ends_update(struct bonds *b, struct particles *p, int64_t g,
                                                   const struct own_family *f, const struct family_sums *sum,
                                                   struct family_state *k, const int dim, const enum pd_model model)
@@ -161,7 +170,8 @@ static __attribute__((noinline)) void ends_update(struct bonds *b, struct partic
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
-/* Computes the states of a row block from its sums. */
+/* Computes the states of the families of row block g from their sums and stores them in b->state, material points with
+ * bonds included. */
 static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles *p, int64_t g,
                                                const struct family_sums *sum, const int dim, const enum pd_model model)
 {
@@ -180,8 +190,9 @@ static ALWAYS_INLINE void precompute_by_family(struct bonds *b, struct particles
     precompute_store(b, g, &k, model);
 }
 
-/* First sweep over one row block: sums, flags of bonds beyond limits or in cores, states, and mixed states of families
- * that lose bonds. */
+/* Does the first loop of the force for row block g: sums over its families, and their states. Sets b->state.past[g] if
+ * a bond may exceed its breaking limit, and b->state.pressed[g] if a bond is compressed into its repulsive core. Where
+ * bonds break, the states of the remaining bonds are mixed (state_last.h). */
 static ALWAYS_INLINE void precompute_row_block(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                                int64_t g, const int dim, const enum pd_model model)
 {
@@ -224,16 +235,16 @@ static void state_of_images(struct bonds *b, const struct particles *p, int dim,
 
 /* ---- second sweep: forces ---------------------------------------------------------------------------------------- */
 
-/* A row block while its columns are visited; arm = sum w xi, to which the rotation of the row's own particle is applied
- * at the end. */
+/* Positions, states and sums of a row block in the second loop: forces f on its eight particles, and arm = sum w xi, to
+ * which the rotations of the particles themselves are applied at the end. */
 struct state_sums {
     lanes x[DIM_MAX], X[DIM_MAX], f[DIM_MAX], arm[DIM_MAX], pressure, spring;
 };
 
-/* Adds the forces of a column. Ordinary model: with q = e/|Y|, r/|Y| = 1 - q, so w (r P + e g)/|Y| = w [P + (g - P) q],
- * two products fewer than with the stretch. Modified model: the effective displacement Y - R xi is computed as (Y - xi)
- * - (R - 1) xi, exactly 0 where nothing has moved; the row's own rotation is applied to the sum of arms in
- * force_row_block. */
+/* Adds the forces of the eight bonds of a column to the sums of a row block. Ordinary model: with q = e/|Y|, r/|Y| = 1
+ * - q, so w (r P + e g)/|Y| = w [P + (g - P) q], two products fewer than with the stretch. Modified model: the
+ * effective displacement Y - R xi is computed as (Y - xi) - (R - 1) xi, exactly 0 where nothing has moved; the
+ * rotations of the row block's own particles are applied in force_row_block. */
 static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct particles *p, const struct column column,
                                        const int dim, const enum pd_model model)
 {
@@ -264,7 +275,8 @@ static ALWAYS_INLINE void force_column(struct state_sums *sum, const struct part
         sum->f[d] += f[d]; /* one addition per column: shortest chain of dependent additions */
 }
 
-/* Computes the forces on the particles of one row block. */
+/* Computes the forces of all bonds on the particles of row block g into p->f, without repulsive cores, from the states
+ * in b->state. */
 static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particles *p, int64_t g, const int dim,
                                           const enum pd_model model)
 {
@@ -289,7 +301,8 @@ static ALWAYS_INLINE void force_row_block(const struct bonds *b, struct particle
     for (int d = 0; d < dim; d++) rows_store(p->f[d], row, rows, own >= 0, sum.f[d]);
 }
 
-/* Computes the forces of one row block and breaks its bonds. Returns the number of bonds broken. */
+/* Computes the forces on the particles of row block g, repulsive cores included, and breaks its bonds beyond their
+ * limit. Returns the number of directed bonds broken. */
 static ALWAYS_INLINE int64_t force_and_break(struct bonds *b, struct particles *p, const struct bond_limit *limit,
                                              int64_t g, const int dim, const enum pd_model model)
 {

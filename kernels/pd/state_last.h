@@ -1,6 +1,7 @@
-/* Families in the step in which they lose bonds. A breaking bond acts with the states (pressure, spring, rotation) of
- * the whole families (bond_last.h). The forces of the remaining bonds depend on these families too: in the last kick
- * they use a mixture, `share` times the state with the breaking bonds plus (1 - share) times the state without. */
+/* State-based bonds in the step in which they break. A breaking bond acts with the states (pressure, spring stiffness,
+ * rotation) of the families of both particles before it broke, times the fraction `share` of bond_last.h. The forces of
+ * the remaining bonds depend on these families, too: in this step they use the mixture of `share` times the state with
+ * and (1 - share) times the state without the breaking bonds. */
 #ifndef CLEAVE_KERNELS_STATE_LAST
 #define CLEAVE_KERNELS_STATE_LAST
 
@@ -10,15 +11,18 @@
 #include "polar.h"
 #include "rotation.h"
 
-/* Sums over those bonds of one particle that do not break in this step. */
+/* Sums over the bonds of one particle (its family) that do not break in this step, with weight w, reference vector xi
+ * of length r, deformed vector Y and extension e. */
 struct family_left {
     real extension, weighted;       /* sum w r e, with e = r stretch; sum w r^2 [m^2] */
     real moment[DIM_MAX * DIM_MAX]; /* sum w Y (x) xi [m^2] */
-    real share;                     /* mean share of the breaking bonds (struct bond_last) [1] */
-    int64_t ended;                  /* number of breaking bonds */
+    real share; /* mean, over the breaking bonds, of the fraction of the force with which they act in this step (struct
+                   bond_last) [1] */
+    int64_t ended; /* number of breaking bonds */
 };
 
-/* Computes the sums over the bonds of a row that stay below their limit, and counts the breaking bonds in `ended`. */
+/* Computes the sums over those bonds of a row (all bonds of one particle) that stay below their limit, counts the
+ * breaking bonds in `ended`, and averages their fraction of the force in `share`. */
 static inline struct family_left family_left_of(const struct bonds *b, const struct particles *p,
                                                 const struct bond_limit *limit, int64_t row)
 {
@@ -43,10 +47,13 @@ static inline struct family_left family_left_of(const struct bonds *b, const str
     return left;
 }
 
-/* Replaces *value by the mixture share * *value + (1 - share) * left. */
+/* Replaces *value by share * *value + (1 - share) * left, the mixture of the values with and without the breaking
+ * bonds. */
 static inline void state_mix(real *value, real left, real share) { *value = share * *value + (1 - share) * left; }
 
-/* Mixes the stored rotation of particle i with the rotation of its remaining family. spring: g of the family [N/m]. */
+/* Replaces the stored rotation of particle i by the mixture (state_mix) of the rotation with and without its breaking
+ * bonds. left: sums over its remaining bonds; spring: spring stiffness g of its family without the breaking bonds
+ * [N/m]. */
 static inline void rotation_mix(struct state *t, int32_t i, const struct family_left *left, real spring, int dim)
 {
     real R[DIM_MAX * DIM_MAX], along = 0;
@@ -59,8 +66,9 @@ static inline void rotation_mix(struct state *t, int32_t i, const struct family_
     for (int c = 0; c < ROTATION; c++) state_mix(&t->rotation[c][i], sign * kept[c][0], left->share);
 }
 
-/* Mixes the state of one row with that of its remaining family, if bonds of it are breaking. Bonded material points
- * keep their state, since their cells contribute to it. */
+/* Replaces pressure, spring stiffness and rotation of the particle of a row by the mixture (state_mix) of the states
+ * with and without its breaking bonds. Does nothing if none of its bonds breaks, and for material points, to whose
+ * state their cells contribute. */
 static inline void state_mix_row(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                  int64_t row)
 {
@@ -77,8 +85,9 @@ static inline void state_mix_row(struct bonds *b, const struct particles *p, con
     state_mix(&b->state.spring[i], spring, left.share);
 }
 
-/* Stores the states of a row block with bonds beyond their limit in state.before, for the breaking bonds, then mixes
- * the states that the remaining bonds use. */
+/* Copies the states of the particles of a row block (rows of eight particles), in which bonds exceed their limit, to
+ * state.before; the breaking bonds use them. Then replaces the states in b->state by the mixtures that the remaining
+ * bonds use in this step. */
 static inline void state_last(struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                               int64_t row_block)
 {
@@ -93,9 +102,10 @@ static inline void state_last(struct bonds *b, const struct particles *p, const 
 
 /* ---- force of a breaking bond ------------------------------------------------------------------------------------ */
 
-/* Returns component c of the state (0 pressure, 1 spring, 2 .. rotation) of the family of particle i before it lost
- * bonds. For an image: the state of its source, reflected as in state_of_images, because the bond from the source to
- * the image of the other particle breaks in the same step and must use equal numbers. */
+/* Returns component c of the state of particle i before its bonds broke in this step: c = 0 pressure, 1 spring
+ * stiffness, from 2 on the stored rotation. For a mirror image it is the state of its source, reflected as in
+ * state_of_images: the bond from the source to the image of the other particle breaks in the same step and must use
+ * equal numbers. */
 static inline real state_before(const struct bonds *b, const struct particles *p, int c, int64_t i)
 {
     const struct state *t = &b->state;
@@ -110,8 +120,8 @@ static inline real state_before(const struct bonds *b, const struct particles *p
     return sign * (c == 0 ? t->pressure[i] : c == 1 ? t->spring[i] : t->rotation[c - 2][i]);
 }
 
-/* Computes the force of the bond i-j on i, f[dim] [N], from the states of both particles. now: present states if true,
- * states before bonds broke if false. */
+/* Computes the force of a state-based bond on particle i, f[dim] [N], from the states of both particles. now: true for
+ * their present states, false for the states before bonds broke in this step. */
 static inline void state_pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond,
                                     int32_t i, bool now, real *f, const int dim)
 {
@@ -139,7 +149,9 @@ static inline void state_pair_force(const struct bonds *b, const struct particle
         f[d] = bond->w * (along * y[d] / length + (rotates ? spring * (y[d] - xi[d]) + turned[d][0] : 0));
 }
 
-/* Computes the force of a bond on i, f[dim] [N], in any model; now: as in state_pair_force. */
+/* Computes the force of a bond on particle i of its row, f[dim] [N], in a bond-based or state-based model. now, for
+ * state-based models: true for the present states of both particles, false for the states before bonds broke in this
+ * step. */
 static inline void pair_force(const struct bonds *b, const struct particles *p, const struct bond *bond, int32_t i,
                               bool now, real *f)
 {

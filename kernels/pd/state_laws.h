@@ -31,7 +31,8 @@
 
 #define STATE_TINY 1e-300 /* keeps roots of a padding lane finite */
 
-/* Vectors and lengths of the eight bonds of a column, for both sweeps. */
+/* Vectors and lengths of the eight bonds of a column (one bond of each particle of a row block), for both loops of a
+ * state-based force. */
 struct state_bond {
     lanes y[DIM_MAX], xi[DIM_MAX]; /* deformed and reference vector [m]; xi only in models with rotations */
     lanes distance2;               /* |Y|^2 [m^2] */
@@ -41,7 +42,8 @@ struct state_bond {
 /* Returns true if the model has rotations of the particles. */
 static ALWAYS_INLINE bool state_rotates(const enum pd_model model) { return model == PD_MOSPD; }
 
-/* Computes the bonds of a column from positions x and reference positions X of the rows [dim] [m]. */
+/* Computes vectors and lengths of the eight bonds of a column. x, X: [dim] present and reference positions of the
+ * particles of the row block [m]; X is read only in models with rotations. */
 static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct particles *p, const struct column column,
                                           const lanes *x, const lanes *X, const int dim, const enum pd_model model)
 {
@@ -54,8 +56,9 @@ static ALWAYS_INLINE void state_bond_make(struct state_bond *s, const struct par
     s->inverse_length = column_inverse_length(column);
 }
 
-/* Returns w |xi| [m], or w |xi|^2 [m^2] if `square`. On a lattice |xi| is that of the shell, without the round-off of
- * positions: as a factor it is not magnified by any difference. */
+/* Returns weight times reference length, w |xi| [m], of the eight bonds of column s, or w |xi|^2 [m^2] if `square` is
+ * true. On a lattice |xi| is the exact length of the lattice shell, without the round-off of positions. w,
+ * inverse_length: weights and inverse lengths of the bonds. */
 static ALWAYS_INLINE lanes state_weight(const struct column s, lanes w, lanes inverse_length, const bool square)
 {
     if (s.kind >= COLUMN_WHOLE) return lanes_of(square ? s.stencil->squared : s.stencil->weighted);
@@ -65,15 +68,16 @@ static ALWAYS_INLINE lanes state_weight(const struct column s, lanes w, lanes in
     return lanes_choose(w > 0.0, square ? w * (r * r) : w * r, lanes_of(0));
 }
 
-/* Returns |xi| from the stored inverse length [m], so that |xi|/|Y| is 1 up to round-off where nothing has moved; may
- * be negative for broken bonds. */
+/* Returns the reference lengths |xi| of the eight bonds of column s from their inverses [m], so that |xi|/|Y| is 1 up
+ * to round-off where nothing has moved. Lengths of broken bonds may be negative. */
 static ALWAYS_INLINE lanes state_length(const struct column s, lanes inverse_length)
 {
     if (s.stencil) return lanes_of(s.stencil->length);
     return 1.0 / (s.kind ? inverse_length : lanes_choose(inverse_length != 0.0, inverse_length, lanes_of(1)));
 }
 
-/* Returns e/|Y| = 1 - |xi|/|Y|, rounded like STRETCH_OF (bond_column.h). */
+/* Computes the extension of a bond over its present length, e/|Y| = 1 - |xi|/|Y|, rounded as in STRETCH_OF
+ * (bond_column.h). LENGTH: |xi|; INVERSE: 1/|Y|. */
 #define SHARE_OF(LENGTH, INVERSE) (9.0 - ((LENGTH) * (INVERSE) + 8.0))
 
 #endif

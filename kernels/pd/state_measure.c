@@ -1,4 +1,5 @@
-/* Elastic energy and stress of state-based rows, for samples and frames, from the states in b->state.
+/* Elastic energy and stress of state-based models, for output, from the states in b->state. A row holds all bonds of
+ * one particle, a row block the rows of eight particles, a column one bond of each row.
  *     energy of row i   1/2 sum_j (force state of i) . (effective displacement); its sum over j is V_i W_i
  *     stress            sigma_i = (1/V_i) sum_j T_ij V_j (x) y_ij, symmetrised, T_ij the force state of i alone;
  *                       deformed vectors y, not xi: the stress rotates with the body */
@@ -18,7 +19,8 @@ struct own_state {
     lanes x[DIM_MAX], X[DIM_MAX], pressure, spring, rotation[ROTATION];
 };
 
-/* Loads the positions and states of row block g. */
+/* Returns positions and states of the eight particles of row block g. rotates: true in models with rotations of
+ * particles. */
 static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const struct particles *p, int64_t g,
                                                    const int dim, const bool rotates)
 {
@@ -31,8 +33,9 @@ static ALWAYS_INLINE struct own_state own_state_of(const struct bonds *b, const 
     return s;
 }
 
-/* Computes the force states T of the row particles in the eight bonds of a column, and the bond vectors y [m]; 0 for
- * broken bonds. Returns the bonds' elastic energies [J]. */
+/* Computes for the eight bonds of a column the force T[dim] due to the state of the row's particle alone [N], and the
+ * bond vector y[dim] [m]; T is 0 for broken bonds. s: positions and states of the eight particles; rotates: true in
+ * models with rotations. Returns the elastic energies that belong to the rows [J]. */
 static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const struct column column,
                                             const struct particles *p, lanes *T, lanes *y, const int dim,
                                             const bool rotates)
@@ -59,7 +62,8 @@ static ALWAYS_INLINE lanes own_force_column(const struct own_state *s, const str
     return lanes_choose(w > 0.0, 0.5 * w * energy, lanes_of(0));
 }
 
-/* Returns the elastic energy of the rows of row block g [J]. */
+/* Returns the elastic energy of the families of the particles of row block g, repulsive cores included [J]; 0 if the
+ * row block is inactive (at rest). */
 static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct particles *p, int64_t g, const int dim,
                                            const enum pd_model model)
 {
@@ -74,7 +78,8 @@ static ALWAYS_INLINE real energy_row_block(const struct bonds *b, const struct p
     return total;
 }
 
-/* Adds T (x) y of the bonds of a column, symmetrised, to the components sum[]. */
+/* Adds the symmetric part of T (x) y of the eight bonds of a column to sum[], symmetric components with one lane per
+ * particle. */
 static ALWAYS_INLINE void stress_column(lanes *sum, const struct own_state *s, const struct column column,
                                         const struct particles *p, const int dim, const enum pd_model model)
 {
@@ -101,6 +106,7 @@ static ALWAYS_INLINE void stress_row_block(const struct bonds *b, struct particl
             p->stress[c][row[l]] = sum[c][l] / p->volume0[row[l]];
 }
 
+/* Arguments of the functions that compute the energy of one row block for reproducible_sum. */
 struct row_block_sum {
     const struct bonds *b;
     const struct particles *p;
@@ -130,7 +136,7 @@ bond_stress_fn *const state_stress_table[DIM_MAX + 1][PD_MODELS] = {STATE_VARIAN
 
 /* ---- a row whose weights change ---------------------------------------------------------------------------------- */
 
-/* Computes the rotation R of a bonded material point, row major, from particles.end_rotation. */
+/* Computes the rotation matrix R of the cell of a material point with bonds, row major, from particles.end_rotation. */
 static void end_rotation(const struct particles *p, int32_t i, real *R)
 {
     if (p->dim == 2) {
@@ -146,8 +152,9 @@ static void end_rotation(const struct particles *p, int32_t i, real *R)
     }
 }
 
-/* Returns sum w |Y - R xi|^2 over a row [m^2] at a time `lag` before the present positions [s]; R from the row's
- * present weights, or, for a bonded point, of its cell. */
+/* Returns sum w |Y - R xi|^2 over the bonds of a row, i.e. of one particle [m^2], at a time `lag` before the present
+ * positions [s]. R: rotation that fits the bonds with their present weights best; for a material point that of its
+ * cell. */
 static real row_effective(const struct bonds *b, const struct particles *p, int64_t row, real lag)
 {
     const int32_t i = b->particle[row];

@@ -1,7 +1,8 @@
-/* A sweep over the active row blocks in which particles move as soon as no later row reads their positions. Bonds reach
- * at most b->reach row blocks, so a row block moves once the sweep is that far beyond it: its data are still in the
- * nearest cache, and positions, velocities and forces travel to memory once per step. Row blocks near the ends of a
- * thread's part move after a barrier. Bits equal those of all forces first, then all motion. */
+/* Loop over the active row blocks (rows of bonds of eight particles) that computes forces and moves a particle as soon
+ * as no later row reads its position. Bonds reach at most b->reach row blocks, so a row block is moved once the loop is
+ * that far beyond it: its data are still in the nearest cache, and positions, velocities and forces travel to memory
+ * once per step. Row blocks near the ends of a thread's part are moved after a barrier. Results are bitwise equal to
+ * those of all forces first, then all motion. */
 #ifndef CLEAVE_KERNELS_SWEEP
 #define CLEAVE_KERNELS_SWEEP
 
@@ -16,16 +17,17 @@ enum {
                          step there, costs 2 % below */
 };
 
-/* One thread's part of the list of active row blocks. */
+/* The part of the list of active row blocks that one thread processes. */
 struct sweep {
     const int32_t *row_block; /* active row blocks, ascending */
     int64_t first, end, all;  /* entries first .. end-1 of `all` entries are this thread's */
-    /* first entry that may move before other threads have finished their forces; next entry to move */
+    /* first entry that may be moved before other threads have finished their forces; next entry to move */
     int64_t early, next;
     bool diverged;
 };
 
-/* Returns the calling thread's part, as schedule(static) would divide the list. */
+/* Returns the part of the list of active row blocks that the calling thread processes, divided as by
+ * schedule(static). */
 static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
 {
     const int64_t threads = omp_get_num_threads(), t = omp_get_thread_num(), all = b->active.active;
@@ -38,7 +40,8 @@ static ALWAYS_INLINE struct sweep sweep_make(const struct bonds *b)
     return s;
 }
 
-/* Moves the particles of the k-th row block of the list. */
+/* Advances the particles of the k-th active row block in time by a leap-frog step, and sets s->diverged if one has
+ * diverged. */
 static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                      const struct pd_motion *m, const int dim)
 {
@@ -46,8 +49,9 @@ static ALWAYS_INLINE void sweep_move(struct sweep *s, const struct bonds *b, str
     s->diverged |= pd_move_eight(p, b->particle + g * LANES, eight_at(g * LANES, b->rows), m->loaded, m, dim);
 }
 
-/* Prefetches the data needed next: positions at the reach of the sweep, forces, and velocities of the row block that
- * moves next. Hardware prefetching covers consecutive lines within a page, but not the dozen arrays of a sweep. */
+/* Prefetches what the loop needs next after the k-th active row block: forces and breaking limits AHEAD row blocks
+ * further on, positions of the farthest neighbours there, and mass and velocities of the row block that is moved next.
+ * Hardware prefetching follows consecutive lines within a page, but not a dozen arrays. */
 static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds *b, const struct particles *p,
                                       int64_t k, const int dim)
 {
@@ -65,7 +69,8 @@ static ALWAYS_INLINE void sweep_fetch(const struct sweep *s, const struct bonds 
     }
 }
 
-/* Moves the row blocks that no later row reads; the k-th row block and all before it have their forces. */
+/* Advances the particles of those row blocks (rows of bonds of eight particles) in time whose positions no later row of
+ * this thread reads. The forces of the k-th active row block and of all before it must be complete. */
 static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, struct particles *p, int64_t k,
                                        const struct pd_motion *m, const int dim)
 {
@@ -73,7 +78,8 @@ static ALWAYS_INLINE void sweep_follow(struct sweep *s, const struct bonds *b, s
     for (; s->next <= k && s->row_block[s->next] < until; s->next++) sweep_move(s, b, p, s->next, m, dim);
 }
 
-/* Moves the remaining row blocks; all threads have finished their forces. */
+/* Advances the particles of the remaining row blocks of this thread in time: the first ones, whose positions rows of
+ * the previous thread may read, and the last ones. To be called when all threads have finished their forces. */
 static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, struct particles *p,
                                        const struct pd_motion *m, const int dim)
 {
@@ -81,8 +87,10 @@ static ALWAYS_INLINE void sweep_finish(struct sweep *s, const struct bonds *b, s
     for (; s->next < s->end; s->next++) sweep_move(s, b, p, s->next, m, dim);
 }
 
-/* Body of a force kernel: FORCE computes the forces of `row_block` and returns the number of bonds broken. M: motion,
- * or NULL if no particle moves. Returns the number of broken bonds. */
+/* Defines the body of a force kernel, with the return statement: a parallel loop over the active row blocks of B.
+ * FORCE: expression that computes the forces of `row_block` and returns the number of bonds broken; M: step sizes with
+ * which particles of P are moved in the same loop (D dimensions), NULL: none is moved. The kernel returns the number of
+ * directed bonds broken, and sets M->diverged if a particle has diverged. */
 #define SWEEP(B, P, M, D, FORCE)                                                                                       \
     int64_t broken = 0, diverged = 0;                                                                                  \
     _Pragma("omp parallel reduction(+ : broken, diverged)")                                                            \

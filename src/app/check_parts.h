@@ -105,8 +105,8 @@ struct length_text length_in_words(real length, int digits, real spacing);
 /* Prints a line for each load and support: particles, area, force and moment. */
 void print_loads(const struct run *e);
 
-/* Prints the share of the face of a load or support whose normals differ from its axis, the mean angle, and a region
- * without that share (check_faces.c). */
+/* Prints how much of the loaded or supported face of a boundary is not perpendicular to the axis of the boundary: its
+ * share of the area, the mean angle between normal and axis, and a region that would exclude it (check_faces.c). */
 void print_face_off_axis(const struct run *e, const struct boundary *b);
 
 /* Prints the volume of the particles of bodies that are not boxes, compared with the volume of their shapes
@@ -123,8 +123,8 @@ void print_accuracy_advice(const struct run *e, FILE *out);
  * bonds. The run has taken no step. */
 void hints_list(const struct run *e, struct warnings *to);
 
-/* Returns the error of the stiffness of a part of some layers of particles in bending, twisting and tension [%].
- * surface: correction of bonds near faces. */
+/* Returns by how much the stiffness of a part that is `layers` particle layers thick differs at most from that of the
+ * material in bending, twisting and tension [%], from a table. surface: correction of bonds near faces. */
 int layer_stiffness_error(const struct scene *s, enum surface_rule surface, double layers);
 
 /* Writes a line for each body from a list that is no lattice and has thin parts (check_lists.c). */

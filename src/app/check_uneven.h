@@ -1,4 +1,4 @@
-/* Lists the narrow parts of bodies with too many or too few particle rows for their width. */
+/* Lists narrow parts of bodies whose number of particle rows does not match their width. */
 #ifndef CLEAVE_CHECK_UNEVEN
 #define CLEAVE_CHECK_UNEVEN
 
@@ -7,7 +7,7 @@
 #include "check_cover.h"
 #include "engine/engine.h"
 
-/* A part whose width and rows of particles differ. */
+/* A narrow part of a body whose width differs from the number of particle rows times the spacing. */
 struct uneven {
     real off, width, filled; /* relative error of its section [1]; along `axis`: width, rows times spacing [m] */
     real at[DIM_MAX];        /* point in the middle of the part [m] */
@@ -24,7 +24,8 @@ struct uneven_list {
     struct uneven part[UNEVEN_MOST];
 };
 
-/* Returns true if a part with this relative error belongs to the list, or resembles a part of it. */
+/* Returns true if a part with the relative error `off` of its section may belong to the list: the list is not full, or
+ * |off| is larger than nine tenths of the smallest error in it (errors of equal parts differ a little by sampling). */
 bool uneven_matters(const struct uneven_list *list, real off);
 
 /* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
@@ -39,8 +40,8 @@ real piece_end(const struct piece *p, const real *X, int axis, real step, real m
 void print_uneven_parts(struct uneven_list *list, FILE *out);
 
 /* Adds the necks of a piece to the list: parts that widen on both sides, such as the ligament between a hole and an
- * edge (check_necks.c). named: [cells] bit d of a cell: it belongs to a part that has been added, with a width along
- * axis d. */
+ * edge (check_necks.c). named[cells] excludes parts that are in the list already: bit d is set for cells of a listed
+ * part whose width is measured along axis d. */
 void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
 
 /* Adds the pieces of a body in 1D whose length is no multiple of the spacing (check_necks.c). */

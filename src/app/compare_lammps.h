@@ -7,10 +7,13 @@
 /* Returns true if the folder contains a run of LAMMPS that `cleave export lammps` has set up. */
 bool lammps_run_exists(const char *folder);
 
-/* Lists the frames of a run of LAMMPS, as frames_list does. */
+/* Lists the frames of the run of LAMMPS in a folder, from its file plate.dump. Stores their number in *n and an
+ * allocated array in *list, which the caller releases with memory_free. Returns FAILED if in.lammps or plate.dump
+ * cannot be read or has no frame. */
 status lammps_frames_list(const char *folder, int *n, struct listed_frame **list);
 
-/* Reads a frame of a run of LAMMPS, as run_read_frame does, without stress. */
+/* Reads frame `number` of the run of LAMMPS in a folder into *f; the frame has no stress. Returns FAILED if a file of
+ * the run cannot be read or is damaged. Release with frame_free. */
 status lammps_run_read_frame(struct frame *f, const char *folder, int number);
 
 /* Prints the differences from the state of Cleave in check.csv; nothing if the folder has no check.csv. */

@@ -1,11 +1,13 @@
-/* Shared by the files bonds*.c: one row of bonds under construction, row blocks, columns, stencils. */
+/* Declarations shared by the files bonds*.c. A row holds all bonds of one particle, a row block the rows of eight
+ * particles. A column of a row block holds one bond of each of its eight rows. A stencil is a list of columns that many
+ * row blocks of a lattice have in common. */
 #ifndef CLEAVE_BONDS_PARTS
 #define CLEAVE_BONDS_PARTS
 
 #include "bonds/bonds.h"
 #include "bonds/sites.h"
 
-/* One row of bonds under construction; arrays have room for all neighbours of a particle. */
+/* All bonds of one particle, under construction; arrays are allocated for the largest possible number of neighbours. */
 struct row {
     int n;                /* number of bonds */
     int32_t *nbr;         /* [n] neighbours, ascending */
@@ -16,7 +18,8 @@ struct row {
     real family_volume, cut_volume; /* volume of the family; of neighbours behind cut or broken bonds [m^3] */
 };
 
-/* Micro-moduli of all pairs of materials over that of material 0 [materials^2] [1]. */
+/* Micro-modulus of bonds between two materials, divided by that between particles of material 0: ratio[a * materials +
+ * b] for the materials a and b [1]. */
 struct pair_table {
     real *ratio;
     int materials;
@@ -29,13 +32,14 @@ void row_buffer_make(struct row *row, int room);
 /* Releases the arrays of `row`. */
 void row_buffer_free(struct row *row);
 
-/* Lists the neighbours of particle or image i within the cutoff, except those that a void hides, ascending, in `found`,
- * which has `room` entries. l: map from lattice sites to particles, used where possible instead of a search; NULL:
- * always search. Returns the number of neighbours; if it exceeds `room`, the list is incomplete. */
+/* Lists the neighbours of particle or image i within the cutoff in `found`, in ascending order and without those behind
+ * a void, whose bond would cross it. room: capacity of `found`; l: map from lattice sites to particles, used where
+ * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `room`, the list
+ * is incomplete. */
 int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
                        int32_t *found, int room);
 
-/* Inputs for making rows. */
+/* Inputs from which rows (all bonds of one particle each) are made. */
 struct row_maker {
     struct bonds *old; /* previous rows; NULL: none */
     const struct bond_source *source;
@@ -46,8 +50,9 @@ struct row_maker {
     int room;                   /* largest number of bonds of a row */
 };
 
-/* Returns true if the neighbours of particle i are as in the previous bonds m->old: its row already had the complete
- * family and it is still peridynamic, or m->fresh[i] is 0. */
+/* Returns true if the row of particle i in the previous bonds m->old lists its present neighbours. This requires that
+ * such a row exists, and either that m->fresh[i] is 0, or that the row has the complete family and the particle is
+ * peridynamic. */
 static inline bool row_lasts(const struct row_maker *m, int64_t i)
 {
     const int64_t before = m->old ? m->old->row_of[i] : -1;
@@ -57,8 +62,9 @@ static inline bool row_lasts(const struct row_maker *m, int64_t i)
 /* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
 void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i);
 
-/* Computes lengths and weights of the bonds from particle i to the neighbours in `row`, and copies which bonds are
- * broken, and their plastic state, from the previous bonds m->old. */
+/* Computes lengths and weights of the bonds from particle i to the neighbours in row->nbr and stores them in `row`.
+ * Bonds that are broken in the previous bonds m->old are broken in `row`, too; the plastic state of bonds is copied
+ * from there. */
 void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i);
 
 /* Returns the number of the previous row block (bonds of eight particles) in m->old that equals row block g, so that
@@ -82,9 +88,10 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows);
 /* Copies the neighbours saved in `found` back to the first `rows` rows of the array `row`. */
 void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows);
 
-/* Assigns a range of columns to every row block of b and allocates the column arrays. kept: [row blocks] number of the
- * previous row block whose columns stay in place, -1: the row block is rebuilt, in the free columns (a hole) of a
- * removed row block if they are enough, else behind all columns (bonds_columns.c). */
+/* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept: for each
+ * row block the number of the previous row block in m->old whose columns it keeps in place, -1 if it is rebuilt.
+ * Rebuilt row blocks use columns of removed row blocks if these are enough, else columns behind all others
+ * (bonds_columns.c). */
 void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept);
 
 /* Sets the pointers in `old` to NULL for those arrays that b has taken over, so that releasing `old` does not release
@@ -98,12 +105,14 @@ bool cuts_near_particle(const struct bond_source *s, const struct particles *p, 
  * breaking: its critical stretch less a tolerance for round-off [1]. */
 real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j);
 
-/* Returns true if columns with one index distance each, as on a lattice, need little padding, so that they are
- * preferred to rows packed without gaps. offsets: number of distinct index distances; longest: largest number of bonds
- * of a row. */
+/* Chooses how the bonds of eight particles are arranged in columns. Returns true for columns in which all neighbours
+ * have one index distance, as on a lattice, since these need little padding; false for rows packed without gaps.
+ * offsets: number of distinct index distances; longest: largest number of bonds of a row. */
 static inline bool columns_by_offset(int offsets, int longest) { return offsets <= longest + longest / 3; }
 
-/* Families of eight consecutive particles on a lattice, by index distance in ascending order. */
+/* Bonds of eight consecutive particles of a lattice without a search for neighbours. Entry k of each array describes
+ * the bonds whose neighbour has the index of the particle plus offset[k]; lane l (0 to 7) is the l-th of the eight
+ * particles. Offsets are ascending. */
 struct regular_bonds {
     int n;              /* number of index distances */
     bool full;          /* every lane has a neighbour at every distance */
@@ -120,8 +129,8 @@ void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
 /* Releases the arrays of `to`. */
 void regular_bonds_free(struct regular_bonds *to);
 
-/* Computes the families of the eight particles i to i + 7, by index distance, from the map l of lattice sites into
- * `to`. Returns false if the map is not sufficient, so that the families must be searched. */
+/* Lists the neighbours of the eight particles i to i + 7 in `to`, by index distance, from the map l of lattice sites.
+ * Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
 bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
@@ -131,9 +140,10 @@ struct stencil_cache *stencil_cache_make(const struct site_map *l);
 /* Releases the cache t. */
 void stencil_cache_free(struct stencil_cache *t);
 
-/* Returns the first particle of an earlier row block whose bonds are bitwise equal to the bonds b of particles i to i +
- * 7 (lengths, weights and their sums, none cut), or -1; in that case row block i is added to the cache. weights: inputs
- * on which weights depend besides lattice sites; NULL: none. */
+/* Searches the cache for a row block whose bonds equal the bonds b of particles i to i + 7 bit by bit (lengths, weights
+ * and sums of weights). No bond may be cut by a pre-crack. Returns the first particle of that row block; -1 if there is
+ * none, or if the lattice is not uniform. Bonds that were not found in a uniform lattice are added to the cache.
+ * weights: inputs on which weights depend besides lattice sites; NULL: none. */
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
 
 /* Computes inverse length `inverse` [1/m] and weight w [1] of the eight bonds between particle i + l and particle j +
@@ -199,9 +209,10 @@ void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t g, 
  * [m]. */
 void shell_lengths_make(struct bonds *b, real spacing);
 
-/* Returns the number k > 0 of the lattice shell (length spacing sqrt(k)) whose length eight bonds have up to the
- * round-off of positions, and stores these round-off differences in excess[LANES], in units of the last place of 1/r; 0
- * if the bonds have no common shell. inverse: inverse lengths of the bonds [1/m]. */
+/* Finds the lattice shell, i.e. the whole number k > 0 with bond lengths spacing sqrt(k), of eight bonds with the
+ * inverse lengths `inverse` [1/m]. Stores in excess[LANES] by how many units in the last place each inverse length
+ * differs from that of the shell, due to the round-off of positions. Returns k, or 0 if the bonds have no common
+ * shell. */
 int lattice_shell_of(const struct bonds *b, const real *inverse, int16_t *excess);
 
 /* Returns a table of stencils (lists of columns shared by many row blocks): `of` with one more user, or a new table if
@@ -227,8 +238,9 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
  * to the table if there is none. Returns NULL if the table is full. */
 const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely);
 
-/* Makes row block g follow the stencil of the row block that contains particle `cached`, or, if cached is -1, its own
- * stencil found before. Returns false if there is no stencil to follow. */
+/* Sets the stencil of row block g to that of the row block that contains particle `cached`, so that g needs no stored
+ * columns; its breaking limits and family volumes are copied, too. cached = -1: uses the stencil that row block g
+ * already has. Returns false, without a change, if there is no stencil. */
 bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */
@@ -245,7 +257,8 @@ void state_make(struct bonds *b, const struct particles *p, const struct bond_so
 /* Releases the arrays of b->state. */
 void state_free(struct bonds *b);
 
-/* Lists in b->clamped the bonds to mirror images in clamped planes, after all rows were made (bonds_clamped.c). */
+/* Lists in b->clamped the bonds to mirror images in clamped planes, planes of symmetry along which motion is prevented,
+ * too. To be called after all rows were made (bonds_clamped.c). */
 void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
 
 /* Releases the lists in b->clamped. */

@@ -1,11 +1,13 @@
-/* Shared by the files surface_*.c: particles near faces, their neighbours, faces and classes. */
+/* Declarations shared by the files surface_*.c, which correct the weights of bonds near faces of lattice bodies: the
+ * particles near faces, their neighbours, properties of faces, and classes of particles with equal surroundings. */
 #ifndef CLEAVE_SURFACE_PARTS
 #define CLEAVE_SURFACE_PARTS
 
 #include "bonds/bonds.h"
 #include "bonds/surface.h"
 
-/* Neighbours of a full family. */
+/* The neighbours of a particle inside a lattice, as offsets from the particle in a fixed order. "Offset number k" below
+ * is an index into these arrays. */
 struct offsets {
     /* number of neighbours; dimension; largest component [spacings] */
     int n, dim, reach;
@@ -19,7 +21,7 @@ struct offsets {
     int32_t *mirrored;    /* [2^dim n] index of an offset reflected in mirrors, one bit per axis */
 };
 
-/* Particles near faces: whose family is incomplete, or that have a neighbour with an incomplete family. */
+/* Particles near faces: those with a missing neighbour, and those with such a particle as neighbour. */
 struct near_faces {
     const struct particles *p;
     const struct bond_source *source;
@@ -31,7 +33,8 @@ struct near_faces {
     uint8_t *whole;     /* [p->n] 1: no neighbour is missing */
 };
 
-/* A neighbour: a particle of the body, and the mirrors in between, one bit per axis that they reverse. */
+/* A neighbour that may be a mirror image: the particle of the body of which it is an image, and the mirrors in between
+ * as one bit for each axis that they reverse. */
 struct seen {
     int64_t particle;
     int mirrors;
@@ -51,8 +54,9 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
     return b->neighbour[t * b->offset.n + k];
 }
 
-/* Returns the neighbour at offset number k of `from`, a particle near faces that is seen through mirrors, with the
- * mirrors in between. Its particle is -1 if there is no neighbour or the bond is cut. */
+/* Returns the neighbour at offset number k, in space, of a particle near faces that is itself seen through mirrors
+ * (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there is no
+ * neighbour or the bond is cut. */
 struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int k);
 
 /* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
@@ -61,8 +65,9 @@ static inline bool is_whole(const struct near_faces *b, int64_t j)
     return b->whole[j < b->p->n ? j : image_root(b->p, b->source->image, j)];
 }
 
-/* Returns the number of the offset by which `to`, the other particle of a bond with offset number k, reaches the first
- * particle: the reversed offset, reflected in the mirrors of `to`. */
+/* Returns the offset number of a bond in reverse direction. k: offset number of the bond at its first particle; to:
+ * other particle of the bond, at which the reverse offset is listed; if it is seen through mirrors, the reverse offset
+ * is reflected in them. */
 int reverse_offset(const struct near_faces *b, const struct seen *to, int k);
 
 /* Lists the particles near faces and their neighbours in b. s: inputs of the bonds. Returns REFUSED, with a message, if
@@ -73,11 +78,15 @@ status near_faces_make(struct near_faces *b, const struct particles *p, const st
 /* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
 
-/* Properties of faces near each particle, to which the weights of its bonds are fitted. */
+/* Properties of the faces near each particle [n], from which the targets for the weights of its bonds follow
+ * (surface_fit.c). */
 struct face_targets {
-    real (*area)[DIM_MAX];             /* [n] outward area, extrapolated to the face [spacing^(dim-1)] */
-    real *dipole;                      /* [n] tau over alpha [1] */
-    real (*normal2)[DIM_MAX][DIM_MAX]; /* [n] N (x) N, mean over nearby faces, of trace 1 at a face; 0: no face */
+    real (*area)[DIM_MAX]; /* [n] area of the faces in the particle's cell times outward normal, extrapolated from
+                              layers to the face [spacing^(dim-1)] */
+    real *dipole; /* [n] relative increase tau of the target of the fourth moment of the bonds, over the constant alpha
+                     of the model [1] */
+    real (*normal2)[DIM_MAX][DIM_MAX]; /* [n] N (x) N of the face normal N, averaged over nearby faces; trace 1 at a
+                                          plane face, less at smaller faces, 0 without a face nearby */
     uint8_t *thin;                     /* [n] too few layers between two faces: fewer than THIN or THIN_ROTATING */
 };
 enum { THIN = 4, THIN_ROTATING = 5 };
@@ -93,20 +102,21 @@ void face_targets_free(struct face_targets *f);
  * groups of bonds that share one factor on their weight; factors are stored by class and offset. */
 struct bond_classes {
     int32_t classes, *class_of; /* [near n] class; 0 is not used (no face nearby) */
-    uint8_t *mirrors;           /* [near n] mirrors that turn the particle into one of its class */
-    int64_t *member;            /* [classes] first particle of the class, as index in near_faces */
-    real *members;              /* [classes] number of particles */
-    uint8_t *symmetry;          /* [classes] bit m: the class is its own image in mirrors m */
-    int64_t groups;             /* number of groups of bonds */
-    int64_t *group_of;          /* [classes offsets] group; -1: no bond, or a bond that reaches no face */
+    uint8_t *mirrors; /* [near n] mirrors (one bit per axis) that map its surroundings to those of the first particle of
+                         its class */
+    int64_t *member;  /* [classes] first particle of the class, as index in near_faces */
+    real *members;    /* [classes] number of particles */
+    uint8_t *symmetry; /* [classes] bit m: the class is its own image in mirrors m */
+    int64_t groups;    /* number of groups of bonds */
+    int64_t *group_of; /* [classes offsets] group; -1: no bond, or a bond that reaches no face */
 };
 
 /* Sorts the particles b near faces into classes with equal surroundings up to mirrors, and their bonds into groups with
  * one factor each. Release with bond_classes_free. */
 void bond_classes_make(struct bond_classes *a, const struct near_faces *b);
 
-/* Returns the particle or image at offset number k from the first member of class `class`, seen through the mirrors of
- * that member; -1 if there is none. */
+/* Returns the particle or image at offset number k from the first member of a class of particles with equal
+ * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
 static inline int32_t alike_neighbour(const struct bond_classes *a, const struct near_faces *b, int32_t class, int k)
 {
     const int64_t t = a->member[class];

@@ -1,22 +1,31 @@
-/* Private header of the room: functions shared by the two forms of the law and by contact with rigid bodies. */
+/* Declarations shared by the files of src/contact. "Row" is the position of a particle in the contact list c->particle,
+ * the particles that may come into contact. The form `surface` of the contact law determines the gap to a smooth face
+ * from the density of the particles of that face; the form `pair` from the distance of two particles. */
 #ifndef CLEAVE_CONTACT_INTERNAL
 #define CLEAVE_CONTACT_INTERNAL
 
 #include "contact/contact.h"
 
+/* Lengths of contact: range within which a particle contributes to the density of a face [mean spacings]; distance
+ * added to the contact distance in searches for pairs [spacings], larger in an equilibrium, whose corrections move
+ * particles further. With the rule of LAMMPS a pair touches at the smaller of FAR_LAMMPS mean spacings and NEAR_LAMMPS
+ * times its reference distance. */
 #define CONTACT_REACH 2.0 /* range of the field of a face [mean spacings] */
 #define CONTACT_SKIN 0.3  /* skin of the list beyond the contact distance [spacings] */
 #define STATIC_SKIN 1.5   /* skin for the corrections of an equilibrium [spacings] */
 #define FAR_LAMMPS 1.35   /* largest distance of pairs by the rule of LAMMPS [mean spacings] and ... */
 #define NEAR_LAMMPS 0.9   /* ... [distance in the reference configuration] */
-/* Reduction of a gap per displacement of a particle [1]: 2, as both sides move, and more where fields are curved. */
+/* Largest reduction of a gap over the largest displacement of any particle [1]: 2, because both faces move, and a
+ * margin for the curvature of the density field. */
 #define CONTACT_FLATNESS 3
 
-/* State of a row until the next search: out of reach; in reach but at rest; neighbour of an active row, whose force
- * acts on it; active, its own contact is evaluated. */
+/* State of a row (a particle of the contact list) until the next search. ROW_FAR: too far from all faces. ROW_NEAR: may
+ * come into contact, but its particles are at rest. ROW_SOURCE: neighbour of an active row, whose contact force acts on
+ * it. ROW_ACTIVE: its own contact is evaluated. */
 enum row_state { ROW_FAR, ROW_NEAR, ROW_SOURCE, ROW_ACTIVE };
 
-/* Sums over the rows of a step: pairs in contact, largest overlap. */
+/* Contacts found in a step: number of contacts (touching), largest overlap [m], and the particle with the largest
+ * overlap (deepest). */
 struct contact_found {
     real overlap;
     int64_t touching;
@@ -94,13 +103,12 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
  * entry of the particle in the list near this body; normal: receives the outward unit vector normal to the surface. */
 real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
 
-/* Computes the linear spring that represents the contact of particle number `row` of the contact list with the faces
- * beside it, by the contact law of form `surface`. term: its arrays must have a capacity of one element more than the
- * pairs of the particle. */
+/* Describes the contact of particle number `row` of the contact list with the faces beside it as a linear spring, by
+ * the contact law of form `surface`: stiffness, and derivatives of the gap by the positions of the particles. term: its
+ * arrays must have a capacity of one element more than the pairs of the particle. */
 void contact_face_spring(const struct contact *c, const struct particles *p, int64_t row, struct contact_term *term);
 
-/* Lets contact forces act on all particles of the contact list, whether they move or not, as an equilibrium requires.
- */
+/* Enables contact forces on all particles of the contact list, whether they move or not, as an equilibrium requires. */
 void contact_selection_activate_all(struct contact *c);
 
 /* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it.
@@ -158,9 +166,10 @@ void contact_face_add_force(const struct contact *c, struct particles *p, int64_
  * `surface`. */
 real contact_face_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Determines the height above the face at which contact of particle number `row` of the contact list begins, after a
+/* Computes the height above the face at which contact of particle number `row` of the contact list begins, after a
  * search, by the contact law of form `surface`. was: entry of the particle on the previous list `before`, -1 if it was
- * not listed. The contact energy of a particle that was listed does not change. */
+ * not listed. If the particle was in contact on that list, the height is chosen so that its contact energy does not
+ * change. */
 void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                              int64_t row);
 
@@ -170,12 +179,12 @@ void contact_face_set_height(struct contact *c, const struct contact *before, in
  * call; otherwise the last force is returned again. */
 real contact_balance_force(struct contact_balance *b, real stiffness, real gap, bool advance);
 
-/* Returns the initial state of contact_balance for a contact with the present gap on a new list. before: its state on
- * the previous list, whose energy error is carried over; NULL if it was not listed. */
+/* Returns the state with which contact_balance starts for a contact on a new list. gap: present gap; before: state of
+ * the contact on the previous list, whose account of energy errors is continued; NULL if the contact was not listed. */
 struct contact_balance contact_balance_begin(const struct contact_balance *before, real gap);
 
-/* Contribution of entry l to the field at entry k: weight; derivative of the energy of k by r over r [N/m]; vector from
- * l to k [m]. */
+/* Contribution of particle l of a face to the density of the face at particle k (form `surface`): weight [1];
+ * derivative of the contact energy of k by their distance, divided by the distance [N/m]; vector from l to k [m]. */
 struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };

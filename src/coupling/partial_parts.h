@@ -1,55 +1,62 @@
-/* Bonds that cross the cell of a particle: geometry and response, shared by partial stress and reversion. */
+/* Declarations for partial stress (partial_stress.c) and reversion: the stress that bonds carry through the cell of a
+ * material point. A point has a square or cubic cell with the point in its middle. */
 #ifndef CLEAVE_PARTIAL_PARTS
 #define CLEAVE_PARTIAL_PARTS
 
 #include "bonds/bonds.h"
 
-/* Returns the share of the segment a-b inside the cube of half edge `half` round X [1]. */
+/* Returns the share of the length of the segment from a to b that is inside a cube [1]. X: middle of the cube; half:
+ * half of its edge [m]. */
 real segment_share_in_cube(const real *a, const real *b, const real *X, real half, int dim);
 
-/* Reflection by a chain of mirrors: the image of a point X of the body is X'_d = sign_d X_d + offset_d. root: source of
- * image i, or i itself. */
+/* Reflection that maps the particle `root` of the body to one of its mirror images, by one or several mirrors: X'_d =
+ * sign_d X_d + offset_d. */
 struct reflection {
     real sign[DIM_MAX], offset[DIM_MAX];
     int64_t root;
 };
 
-/* Returns the reflection of particle or image i. */
+/* Returns the reflection that maps a particle of the body to entry i of the particle arrays, a mirror image; the
+ * identity if i itself is a particle of the body. */
 struct reflection mirror_reflection_of(const struct bond_source *s, const struct particles *p, int64_t i);
 
-/* Response of the force F of a bond of direction e to a uniform strain eps, times the length of the bond [N m]:
+/* Derivative of the force F of a bond by a uniform strain eps, times the length of the bond [N m]. With the unit vector
+ * e along the bond,
  *     F = central (e . eps e) e + pressure (tr eps) e + vector (eps e). */
 struct response {
     real central, pressure, vector;
 };
 
-/* Returns the response of bond i-j. */
+/* Returns the derivative of the force of a bond in the row of particle i by a uniform strain (struct response). */
 struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
                                  int32_t i, const struct bond *bond);
 
-/* Adds to T [J] the contribution of the bond from xp (a material point) to xm inside the cell round X: T_abcd = l e_b
- * dF_a/deps_cd, symmetric in cd. */
+/* Adds to the tensor T [J] the contribution of the bond from xp, a material point, to xm, in proportion to the share of
+ * its length inside the cell with middle X and half edge `half`: T_abcd = l e_b dF_a/deps_cd, with that length l, the
+ * unit vector e along the bond and its force F; symmetric in ab and in cd. k: derivative of the force. */
 void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half, struct response k,
                              int dim);
 
-/* Limits T of point i under state-based bonds [J] to the symmetric T' of partial_stress.c (partial_positive.c). L: set
- * to the part of the mean strain that the bonds of the point do not measure, in symmetric components; 0 without bonds.
- * Returns true if the point has bonds. */
+/* Limits the tensor T of material point i [J], by which state-based bonds reduce the stiffness of its cell, so that the
+ * elastic energy of the point stays positive (partial_positive.c). L: receives the derivative of the point's mean
+ * strain by the strain of its cell, in symmetric components [1]; 0 if the point has no bonds. Returns true if it has
+ * bonds. */
 bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, const struct bonds *b,
                                 const struct bond_source *s, int64_t i);
 
-/* Limits T of point i under bond-based PD-MPM bonds [J] to the stiffness V C of the point. On lattices T is smaller;
- * for irregular particles, or bonds stiffer than their material, V C - T would otherwise have negative eigenvalues and
- * the cell would gain energy at any time step. */
+/* Limits the tensor T of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its cell, so
+ * that no eigenvalue of V C - T is negative. V, C: volume and elastic tensor of the point. Otherwise the cell would be
+ * unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the material. */
 void partial_tensor_limit_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i);
 
 /* Returns half the edge of the cell of a particle [m]. */
 real particle_half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* Table of the sums on a lattice (partial_table.c). Empty if particles are not on lattices. */
+/* Table from which T of a point follows quickly if particles are on a lattice (partial_table.c): the share of every
+ * bond vector inside every cell that it crosses. Empty if particles are not on lattices. */
 struct partial_table;
 
-/* Makes the table. size: values of a tensor. Release with partial_table_free. */
+/* Creates the table for the particles p. size: number of values of one tensor T. Release with partial_table_free. */
 struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
 
 /* Releases the table. */
@@ -58,18 +65,19 @@ void partial_table_free(struct partial_table *t);
 /* Returns true if the table is not empty. */
 bool partial_table_exists(const struct partial_table *t);
 
-/* Returns true if the table applies to all cells. */
+/* Returns true if the table can be used for every particle: all have the volume of a lattice cell. */
 bool partial_table_covers_all(const struct partial_table *t);
 
-/* Returns true if particle i has the volume of a lattice cell. */
+/* Returns true if particle i has the volume of a lattice cell, so that the table can be used for it. */
 bool partial_table_applies_to(const struct particles *p, const struct bond_source *s, int64_t i);
 
-/* Recomputes the bond responses of the rows of n listed particles (NULL: of all material points); the responses of
- * other particles are kept. */
+/* Recomputes the responses (struct response) of the bonds of n material points listed in `list`, or, if it is NULL, of
+ * all material points. Responses of other points are kept. */
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, const int32_t *list, int64_t n);
 
-/* Computes T of point i [J] from the bond responses of the rows around it. near: workspace. */
+/* Computes the tensor T of point i [J] from the table and the stored responses of the bonds of the material points
+ * around it. near: working memory. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                        const struct bond_source *s, int64_t i, struct near *near, real *T);
 

@@ -1,4 +1,5 @@
-/* The table of kinds of solids, each without copies. */
+/* Table of the kinds of solids with the functions of each kind. The functions treat one solid, without the copies of a
+ * pattern. */
 #ifndef CLEAVE_SOLID_KINDS
 #define CLEAVE_SOLID_KINDS
 
@@ -14,19 +15,21 @@ struct solid_type {
 };
 extern const struct solid_type solid_types[SOLID_KINDS];
 
-/* A point relative to an axis from .. to: length of the axis, coordinates along it from its middle and across it [m],
- * and unit vectors of both directions. */
+/* Position of a point relative to a cylinder axis: length of the axis; coordinate of the point along it, from its
+ * middle, and distance from it [m]; unit vectors of both directions. */
 struct axis_place {
     real length, along, across, axis[DIM_MAX], out[DIM_MAX];
 };
 
-/* Returns the signed distance of X from a polygon and its normal, as solid_distance. */
+/* Returns the signed distance of the point X from the boundary of a polygon, negative inside [m]. normal: receives the
+ * outward unit normal at the nearest point, two components. */
 real polygon_distance(const struct polygon *p, const real *X, real *normal);
 
-/* Returns the support of a polygon, as solid_support. */
+/* Returns the largest scalar product X . along over the points X of a polygon (support function). */
 real polygon_support(const struct polygon *p, const real *along);
 
-/* Returns the signed distance of X from an ellipsoid and its normal, as solid_distance. */
+/* Returns the signed distance of the point X from the surface of an ellipsoid, negative inside [m]. dim: 2 for an
+ * ellipse, 3; normal: receives the outward unit normal at the nearest point. */
 real ellipsoid_distance(const struct solid *s, const real *X, int dim, real *normal);
 
 #endif

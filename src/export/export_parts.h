@@ -31,8 +31,8 @@ struct lammps_settings {
  * feature of the scene. */
 status lammps_check_features(struct lammps_settings *to, const struct scene *s, bool bond_style);
 
-/* Returns true if bonds of the scene can break and LAMMPS then keeps normalising by the intact families of particles,
- * a difference that no key of the scene removes. */
+/* Returns true if the results of LAMMPS differ in a way that no key of the scene removes: in the state-based model
+ * LAMMPS continues to normalise by the weighted volume of the intact family after bonds have broken. */
 bool lammps_families_differ(const struct scene *s);
 
 /* ---- colours (export_colours.c) ---------------------------------------------------------------------------------- */

@@ -10,12 +10,12 @@ enum { TIP_BEFORE = 255 }; /* label of particles damaged by a pre-crack */
 #define TIP_START_REACH 2.5 /* range of the first damaged particles from the end of a pre-crack [spacings] */
 #define TIP_EQUAL 1e-6      /* tolerance of equal lengths [spacings] */
 
-/* Particles are tested in pieces of this size: only peridynamic particles lose bonds, and they stay peridynamic
- * afterwards, so that their list suffices; most of them are neither damaged nor part of a crack. */
+/* Number of peridynamic particles that are tested together. Only peridynamic particles lose bonds, and most of them are
+ * neither damaged nor part of a crack, so that whole pieces of the list can be skipped. */
 enum { TIP_PIECE = 64 };
 
-/* Returns the index after the last element of a piece of at most TIP_PIECE elements that starts at element `first` of
- * the list of peridynamic particles of p. */
+/* Returns the end of a piece of the list of peridynamic particles of p: first + TIP_PIECE, or the length of the list if
+ * that is smaller. first: index of the first element of the piece. */
 static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
 {
     return first + TIP_PIECE < p->n_of[KIND_PD] ? first + TIP_PIECE : p->n_of[KIND_PD];
@@ -25,14 +25,17 @@ static inline int64_t tip_piece_end(const struct particles *p, int64_t first)
  * of consecutive particles are tested eight at a time. */
 static inline bool tip_piece_consecutive(const int32_t *at, int64_t n) { return at[n - 1] - at[0] == n - 1; }
 
-/* Extent of a crack from its start [m], position of its end, particles, and groups equally far within a spacing. */
+/* Extent of a crack: largest distance of its particles from its start [m]; position of its end, the middle of the
+ * farthest particles (of one group, if they form several); number of separate groups of farthest particles; number of
+ * particles. */
 struct tip_reach {
     real farthest, place[DIM_MAX];
     int64_t ends, particles;
 };
 
-/* Computes the extent of every crack from its start: farthest distance, position of its end, number of particles and
- * of equally far groups. reach: receives an element for each of TIPS_MAX tips; must be 0 on entry. */
+/* Computes for every crack the largest distance of its particles from its start, the position of its end, and the
+ * number of separate groups of particles that are farthest within one spacing. reach: receives an element for each of
+ * TIPS_MAX tips; must be 0 on entry. */
 void tips_find_extents(const struct tips *t, const struct particles *p, struct tip_reach *reach);
 
 struct tip_search {

@@ -104,7 +104,7 @@ void mesh_set_add(struct element_mesh *m, int set, int64_t member);
 /* Releases all arrays of m and zeroes it. */
 void element_mesh_free(struct element_mesh *m);
 
-/* Translates labels of a file to indices: n consecutive indices from `first` on, sorted by label. */
+/* Map from labels (numbers of nodes or elements in a file) to n consecutive indices. entry: sorted by label. */
 struct label_map {
     int64_t n;
     struct label_entry *entry;

@@ -73,8 +73,8 @@ static inline bool any_below(const struct mesh_levels *l, int level, int64_t fir
     return any;
 }
 
-/* Returns the material number of cell I of level 0 (the finest), which must be completely filled; that of the body,
- * which has only one material then, if the particles of the cell are not made. */
+/* Returns the material number of cell I of level 0 (the finest), which must be completely filled. If the particles of
+ * the cell are not made, the body has only one material, and that one is returned. */
 static inline uint8_t cell_material(const struct mesh *fine, const struct particles *p, int64_t I)
 {
     const int32_t i = fine->point[I << fine->grid.dim];
@@ -95,16 +95,19 @@ void levels_update_ghosts(struct mesh_levels *l, int level);
  * of `level`, to the mean of the nodes at the ends or corners. */
 void levels_update_hanging(struct mesh_levels *l, int level);
 
-/* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
- * between levels (levels_fold_masses). */
+/* Sets the cells of all coarse levels from the refinement level l->level of each cell of level 0 (the finest): kind,
+ * material, number, and the masses of their nodes, a cell's mass in equal shares at its corners. The transfer of mass
+ * between levels follows in levels_fold_masses. */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p);
 
-/* Finds, for all refinement levels, the ghosts and hanging nodes at interfaces of levels, and the coarse cells whose
- * inertia is matched to the bonds (levels_match_dispersion). */
+/* Finds the nodes at interfaces of refinement levels: ghosts, at the position of a node of the next finer level, and
+ * hanging nodes, in the middle of an edge or face of a coarser cell. Also finds the coarse cells whose inertia is
+ * matched to the dispersion of the bonds (levels_match_dispersion). */
 void levels_find_interfaces(struct mesh_levels *l);
 
-/* Adds the masses of ghosts and hanging nodes to the nodes that determine their motion. momenta: true to transfer
- * their momentum in grid.momentum [kg m/s], too. */
+/* Adds the masses of ghosts (nodes at the position of a node of the next finer level) and hanging nodes (in the middle
+ * of an edge or face of a coarser cell) to the nodes that determine their motion. momenta: true to transfer their
+ * momentum in grid.momentum [kg m/s], too. */
 void levels_fold_masses(struct mesh_levels *l, bool momenta);
 
 /* Groups coarse cells of equal material into runs (cells with consecutive indices) and finds the active blocks of
@@ -115,15 +118,17 @@ void levels_runs_make(struct mesh_levels *l);
  * cell of level 0. all: true for all such nodes, false for those with particles in an adjacent cell. */
 void levels_interpolate(struct mesh_levels *l, bool all);
 
-/* Computes the momentum of the nodes of coarse cells, divided by their mass, from their velocities [m/s], the inverse
- * of the relation in kernels/mesh/mesh_inertia.h, up to round-off. */
+/* Computes grid.momentum of the nodes of coarse cells, their momentum divided by their mass [m/s], from their
+ * velocities: inverts mesh_velocity iteratively up to round-off, then sets the velocities to the result of
+ * mesh_velocity. The nodal forces serve as working memory and are 0 afterwards. */
 void levels_compute_momenta(struct mesh_levels *l);
 
 /* Returns true if the refinement levels are consistent: all cells of level 0 in a coarse cell have its level, and
  * coarse cells are completely filled. */
 bool levels_are_consistent(const struct mesh_levels *l);
 
-/* Classifies the cells of level 0 (the finest) by their distance from coarse cells (l->safe, enum levels_distance). */
+/* Stores in l->safe for each cell of level 0 (the finest) how far it is from coarse cells: less than l->safe_cells,
+ * less than l->roomy_cells, or more (enum levels_distance). */
 void levels_classify_cells(struct mesh_levels *l);
 
 #endif

@@ -5,11 +5,12 @@
 #include "base/memory.h"
 #include "mesh/mesh_make.h"
 
+/* Kinds of cells: without points; whole (all points, one material); partial (missing points, partial stresses, several
+ * materials or doubled nodes); replaced by a coarse cell. */
 enum cell_kind { CELL_EMPTY, CELL_WHOLE, CELL_PARTIAL, CELL_COARSE };
 
-/* Partial cells with their stiffness (mesh_partial.c). mesh_partial_detach moves them from the mesh to *old before
- * cells are classified anew; mesh_partial_make reuses the stiffness of unchanged cells, computes that of all others
- * (dirty: by cell, NULL: all), and frees *old. */
+/* Partial cells and their stiffness, moved out of a mesh by mesh_partial_detach before its cells are classified again.
+ * mesh_partial_make copies the stiffness of unchanged cells from here and frees the arrays. */
 struct mesh_partial {
     int64_t partial_cells;
     int32_t *partial_cell;
@@ -50,8 +51,9 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
  * other. To be called after the blocks are made. */
 void mesh_slits_link(struct mesh *mesh);
 
-/* Lists the corner nodes of groups of eight partial cells of which one lies at a slit, as corners of such cells are
- * not at regular positions. To be called after the groups are made. */
+/* Stores the node indices of the corners of those groups of eight partial cells in which a cell touches a slit. Nodes
+ * at slits are doubled, so the corners of such cells are not at fixed index distances from the cell. To be called after
+ * the groups are made. */
 void mesh_slits_groups(struct mesh *mesh);
 
 /* Frees the arrays of s. */
@@ -79,8 +81,9 @@ void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t
  */
 void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
 
-/* Groups the cells of a mesh without points (a coarse level) into runs of equal material, and finds spans of nodes
- * with mass and active blocks, from kinds and materials of the cells and masses of the nodes. */
+/* Groups the cells of a mesh without points (a coarse level) into rows of consecutive cells of equal material, the runs
+ * of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes. Input: kinds and
+ * materials of the cells and masses of the nodes. */
 void mesh_runs_make(struct mesh *mesh);
 
 /* Finds in each row of nodes along the first axis the span of nodes with mass (first node, and the one after the

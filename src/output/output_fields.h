@@ -1,4 +1,4 @@
-/* Fields of frames, shared by the sources of this room. */
+/* Table of the datasets that frames contain, and functions to copy them; shared by the files of src/output. */
 #ifndef CLEAVE_OUTPUT_FIELDS
 #define CLEAVE_OUTPUT_FIELDS
 

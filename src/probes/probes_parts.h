@@ -76,9 +76,11 @@ void particle_readings(const struct particles *p, int64_t i, real *value);
  * before the time step. */
 void probe_motion_store(struct probe *q, const struct observed *o);
 
-/* Interpolates the velocities copied by probe_motion_store and the present velocities to the time of the sample, after
- * the time step. now: time of the present velocities. After the last step, which no other step follows, the present
- * positions are used and the velocities are extrapolated. If probe_motion_store was not called, velocities are 0. */
+/* Computes the velocities of a probe's particles at the time of the sample, after the time step: interpolated between
+ * the velocities copied by probe_motion_store and the present ones; after the last step extrapolated, with the present
+ * positions. now: time of the present velocities, and a factor on the result that removes half a step of damping. Does
+ * nothing if probe_motion_store was not called, as for equilibria: probe_velocity then returns the present velocities.
+ */
 void probe_motion_interpolate(struct probe *q, const struct observed *o, const struct velocity_time *now);
 
 /* Discards the positions and velocities interpolated for a sample, so that probe_position and probe_velocity return

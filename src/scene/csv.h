@@ -20,6 +20,7 @@ struct csv_file {
 /* Opens a CSV file; csv_close closes it. REFUSED if it cannot be read. */
 status csv_open(struct csv_file *c, const char *path, const char *holds);
 
+/* Closes the file. */
 void csv_close(struct csv_file *c);
 
 /* Reads the next line that is not blank into c->text. Sets *more to false at the end of the file, and *comment to true

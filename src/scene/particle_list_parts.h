@@ -39,15 +39,15 @@ bool column_is_unused(int column, int dim);
 /* Returns the fault of a value in a column, as the end of a sentence, or NULL if the value is valid. */
 const char *column_value_fault(int column, real value);
 
-/* Writes the factor from `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. Returns false if `unit`
- * is none of this kind, and writes the rest of a sentence to what[room]. */
+/* Computes the factor that converts a number in `unit` to SI units; 1 if `unit` is empty. of: expected kind of unit. If
+ * `unit` is not of this kind, returns false and writes the fault to what[room], as the rest of a sentence. */
 bool unit_factor(real *factor, const char *unit, enum unit of, char *what, size_t room);
 
 /* Appends `what` to the note on a list, preceded by `between` if the note is not empty. */
 void list_note_append(struct particle_list_head *head, const char *between, const char *what);
 
-/* Sets the members of head, and completes its note, from the columns of the file. has: true for a column of the file
- * [COLUMNS]. */
+/* Stores in *head whether the file has columns of materials, masses and volumes, and adds the defaults of missing
+ * columns to its note. has[COLUMNS]: true for each column that the file has. */
 void list_note_columns(struct particle_list_head *head, const bool *has);
 
 /* REFUSED if n particles of a run need more memory than the machine has. */

@@ -6,7 +6,8 @@
 
 enum { EXPRESSION_TEXT = 4000 }; /* longest text, variables written out as numbers */
 
-/* A value on the stack during compilation. A constant one has its value in q, as the last step. */
+/* An operand on the stack during compilation: its unit, and, if it is constant, its value, which the last step of the
+ * program then pushes. */
 struct operand {
     struct quantity q;
     bool constant;
@@ -67,8 +68,9 @@ bool add_product(struct compile *c, char sign, const char *at);
 /* Adds a step that raises an operand to the power of the topmost one, which must have no unit. */
 bool add_power(struct compile *c, const char *at);
 
-/* Gives the two topmost operands one unit, where a zero without unit takes the unit of the other. word: the operation,
- * for messages. Returns false if the units differ. */
+/* Checks that the two topmost operands have one unit; a constant 0 without unit first receives the unit of the other
+ * operand. word: name of the operation, and at: its position in the text, for the message. Returns false if the units
+ * differ. */
 bool equal_units(struct compile *c, const char *word, const char *at);
 
 #endif

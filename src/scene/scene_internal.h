@@ -8,7 +8,8 @@
 #include "scene/scene.h"
 #include "scene/units.h"
 
-/* A named region that is being read, and the region that refers to it: a chain by which cycles are found. */
+/* A named region that is being read, and the region that refers to it. Following `outer` shows whether a region
+ * contains itself. */
 struct naming {
     const struct node *region;
     const struct naming *outer;
@@ -93,8 +94,8 @@ status tree_override(struct reader *r, struct node *root);
  * REFUSED if both names are given, and for keys that no longer exist. */
 status tree_rename(struct reader *r, struct node *root);
 
-/* Returns the present name of the path of an override, `path` itself if it is current, and notes a replacement in the
- * scene. */
+/* Returns the present name of the key at `path`, as an override gives it: `path` itself if it is current. Replacing a
+ * name of an earlier version is noted in the scene. */
 const char *path_present_name(struct reader *r, const char *path);
 
 /* Returns the present name of a key of an earlier version; NULL if `path` is no such key. */
@@ -150,11 +151,12 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
  * none. */
 size_t quantity_read_unit(struct quantity *q, const char *text);
 
-/* Returns true if q is of this unit or has none. Else writes the rest of a sentence to what[room], as number_read. */
+/* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to what[room], as the
+ * rest of a sentence that begins with the text of the value. */
 bool quantity_fits(const struct quantity *q, enum unit unit, char *what, size_t room);
 
-/* Returns true if the value is finite and inside the bounds of its unit. Else writes the rest of a sentence to
- * what[room], as number_read. */
+/* Returns true if the value is finite and inside the bounds of its unit. Otherwise returns false and writes the fault
+ * to what[room], as the rest of a sentence that begins with the text of the value. */
 bool quantity_bounded(real value, enum unit unit, char *what, size_t room);
 
 /* Writes a unit for messages: `a length`, or `in m^2 s^-1` if it has no name. */
@@ -172,8 +174,8 @@ enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
  * EXPRESS_*. Release e with expression_free. REFUSED in one line with the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e);
 
-/* Evaluates an expression without x, y, z and t, with its unit. Returns false on failure and writes the rest of a
- * sentence to what[room], as number_read. */
+/* Evaluates an expression without x, y, z and t and stores its value and unit in *q. On failure returns false and
+ * writes the fault to what[room], as the rest of a sentence that begins with `text`. */
 bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room);
 
 /* Returns true if messages about this text should treat it as an expression, not as a number. */
@@ -189,8 +191,9 @@ status read_variables(struct reader *r, const struct node *root);
  * name or it cannot be evaluated. */
 const struct quantity *variable_value(struct reader *r, const char *name, char *what, size_t room);
 
-/* Reads a number of a scene: a plain one as number_read does, or an expression of variables. Returns false on failure
- * and writes the rest of a sentence to what[room]. */
+/* Reads a number of a scene into *value [SI]: a number with unit as number_read, or an expression of variables. unit:
+ * expected unit; infinite: true if inf is allowed. On failure returns false and writes the fault to what[room], as the
+ * rest of a sentence that begins with `text`. */
 bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
                     size_t room);
 
@@ -284,7 +287,8 @@ const char *foreign_word_keys(const char *word);
 status fault(const struct reader *r, const struct node *at, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Returns REFUSED with a message that begins with `file:line:column: `, or with the override, of an origin. */
+/* Returns REFUSED with a message that begins with `file:line:column: `, or with the text of the override. origin: file
+ * or override as in struct node; line, column: location in the file. */
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
@@ -294,8 +298,8 @@ void fault_place(const struct reader *r, const struct node *at, char *text, size
 /* Returns REFUSED with the message that the required key k is missing in `map`. */
 status fault_missing(struct reader *r, const struct node *map, const struct key *k);
 
-/* Returns REFUSED with the message that two keys exclude each other. It names the location of the key from an override,
- * if one is. */
+/* Returns REFUSED with the message that the keys a and b exclude each other. The message gives the location of the key
+ * that was set last: by an override, else in the scene file. */
 status fault_both(const struct reader *r, const struct node *a, const struct node *b);
 
 /* Returns the value of a node as one short, printable line for messages, in the arena or static. */
@@ -423,11 +427,13 @@ status check_absorbing(struct reader *r, const struct node *root);
 /* REFUSED for loads that static solvers or irregular lattices do not support. */
 status check_supported_loads(struct reader *r, const struct node *root);
 
-/* Resolves frames left at auto. Call it after the bodies are read. */
+/* Decides the frame of bodies for which the scene leaves it at `auto`: the current frame if the body cannot use the
+ * reference frame, with the reason in body.frame_reason; else `auto` remains, and the choice is made when the particles
+ * exist. Call it after the bodies are read. */
 void resolve_frames(struct scene *s);
 
-/* Finds particle lists that are lattices, and sets the default of the surface rule again, which depends on them. Call
- * it after the bodies are read. */
+/* Finds out which particle lists form a lattice, and determines the default correction of bonds near faces again, which
+ * depends on that. Call it after the bodies are read. */
 void resolve_lists(struct reader *r, const struct node *root);
 
 /* REFUSED for keys that the static solvers do not support. Call it after materials and probes are read. */
