@@ -79,7 +79,8 @@ static void on_crash(int number)
     signal(number, SIG_DFL); /* the fault recurs, and ends the process as usual */
 }
 
-/* This program ends by _exit: only a library calls exit, with -1 if HDF5 has no memory. */
+/* Exit handler: reports exhausted memory if a library has called exit(-1), as HDF5 does. The program itself ends by
+ * _exit, which calls no handlers. */
 #ifdef __GLIBC__
 static void on_library_exit(int result, void *unused)
 {

@@ -11,13 +11,14 @@
 #define EXHAUSTED 1e-12 /* residual over eigenvalue below which the vectors found span an invariant space */
 enum { ITERATIONS_LEAST = 16, ITERATIONS_MOST = 200, ITERATIONS_SEEN = 8 };
 
-/* The next vector w, the newest one v and the previous one. */
+/* Three consecutive Lanczos vectors [n]: the one under construction w, the present one v, the previous one `before`. */
 struct lanczos {
     int64_t n;
     real *v, *before, *w;
 };
 
-/* Adds v . w and w . w of the entries first .. end - 1. */
+/* Adds v . w to sum[0] and w . w to sum[1], over entries first .. end - 1, for reproducible_sums. context: a struct
+ * lanczos. */
 static void overlap_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct lanczos *l = context;
@@ -41,8 +42,8 @@ static void eigenvalue_start(struct lanczos *l)
     for (int64_t k = 0; k < l->n; k++) l->v[k] = l->w[k] / sqrt(sum[1]);
 }
 
-/* Computes w = A v less its components along v and the previous vector. Returns the length of w; *diagonal: component
- * of A v along v. */
+/* Computes the next Lanczos vector w = A v - (v . A v) v - last `before`, where apply(context, v, w) computes w = A v.
+ * last: length of w in the previous iteration. Stores v . A v in *diagonal. Returns the length of w. */
 static real next(struct lanczos *l, matrix_product_fn *apply, void *context, real last, real *diagonal)
 {
     real sum[2];

@@ -10,7 +10,8 @@
 
 enum { PATH_LONGEST = 4200 };
 
-/* Read by a signal handler: the path is empty while it is written. */
+/* The temporary files and child processes that a signal handler removes and ends. While a path is being written its
+ * first character is 0, so that the handler never reads a part of it. */
 static struct {
     volatile sig_atomic_t process;
     char path[PATH_LONGEST];
@@ -18,9 +19,10 @@ static struct {
 
 static pthread_t maker; /* the thread that makes files and children */
 
-/* Signal handler; uses only calls that are safe there. A thread that makes no files forwards the signal, since the
- * other one would go on making files meanwhile (it blocks signals while it starts a child). Waits for the child, which
- * could create its file once more. */
+/* Handles a signal that ends the process: ends the children, waits for them, since they could create their files once
+ * more, removes the files, and ends the process by the same signal. Calls only functions that are safe in a handler. In
+ * any other thread than `maker`, which makes files and children, only forwards the signal to `maker`, which would
+ * otherwise go on making them (it blocks signals while it starts a child). */
 static void on_end(int number)
 {
     if (!pthread_equal(pthread_self(), maker)) {

@@ -24,8 +24,9 @@ enum { HEAP_ALONE = 0 };
 /* Arrays from this size on have pages of their own: reused heap pages would be in the memory of the processor whose
  * threads touched them first, and new pages are zero, so that they need not be written twice. */
 enum { OWN_PAGES = 1 << 20 };
-/* On request some released blocks are kept for an array of similar size, mostly the rebuilt array: the system takes
- * longer to provide a page than to write one. */
+/* Limits of the store of released blocks, in which blocks released on request wait for an array of similar size, mostly
+ * the rebuilt one: the system takes longer to provide a page than to write one. KEPT: number of blocks; KEPT_LEAST,
+ * KEPT_MOST: size of a block; KEPT_ALL: size of all blocks [byte]. */
 enum { KEPT = 64, KEPT_LEAST = 1 << 17, KEPT_MOST = 16 << 20, KEPT_ALL = 128 << 20 };
 
 /* Elements allocated by the first growth of an array. */
@@ -89,8 +90,8 @@ static size_t room_of(size_t length)
     return (length + step - 1) / step * step;
 }
 
-/* Takes the smallest kept block of at least `least` bytes, and at most four times as many; `whole` NULL: there is
- * none. */
+/* Removes the smallest block of at least `least` and at most 4 `least` bytes from the store of released blocks and
+ * returns it. If there is none, `whole` of the result is NULL. */
 static struct block take_kept(size_t least)
 {
     struct block block = {NULL, 0, 0};
@@ -124,6 +125,7 @@ static void memory_keep(struct block block)
     } while (waiting_bytes > KEPT_ALL);
 }
 
+/* Returns all blocks in the store of released blocks to the system. */
 static void keep_none(void)
 {
     waiting_longest = 0;
@@ -160,6 +162,9 @@ static char *memory_block_make(struct block *block, size_t length, size_t alignm
 
 enum content { ZEROED, WRITTEN_SOON, MOSTLY_UNWRITTEN, MOSTLY_ZERO };
 
+/* Returns an array of `count` elements of `size` bytes at a cache line, after its header (struct block). label: name of
+ * the array for the message if memory is exhausted, which ends the program; content: which bytes must be zero, and
+ * whether most of them are never written. */
 static void *array_make(const char *label, int64_t count, size_t size, enum content content)
 {
     size_t length;
@@ -219,7 +224,8 @@ void *memory_ensure_capacity(const char *label, void *pointer, int64_t count, si
     return count <= room ? pointer : memory_resize(label, pointer, room, count > more ? count : more, size);
 }
 
-/* Extends the pages of a large array, possibly moving them: nothing is copied, and unwritten pages stay unwritten. */
+/* Extends the pages of an array with pages of its own to `length` bytes, possibly moving them: nothing is copied, and
+ * unwritten pages stay unwritten. Updates *block and *pointer. Returns false if the system cannot do it. */
 static bool pages_extend(struct block *block, char **pointer, size_t length)
 {
 #ifdef MREMAP_MAYMOVE
@@ -283,7 +289,8 @@ void memory_set_reuse(bool reuse)
 #endif
 }
 
-/* VmHWM belongs to this program alone; ru_maxrss includes the program that started it. */
+/* Returns the largest memory of this program so far [byte], 0 if unknown. VmHWM counts this program alone; ru_maxrss
+ * would include the program that started it. */
 static int64_t peak_of_program(void)
 {
     FILE *f = fopen("/proc/self/status", "r");

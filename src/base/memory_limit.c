@@ -22,8 +22,8 @@ static int64_t number_in(const char *path)
     return found ? number : INT64_MAX;
 }
 
-/* Returns the tightest limit of a control group and all groups above it; a container sees its own group as the
- * highest. */
+/* Returns the smallest number in the files `file` of a control group and all groups above it (base/group/file) [byte];
+ * a container sees its own group as the highest. Destroys `group`. */
 static int64_t group_and_above(const char *base, char *group, const char *file)
 {
     int64_t limit = INT64_MAX;

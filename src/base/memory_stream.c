@@ -27,7 +27,7 @@ static bool collected_room(struct collected *c, size_t more)
     return true;
 }
 
-/* Writer of fopencookie: returns 0 if bytes are lost. */
+/* Appends n bytes to the collected output (writer of fopencookie). Returns n, or 0 if memory is exhausted. */
 static ssize_t collected_write(void *context, const char *bytes, size_t n)
 {
     struct collected *c = context;

@@ -13,7 +13,8 @@ enum { CHUNK = 4096 };
 
 static const char erase_line[] = "\033[K";
 
-/* Replaces control characters, except those that the program itself sends to a terminal. */
+/* Copies a chunk of output and replaces control characters in the copy, except those that the program itself sends to a
+ * terminal: line end, tab, erasing a line, and a carriage return at the start of the first chunk (`first`). */
 static void chunk_harmless(char *to, const char *from, size_t length, bool first)
 {
     memcpy(to, from, length);
@@ -25,7 +26,8 @@ static void chunk_harmless(char *to, const char *from, size_t length, bool first
             memcpy(to + k, erase_line, sizeof erase_line - 1);
 }
 
-/* Writes all bytes to a descriptor. Returns the number of bytes written. */
+/* Writes bytes to a file descriptor, with control characters replaced. Returns the number of bytes written, less than
+ * `length` on an error. */
 static size_t harmless_write(int fd, const char *bytes, size_t length)
 {
     char text[CHUNK];

@@ -22,7 +22,9 @@ static real inner(int64_t n, const real *a, const real *b)
     return reproducible_sum(n, pair_term, &(struct pair){a, b});
 }
 
-/* State of the minimisation, in unknowns scaled by `scale`. */
+/* State of the minimisation. x, its bounds low and high, and the other vectors [n] are in unknowns scaled by `scale`.
+ * image: product of the matrix with the search direction; room: gradient, limited such that a step of length `reach`
+ * against it stays within the bounds. */
 struct descent {
     const struct quadratic *of;
     int64_t n;
@@ -41,8 +43,9 @@ static void scaled_product(void *context, const real *x, real *y)
     for (int64_t k = 0; k < d->n; k++) y[k] /= d->scale[k];
 }
 
-/* Splits the gradient into `free`, of unknowns away from bounds, and `chopped`, of unknowns that would leave their
- * bound. *proportional: free . (free as limited by bounds); *chopped2: chopped . chopped. */
+/* Splits the gradient into `free`, its components at unknowns away from their bounds, and `chopped`, those at unknowns
+ * on a bound that a step against the gradient moves away from the bound. Stores room . free in *proportional and
+ * chopped . chopped in *chopped2. */
 static void gradient_split(struct descent *d, real *proportional, real *chopped2)
 {
     for (int64_t k = 0; k < d->n; k++) {
@@ -55,7 +58,7 @@ static void gradient_split(struct descent *d, real *proportional, real *chopped2
     *proportional = inner(d->n, d->room, d->free), *chopped2 = inner(d->n, d->chopped, d->chopped);
 }
 
-/* Returns the longest step against `direction` within bounds. */
+/* Returns the largest length for which x - length `direction` is within all bounds; INFINITY if `direction` is 0. */
 static real longest_step(const struct descent *d, const real *direction)
 {
     real length = INFINITY;
@@ -65,7 +68,8 @@ static real longest_step(const struct descent *d, const real *direction)
     return length;
 }
 
-/* Moves x by -length `direction` within bounds and updates the gradient. */
+/* Replaces x by x - length `direction`, limited to the bounds, and updates the gradient. d->image must be the product
+ * of the matrix with `direction`. */
 static void step_against(struct descent *d, const real *direction, real length)
 {
     for (int64_t k = 0; k < d->n; k++) {
@@ -84,7 +88,8 @@ static void step_projected(struct descent *d)
     for (int64_t k = 0; k < d->n; k++) d->gradient[k] -= d->of->goal[k] / d->scale[k];
 }
 
-/* Minimises with at most `most` products. Returns the number of products. */
+/* Minimises until the norm of the projected gradient is at most `close` times its first value, or until `most` products
+ * with the matrix have been made. Returns the number of products. */
 static int descend(struct descent *d, real close, int most)
 {
     real proportional, chopped2, first = -1;

@@ -4,7 +4,8 @@
 #include <math.h>
 
 #define NOTHING 1e-30 /* relative to the value: smaller records, also negative ones, count as this */
-/* relative to the value: larger records are no mere background of something that grows faster; empirical */
+/* Smallest record, over the present value, from which a growth rate is derived: a smaller one may be the background of
+ * a quantity that grows faster; empirical. */
 #define SOMETHING 0.03
 
 void growth_rate_add_sample(struct rise *r, int64_t step, real value)

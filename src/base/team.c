@@ -18,7 +18,7 @@
 
 /* ---- the machine ------------------------------------------------------------------------------------------------- */
 
-/* The machine according to hwloc, and the part that this process may use. */
+/* The topology of the machine from hwloc, and the hardware threads that this process may use. */
 struct place {
     hwloc_topology_t topology;
     hwloc_bitmap_t mask; /* hardware threads the process may run on */
@@ -29,6 +29,8 @@ struct place {
  * figure counts. */
 static struct memory_limit memory;
 
+/* Stores the memory of the machine, or the tightest limit of it. topology: NULL, the figure of the system alone is
+ * used. */
 static void note_memory(hwloc_topology_t topology)
 {
     const int64_t seen = topology ? (int64_t)hwloc_get_root_obj(topology)->total_memory : 0;
@@ -61,6 +63,8 @@ static void rebind_main(const struct place *place)
     hwloc_bitmap_free(home);
 }
 
+/* Reads the topology of the machine and the hardware threads that this process may use. Returns false if hwloc
+ * fails. */
 static bool place_make(struct place *place)
 {
     setenv("HWLOC_HIDE_ERRORS", "2", 0); /* a machine that hides its topology is no fault of the run */
@@ -177,6 +181,7 @@ static void flush_tiny_numbers(int threads)
 #endif
 }
 
+/* Start routine of the threads of threads_start: waits until `mutex` is unlocked. */
 static void *wait_for(void *mutex)
 {
     pthread_mutex_lock(mutex);
@@ -237,6 +242,7 @@ int team_set_threads(int threads)
 
 /* ---- shares of the cores ----------------------------------------------------------------------------------------- */
 
+/* The machine, the number of shares into which its physical cores are divided, and the number of these cores. */
 struct core_shares {
     struct place place;
     int n, cores;
@@ -288,6 +294,7 @@ void core_shares_free(struct core_shares *s)
 /* largest number of blocks of a sum without allocation: steps need short sums several times */
 enum { FEW_BLOCKS = 16 };
 
+/* Stores the sums over block number b of n entries in part[terms], by calling `block` on the entries of this block. */
 static void sum_block(int64_t n, int terms, void (*block)(const void *context, int64_t first, int64_t end, real *sum),
                       const void *context, int64_t b, real *part)
 {
@@ -331,6 +338,7 @@ real reproducible_sum(int64_t n, real (*term)(const void *context, int64_t i), c
 
 /* ---- clocks ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the time of a clock of the system [s]. */
 static double clock_read(clockid_t which)
 {
     struct timespec now;

@@ -12,7 +12,8 @@
 static const real never[UINT8_MAX + 1] = {[0 ... UINT8_MAX] = INFINITY};
 const struct bond_limit bond_limit_never = {.critical_stretch = never};
 
-/* Returns true if particle i, or the source of image i, already had a row with its whole family. */
+/* Returns true if particle i, or the particle of which i is an image, already had a row with bonds to its whole family,
+ * as peridynamic particles have. */
 static bool was_whole_row(const struct bonds *old, const struct bond_source *s, const struct particles *p, int64_t i)
 {
     i = image_root(p, s->image, i);
@@ -28,7 +29,8 @@ static bool rows_reusable(const struct bonds *old, const struct particles *p)
     return true;
 }
 
-/* Marks the rows of peridynamic particle or image i: its own and those of all particles within the cutoff. */
+/* Marks all particles within the cutoff of peridynamic particle or image i, and i itself: wanted [groups of eight] for
+ * the groups that get rows, fresh [particles] for a new search. found [room]: working memory. */
 static void mark_family(const struct bond_source *s, const struct particles *p, const struct site_map *map, int64_t i,
                         int32_t *found, int room, uint8_t *wanted, uint8_t *fresh)
 {
@@ -64,6 +66,8 @@ static void mark_rows(const struct bond_source *s, const struct particles *p, co
 
 /* ---- all rows ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the micro-moduli of bonds for all pairs of materials, divided by that of material 0. Release its array
+ * `ratio` with memory_free. */
 struct pair_table pair_table_make(const struct bond_source *s)
 {
     struct pair_table t = {NEW("bonds.pairs", square(s->materials), real), s->materials};
@@ -137,7 +141,7 @@ struct rows_pass {
     bool count;    /* first pass: columns are only counted */
 };
 
-/* Returns true if one of the rows was in a previous row block with changed weights. */
+/* Returns true if a particle of the rows was in a previous row block whose weights have changed since it was made. */
 static bool row_block_inherits(const struct bonds *old, const int32_t *particle, int rows)
 {
     bool changed = false;
@@ -148,7 +152,8 @@ static bool row_block_inherits(const struct bonds *old, const int32_t *particle,
     return changed;
 }
 
-/* Returns true if the bonds of row block g follow from the site map and none has changed. */
+/* Returns true if the bonds of row block g can be made from the site map, without a search: eight consecutive particles
+ * on a regular part of the lattice, without changed weights. The bonds are then in room->regular. */
 static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     const struct row_maker *m = &pass->maker;
@@ -158,13 +163,14 @@ static bool is_regular(const struct rows_pass *pass, struct row_block_buffer *ro
            row_block_find_regular(m->map, m->source, m->p, particle[0], &room->regular);
 }
 
-/* Raises *reach to |distance|. */
+/* Replaces *reach by the absolute value of `distance` if that is larger. */
 static void reach_widen(int32_t *reach, int32_t distance)
 {
     if (abs(distance) > *reach) *reach = abs(distance);
 }
 
-/* Raises room->reach to the largest index distance of a bond of row block g, without images (they have no rows). */
+/* Raises room->reach to the largest difference of the indices of two bonded particles in row block g. Images do not
+ * count, as they have no rows. regular: the bonds are in room->regular, else in room->row. */
 static void note_reach(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g, bool regular)
 {
     const int32_t *particle = pass->b->particle + g * LANES, n = (int32_t)pass->maker.p->n;
@@ -175,7 +181,8 @@ static void note_reach(const struct rows_pass *pass, struct row_block_buffer *ro
             if (room->row[l].nbr[k] < n) reach_widen(&room->reach, room->row[l].nbr[k] - particle[l]);
 }
 
-/* Counts the columns of row block g (first pass) or fills them (second pass). Returns the number of its bonds. */
+/* Counts the columns of row block g (first pass) or fills them (second pass). room: working memory of the thread.
+ * Returns the number of bonds of the row block. */
 static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buffer *room, int64_t g)
 {
     struct bonds *b = pass->b;
@@ -207,8 +214,9 @@ static int64_t row_block_pass(const struct rows_pass *pass, struct row_block_buf
     return made;
 }
 
-/* Visits all row blocks; called twice, first to count columns, then to fill them, so that a list of all bonds never
- * exists twice. Returns the number of directed bonds. */
+/* Processes all row blocks: copies those that are kept and makes the others. Called twice, first to count columns, then
+ * to fill them, so that a list of all bonds never exists twice. Updates b->reach. Returns the number of directed
+ * bonds. */
 static int64_t rows_pass(const struct rows_pass *pass)
 {
     const struct row_maker *m = &pass->maker;
@@ -238,8 +246,8 @@ static int64_t rows_pass(const struct rows_pass *pass)
     return made;
 }
 
-/* Fills all row blocks. If previous rows exist, few row blocks change, and the neighbours found while counting are
- * kept. */
+/* Makes all row blocks in two passes. If previous rows exist, few row blocks change, and the neighbours found in the
+ * first pass are kept for the second one. */
 static void bonds_rows_make(struct bonds *b, struct row_maker maker)
 {
     struct pair_table pairs = pair_table_make(maker.source);
@@ -259,7 +267,7 @@ static void bonds_rows_make(struct bonds *b, struct row_maker maker)
     memory_free(pairs.ratio);
 }
 
-/* Copies energies and counts of the previous rows. */
+/* Copies fracture energy, plastic work and number of broken bonds of each particle from its previous row. */
 static void rows_inherit(struct bonds *b, const struct bonds *old)
 {
     for (int64_t r = 0; r < b->rows; r++) {

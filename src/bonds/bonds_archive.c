@@ -5,8 +5,9 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Copies the weights of changed row blocks to w (saving) or from w; other row blocks have the weights of their
- * making. */
+/* Copies the weights of changed row blocks to w (saving), or from w into the row blocks; other row blocks have the
+ * weights with which they are made. After restoring, bonds of weight 0 are marked as broken, and the row blocks store
+ * their columns instead of using a stencil. */
 static void changed_weights(struct bonds *b, real *w, bool saving)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) {

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 
-/* Computes the signs P by which the displacement of image j follows from that of its root. Returns true if a clamped
- * plane is among its mirrors. */
+/* Computes sign[d], by which component d of the displacement of image j follows from that of the particle of which it
+ * is an image (1 or -1). Returns true if one of its mirrors is clamped. */
 static bool image_rotates(const struct bond_source *s, const struct particles *p, int64_t j, int8_t *sign)
 {
     bool clamp = false;
@@ -34,7 +34,8 @@ static uint8_t *clamped_images(const struct bond_source *s, const struct particl
     return NULL;
 }
 
-/* Counts the intact bonds of column k of row block g to clamped images; stores them too, once c->entry is allocated. */
+/* Counts the intact bonds of column k of row block g to images in clamped planes (is[image] = 1). If c->entry is
+ * allocated, also stores them. */
 static void column_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is, int64_t g,
                         int64_t k)
 {
@@ -50,8 +51,8 @@ static void column_note(struct clamped *c, struct bonds *b, const struct particl
     }
 }
 
-/* Counts or stores all such bonds. Images have numbers behind the body, so most columns are excluded by one
- * comparison. */
+/* Counts or stores the bonds of all row blocks to images in clamped planes (column_note). Images have indices behind
+ * the body, so that most columns are excluded by one comparison. */
 static void bonds_note(struct clamped *c, struct bonds *b, const struct particles *p, const uint8_t *is)
 {
     c->n = 0;
@@ -64,7 +65,8 @@ static void bonds_note(struct clamped *c, struct bonds *b, const struct particle
         }
 }
 
-/* Sorts n reactions by particle; reactions on one particle stay in the order of the bonds. of: [n] particle of each. */
+/* Lists n reactions in c->end, sorted by the particle on which they act; reactions on one particle stay in the order of
+ * the bonds. end [n]: unsorted reactions; of [n]: particle of each; particles: number of particles of the body. */
 static void ends_sort(struct clamped *c, const struct clamp_end *end, const int32_t *of, int64_t n, int64_t particles)
 {
     int64_t *next = NEW("clamped.next", particles + 1, int64_t);
@@ -82,9 +84,10 @@ static void ends_sort(struct clamped *c, const struct clamp_end *end, const int3
     memory_free(next);
 }
 
-/* Lists the reactions on particles. Bond-based: a row holds the force of both rows of a bond, and the half that belongs
- * to the image's row is subtracted. State-based: the row holds its own half only (clamped images have no state), and
- * the reaction is added to the source. */
+/* Lists the reactions of bonds across clamped planes on particles. Bond-based: a row contains the force of both rows of
+ * a bond; half of it belongs to the row of the image, is subtracted and acts on the particle of which it is an image.
+ * State-based: the row contains its own half only (clamped images have no state), and the reaction is added to that
+ * particle. */
 static void bonds_clamped_ends_make(struct clamped *c, const struct particles *p, const struct bond_source *s)
 {
     const int each = s->modulus ? 1 : 2;

@@ -5,14 +5,14 @@
 
 /* ---- holes ------------------------------------------------------------------------------------------------------- */
 
-/* Linked lists of the holes, one for each size. */
+/* Linked lists of the holes, i.e. ranges of unused columns between row blocks, one list for each size. */
 struct holes_by_size {
     struct bond_holes *all;
     int32_t *first, *next;
     int32_t most;
 };
 
-/* Inserts hole k in the list of its size. */
+/* Inserts hole k, a range of unused columns, in the list of its size. */
 static void hole_list(struct holes_by_size *s, int64_t k)
 {
     const int32_t size = s->all->hole[k].columns;
@@ -20,7 +20,7 @@ static void hole_list(struct holes_by_size *s, int64_t k)
     s->first[size] = (int32_t)k;
 }
 
-/* Sorts all holes by size. */
+/* Makes the lists of all holes by size. Release with holes_close. */
 static struct holes_by_size holes_sort(struct bond_holes *all)
 {
     struct holes_by_size s = {.all = all};
@@ -48,7 +48,7 @@ static int64_t hole_take(struct holes_by_size *s, int32_t columns)
     return at;
 }
 
-/* Removes used holes from the list and frees the lists. */
+/* Removes holes without columns left from the array of all holes, and frees the lists. */
 static void holes_close(struct holes_by_size *s)
 {
     int64_t n = 0;
@@ -59,8 +59,8 @@ static void holes_close(struct holes_by_size *s)
     memory_free(s->next);
 }
 
-/* Adds the columns of previous row blocks that are not kept to the holes, for the next rebuilding: they are still read
- * in this one. */
+/* Adds the columns of previous row blocks that are not kept to the holes, for the next rebuilding: in this one they are
+ * still read. kept [row blocks]: previous row block that becomes this one, -1: none. */
 static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *kept)
 {
     struct bond_holes *holes = &b->holes;
@@ -77,8 +77,8 @@ static void holes_add(struct bonds *b, const struct bonds *old, const int64_t *k
 
 /* ---- positions of columns ---------------------------------------------------------------------------------------- */
 
-/* Allocates the column arrays. sparse: address space without memory until written, since on a lattice most row blocks
- * write no column. */
+/* Allocates the column arrays. sparse: reserves addresses that get memory when they are written, since on a lattice
+ * most row blocks write no column. */
 static void columns_arrays(struct bonds *b, const struct bond_source *s, bool sparse)
 {
     void *(*make)(const char *, int64_t, size_t) = sparse ? memory_new_sparse : memory_new_uninitialised;
@@ -107,7 +107,8 @@ static void columns_extend(struct bonds *b, int64_t room)
     b->room = room;
 }
 
-/* Assigns columns to row blocks in the arrays of the previous rows. */
+/* Assigns to each row block its first column in the arrays of the previous rows: that of the previous row block
+ * kept[g], else a hole, else the end of the arrays, which are extended if necessary. */
 static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     struct holes_by_size holes = holes_sort(&old->holes);
@@ -120,7 +121,8 @@ static void columns_fit(struct bonds *b, struct bonds *old, const int64_t *kept)
     if (b->used > old->room) columns_extend(old, 2 * b->used);
 }
 
-/* Makes b use the arrays of the previous rows, until columns_forget_taken detaches them. */
+/* Makes b use the column arrays of the previous rows. Both use them until columns_forget_taken takes them from `old`.
+ */
 static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kept)
 {
     b->room = old->room;
@@ -131,8 +133,9 @@ static void columns_share(struct bonds *b, struct bonds *old, const int64_t *kep
     holes_add(b, old, kept);
 }
 
-/* Rows with plastic bonds store all columns anew, because their plastic state is archived in the order of the row
- * blocks (bonds_archive.c). */
+/* Assigns columns to all row blocks, in the arrays of the previous rows if possible, else in new ones. Rows with
+ * plastic bonds always get new ones, because their plastic state is archived in the order of the row blocks
+ * (bonds_archive.c). */
 void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept)
 {
     for (int64_t g = 0; g < b->row_blocks; g++) b->columns += b->column_count[g];

@@ -3,7 +3,8 @@
 
 #include "bonds_parts.h"
 
-/* Checks rows and particles: rows ascend by particle, and row_of is the inverse. */
+/* Returns what is wrong with the order of rows and particles, or NULL: rows ascend by particle, and row_of is the
+ * inverse of particle. */
 static const char *rows_fault(const struct bonds *b)
 {
     for (int64_t row = 0; row < b->rows; row++) {
@@ -15,7 +16,7 @@ static const char *rows_fault(const struct bonds *b)
     return NULL;
 }
 
-/* Checks an implicit row block. */
+/* Returns what is wrong with a row block that stores no columns but uses a stencil, or NULL. */
 static const char *implicit_fault(const struct bonds *b, int64_t g)
 {
     if (!b->stencil[g]) return "an implicit row block follows no stencil";
@@ -25,7 +26,8 @@ static const char *implicit_fault(const struct bonds *b, int64_t g)
     return NULL;
 }
 
-/* Checks a stored column against the common properties of its bonds. */
+/* Returns what is wrong with a stored column, or NULL: the common properties of its eight bonds must agree with each
+ * bond. */
 static const char *column_fault(const struct bonds *b, int64_t column)
 {
     const struct bond_column *common = &b->common[column];
@@ -41,7 +43,7 @@ static const char *column_fault(const struct bonds *b, int64_t column)
     return NULL;
 }
 
-/* Checks that the intact bonds of a row are within `reach` row blocks. */
+/* Returns an error text if an intact bond of a row leads farther than b->reach row blocks away, or NULL. */
 static const char *reach_fault(const struct bonds *b, int64_t row)
 {
     for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);) {

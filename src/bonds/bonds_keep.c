@@ -15,7 +15,7 @@ int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *
     return first / LANES;
 }
 
-/* Copies `each` bytes per column from row block `of` of the previous rows to row block g. */
+/* Copies an array with `each` bytes per column from row block `of` of the previous rows to row block g. */
 static void columns_copy(void *to, const void *from, size_t each, const struct bonds *b, const struct bonds *old,
                          int64_t g, int64_t of)
 {
@@ -23,7 +23,7 @@ static void columns_copy(void *to, const void *from, size_t each, const struct b
                b->column_count[g], each);
 }
 
-/* Copies all columns of row block `from` to row block g. */
+/* Copies the column arrays of row block `from` of the previous rows to row block g. */
 static void columns_keep(struct bonds *b, const struct bonds *old, int64_t g, int64_t from)
 {
     columns_copy(b->first, old->first, sizeof *b->first, b, old, g, from);

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* Relative tolerance by which the vector test for breaking is below the limit, for round-off; the scalar test is
- * exact. */
+/* Relative amount by which the stretch limit of the vector test for breaking is reduced, so that round-off hides no
+ * broken bond; the scalar test that follows is exact. */
 #define TRIGGER_MARGIN 1e-9
 
 void row_buffer_make(struct row *row, int room)
@@ -28,8 +28,8 @@ void row_buffer_free(struct row *row)
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Lists the particles and images of the body of particle i within the cutoff, ascending. Returns their number; if it
- * exceeds `room`, the list is incomplete. */
+/* Lists the particles and images within the cutoff of particle i that belong to its body, in ascending order, in found
+ * [room]. Returns their number; if it exceeds `room`, the list is incomplete. */
 static int family_search(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int room)
 {
     real X[DIM_MAX];
@@ -41,7 +41,8 @@ static int family_search(const struct bond_source *s, const struct particles *p,
     return kept;
 }
 
-/* Removes the neighbours that voids hide from a list of n neighbours of particle i. Returns how many remain. */
+/* Removes those of n neighbours of particle i from found [n] to which the connecting line passes through a void.
+ * Returns the number of remaining ones. */
 static int family_seen(const struct bond_source *s, const struct particles *p, int32_t i, int32_t *found, int n)
 {
     int kept = 0;
@@ -105,8 +106,8 @@ static real bond_weight(const struct bond_source *s, const struct particles *p, 
     return weight;
 }
 
-/* Finds the neighbours in row i: the whole family of a peridynamic particle, the peridynamic neighbours of a material
- * point. */
+/* Finds the neighbours with which particle i has bonds: of a peridynamic particle the whole family, of a material point
+ * the peridynamic neighbours only. Stores the volume of the family. */
 static void row_search(struct row *row, const struct site_map *map, const struct bond_source *s,
                        const struct particles *p, int32_t i, int room)
 {
@@ -135,9 +136,9 @@ static real elastic_strain_along(const struct particles *p, const struct materia
     return sum;
 }
 
-/* Returns the initial plastic state of a bond between material points that have yielded: the part of the stretch that
- * their stress does not explain, and their mean plastic strain. A bar then carries the stress of its points to the last
- * digit. Symmetric in i and j. */
+/* Returns the initial plastic state of a bond between material points that have yielded: as plastic stretch the part of
+ * its stretch that their stress does not explain elastically, and the mean of their plastic strains. A bar then carries
+ * the stress of its points to the last digit. r: reference length [m]. Symmetric in i and j. */
 static struct bond_plasticity plasticity_of_points(const struct bond_source *s, const struct particles *p, int32_t i,
                                                    int32_t j, real r)
 {
@@ -153,14 +154,16 @@ static struct bond_plasticity plasticity_of_points(const struct bond_source *s, 
                                     0.5 * (p->plastic_strain[i] + p->plastic_strain[other])};
 }
 
-/* The stretch above which the vector test reports a bond: its limit less a tolerance. */
+/* Returns the stretch above which the vector test reports bond i-j as possibly broken: its critical stretch, slightly
+ * reduced (TRIGGER_MARGIN). */
 real bond_test_stretch(const struct bond_source *s, const struct particles *p, int32_t i, int32_t j)
 {
     return s->limit.critical_stretch[p->material[i] * s->limit.materials + p->material[j]] * bond_strength(p, i, j) *
            (1 - TRIGGER_MARGIN);
 }
 
-/* Computes lengths, weights and cuts by cracks of the bonds found by row_search. */
+/* Computes lengths and weights of the bonds found by row_search. Bonds that a pre-crack cuts get weight 0 and a
+ * negative inverse length. */
 static void row_weigh(struct row *row, const struct bond_source *s, const struct particles *p,
                       const struct pair_table *pairs, int32_t i)
 {
@@ -187,7 +190,7 @@ static struct bond_plasticity stored_plasticity(const struct bonds *b, int64_t r
     return (struct bond_plasticity){b->plastic_stretch[q], b->plastic_path[q]};
 }
 
-/* Carries over broken and yielded bonds from the previous row. */
+/* Copies the state of broken and yielded bonds from the previous row of the particle. */
 static void row_inherit(struct row *row, const struct particles *p, const struct bonds *old, int64_t old_row)
 {
     int64_t row_block = old_row / LANES;

@@ -4,7 +4,7 @@
 #include "bonds_parts.h"
 #include "base/memory.h"
 
-/* Returns true if the index distances of a row equal offset[n]. */
+/* Returns true if the differences between the neighbours of a row and its particle are exactly offset[0 .. n - 1]. */
 static bool offsets_are(const int32_t *offset, int n, const struct row *row, int32_t particle)
 {
     int32_t other = 0;
@@ -30,7 +30,9 @@ static int row_block_offsets(struct row_block_buffer *g, const int32_t *particle
     return n;
 }
 
-/* Packed rows are for irregular clouds, where columns by distance would be mostly padding. */
+/* Returns the number of columns of a row block, and stores in *by_offset how bonds are arranged: each column has bonds
+ * of one index distance, or rows are packed without gaps. Rows of irregular particles are packed, since columns by
+ * distance would be mostly padding. */
 int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset)
 {
     int longest = 0;
@@ -41,7 +43,7 @@ int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle,
     return *by_offset ? offsets : longest;
 }
 
-/* Returns the index of a pair of materials in b->yield. */
+/* Returns the index in the table b->yield of the pair of materials of particles i and j. */
 static int32_t pair_of(const struct bonds *b, const struct particles *p, int32_t i, int32_t j)
 {
     return p->material[i] * b->yield.materials + p->material[j];
@@ -55,7 +57,8 @@ static void plastic_put(struct bonds *b, int64_t q, struct bond_plasticity plast
     b->pair[q] = pair;
 }
 
-/* Stores trigger, volumes and alignment of row block g. */
+/* Stores for row block g whether its particles are consecutive, and for each row the smallest stretch at which a bond
+ * may break, the volumes of its family and of the neighbours whose bonds are broken. */
 static void row_block_note(struct bonds *b, const struct row_block_buffer *room, int64_t g, int rows)
 {
     bool aligned = rows == LANES;
@@ -70,8 +73,8 @@ static void row_block_note(struct bonds *b, const struct row_block_buffer *room,
     for (int l = rows; l < LANES; l++) b->trigger[g * LANES + l] = INFINITY;
 }
 
-/* Returns true if bond number `used` of row l belongs in column k: it has the index distance of column k, or rows are
- * packed. */
+/* Returns true if the next bond of row l, number `used`, belongs to column k. With by_offset it must have the index
+ * distance of the column; else rows are packed, and any bond belongs to it. */
 static bool row_has(const struct row_block_buffer *room, const int32_t *particle, int l, int used, bool by_offset,
                     int k)
 {
@@ -107,7 +110,8 @@ void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, i
     row_block_store(b, room, g, p);
 }
 
-/* Makes the stencil of the columns in `room`. Returns false if the row block must store its columns. */
+/* Makes the stencil of row block g from its columns in `room`. Returns false if the row block must store its columns:
+ * its particles are not consecutive, bonds are plastic or changed, or a column has unequal bonds. */
 static bool stencil_of(const struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p)
 {
     const int columns = b->column_count[g];
@@ -171,7 +175,8 @@ int regular_bonds_count(const struct regular_bonds *bonds)
     return sum;
 }
 
-/* Fills a column with the bonds to the particles at one index distance. bonds: lanes that have the bond. */
+/* Fills a column with the bonds of particles i .. i + 7 to particles j .. j + 7. bonds: which of the eight exist, one
+ * bit each; the others become padding. */
 static void fill_column(struct column_copy *column, const struct row_maker *m, int32_t i, int32_t j, unsigned bonds)
 {
     const struct bond_source *s = m->source;
@@ -183,7 +188,7 @@ static void fill_column(struct column_copy *column, const struct row_maker *m, i
     }
 }
 
-/* Computes the smallest breaking stretch of the bonds of particles i .. i + 7. */
+/* Computes for each of the particles i .. i + 7 the smallest stretch at which one of its bonds may break. */
 static void regular_triggers(real trigger[LANES], const struct regular_bonds *bonds, const struct row_maker *m,
                              int32_t i)
 {
@@ -204,7 +209,8 @@ static bool whole_families(const struct regular_bonds *bonds)
     return without == 0;
 }
 
-/* On a lattice columns are computed without rows. */
+/* Fills row block g from the bonds in room->regular, which the site map gives, without making single rows. If a recent
+ * row block had the same bonds and families are whole, its stencil and sums are used. */
 void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct row_maker *m)
 {
     const struct regular_bonds *bonds = &room->regular;
@@ -226,7 +232,8 @@ void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int6
     row_block_store(b, room, g, m->p);
 }
 
-/* Room for the worst case, of which little is ever touched: the arrays are not cleared. */
+/* Allocates working memory for row blocks whose rows have up to `room` bonds, for the worst case, of which little is
+ * ever touched: the arrays are not cleared. */
 void row_block_buffer_make(struct row_block_buffer *g, int room, const struct site_map *map)
 {
     g->room = room;

@@ -13,11 +13,14 @@
  * sites, so round-off decides nothing; horizons of whole spacings (tolerance 1e-7) still pass. */
 #define BAND (4 * LATTICE_NEAR)
 enum { HALF_MOST = 16 };
-/* Largest number of sites per particle: where few particles of a body are made, few pages of the map are written. */
+/* Largest number of lattice sites per particle for which a map is made. If few particles of a body exist, few pages of
+ * the map are written. */
 #define SPARSE_MOST 256.0
 
 /* ---- the map of sites -------------------------------------------------------------------------------------------- */
 
+/* Returns the index of the lattice site at which particle i is, -1 if its position is not a lattice site of the map
+ * l. */
 int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i)
 {
     int64_t site = 0;
@@ -43,7 +46,8 @@ static int64_t box_sites(struct site_map *l, const struct particles *p)
     return (int64_t)site_map;
 }
 
-/* Lists the lattice rows within the cutoff, ascending. Returns false if round-off would decide membership. */
+/* Lists the segments of lattice rows within the cutoff of a site, ascending. Returns false if a site is so close to the
+ * cutoff that round-off would decide whether it is inside. */
 static bool site_offsets_make(struct site_map *l, const struct family *f, int dim)
 {
     const int high = dim > 2 ? l->reach : 0, wide = dim > 1 ? l->reach : 0;
@@ -63,8 +67,8 @@ static bool site_offsets_make(struct site_map *l, const struct family *f, int di
     return true;
 }
 
-/* Enters all particles and images in the map. Returns false if particles are not in the order of their sites, one
- * each. */
+/* Enters all particles and images in the map. Returns false if the map cannot be used: a particle off the lattice, two
+ * at one site, several bodies, or particles not in the order of their sites. */
 static bool sites_fill(struct site_map *l, const struct particles *p)
 {
     bool regular = true;
@@ -102,7 +106,8 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     return exact;
 }
 
-/* Returns true if all particles have one volume, mass and material, and exact positions. */
+/* Returns true if all particles have the same volume, mass and material, and positions that are exact multiples of a
+ * step: equal distances are then equal to the last bit. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
@@ -169,8 +174,8 @@ int site_map_find_neighbours(const struct site_map *l, const struct particles *p
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 along one lattice row. Returns false if the particles there are not
- * consecutive. */
+/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: of particle i; row: the
+ * lattice row relative to it. Returns false if the indices of the particles on the row are not consecutive. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, struct regular_bonds *to)
 {
@@ -191,7 +196,7 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
     return true;
 }
 
-/* Returns true if every lane has a neighbour at every distance. */
+/* Returns true if all eight particles have a neighbour at every index distance of the list. */
 static bool is_full(const struct regular_bonds *b)
 {
     unsigned other = 0;
@@ -233,7 +238,8 @@ void regular_bonds_free(struct regular_bonds *to)
     stencil_cache_free(to->stencil_cache);
 }
 
-/* Computes 1/r and weight of the bonds from i + lane to j + lane, as row_weigh does. */
+/* Computes inverse length and weight of the bonds from particle i + l to j + l for eight lanes l, with the same bits as
+ * row_weigh. */
 static ALWAYS_INLINE void weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
                                 int64_t i, int64_t j, real *inverse, real *w, const int dim)
 {

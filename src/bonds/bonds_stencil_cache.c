@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "bonds/surface.h"
 
-/* number of remembered row blocks: enough for the kinds in a few lattice rows, inside and at their ends; empirical */
+/* Number of row blocks in the cache: enough for the different ones in a few lattice rows, inside and at their ends;
+ * empirical. */
 enum { REMEMBERED = 32 };
 
 struct stencil_cache {
@@ -42,8 +43,8 @@ static bool same_sites(const struct regular_bonds *a, const struct regular_bonds
            arrays_equal(a->from, b->from, a->n, 1) && arrays_equal(a->to, b->to, a->n, 1);
 }
 
-/* Returns true if the entries of `around` are equal at i .. i + 7 and j .. j + 7 and at all their neighbours. Index
- * distances come in runs, which are compared at once. */
+/* Returns true if the array `around` [particles] has equal values at i .. i + 7 and j .. j + 7 and at all neighbours of
+ * both, whose index distances b gives. Consecutive index distances are compared at once. */
 static bool same_around(const real *around, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (memcmp(around + i, around + j, LANES * sizeof *around) != 0) return false;
@@ -55,7 +56,7 @@ static bool same_around(const real *around, const struct regular_bonds *b, int64
     return true;
 }
 
-/* Stores the bonds of particles i .. i + 7 in place of the oldest. */
+/* Stores the bonds of particles i .. i + 7 in the cache, in place of the oldest entry. */
 static void remember(struct stencil_cache *t, const struct regular_bonds *b, int64_t i)
 {
     struct cached *to = &t->cached[t->next];
@@ -73,7 +74,8 @@ static void remember(struct stencil_cache *t, const struct regular_bonds *b, int
     t->next = (t->next + 1) % REMEMBERED;
 }
 
-/* Returns true if the inputs of the weights are equal around i .. i + 7 and j .. j + 7. */
+/* Returns true if all data from which the weights of bonds are computed are equal around particles i .. i + 7 and
+ * around j .. j + 7. */
 static bool same_weights(const struct bond_source *s, const struct regular_bonds *b, int64_t i, int64_t j)
 {
     if (s->neighbour_volume && !same_around(s->neighbour_volume, b, i, j)) return false;

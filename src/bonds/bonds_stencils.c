@@ -41,7 +41,8 @@ void stencil_free(struct stencil *p)
 
 /* ---- stencil of one row block ------------------------------------------------------------------------------------ */
 
-/* Stores the components of the bonds of a column. Returns false if they are not equal to the last bit. */
+/* Stores the reference vector of the bonds from particles i .. i + 7 to j .. j + 7 in the stencil column. Returns false
+ * if the intact ones do not all have the same vector to the last bit. */
 static bool reference_of(const struct particles *p, int64_t i, int64_t j, struct stencil_column *to)
 {
     int one = 0, same = 1;
@@ -106,7 +107,8 @@ static int hash_of(const struct stencil *p)
     return (int)((hash ^ hash >> 32) % HASHES);
 }
 
-/* Returns the stored stencil equal to `stencil`, and stores it if it is new; NULL if the table is full. */
+/* Returns the stored stencil that equals `stencil`. If there is none, stores a copy and returns it, or NULL if the
+ * table is full. */
 static const struct stencil *stencil_store(struct stencils *all, const struct stencil *stencil)
 {
     const int hash = hash_of(stencil);
@@ -145,6 +147,8 @@ bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached)
 
 /* ---- bond by bond ------------------------------------------------------------------------------------------------ */
 
+/* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
+ * *to, from the stencil if the row block stores no columns. */
 void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k)
 {
     const int64_t column = b->column[row_block] + k;
@@ -186,7 +190,7 @@ void bond_column_write(const struct bonds *b, int64_t column, const struct colum
     bonds_update_column_common(b, column);
 }
 
-/* Writes the columns of a row block from its stencil. */
+/* Writes the columns of a row block, which are defined by its stencil, to the column arrays. */
 static void expand(struct bonds *b, int64_t row_block)
 {
     struct column_copy copy;

@@ -10,7 +10,7 @@
 /* relative difference of volumes that counts as round-off: sums of some hundred terms in different order */
 #define WHOLE 1e-12
 
-/* Returns the sum of V_j beta over the neighbours of particle i [m^3]. */
+/* Returns the sum of the volumes of the neighbours of particle i times their weights in the family f [m^3]. */
 static real volume_near(const struct particles *p, const struct bond_source *s, const struct family *f,
                         const struct site_map *map, int64_t i, int32_t *found, int room)
 {
@@ -24,8 +24,8 @@ static real volume_near(const struct particles *p, const struct bond_source *s, 
     return volume;
 }
 
-/* Computes the sums of V_j beta of particles i .. i + 7 whose bonds the site map gives, with equal `weight` of all
- * neighbours [m^3]. */
+/* Computes for each of the particles i .. i + 7 the sum of the volumes of its neighbours times the common `weight`
+ * [m^3]. bonds: the neighbours, from the site map. */
 static void volumes_near(real *volume, const struct particles *p, const struct regular_bonds *bonds, real weight,
                          int64_t i)
 {
@@ -36,8 +36,8 @@ static void volumes_near(real *volume, const struct particles *p, const struct r
     for (int l = 0; l < LANES; l++) volume[i + l] = sum[l];
 }
 
-/* Sets the volume of complete families to that of the lattice exactly, whatever the order of summation: weights inside
- * a body are then 1, and columns need none (kernels/pd/bond_column.h). */
+/* Replaces volumes of families that equal the full volume up to round-off by the full volume exactly: weights inside a
+ * body are then 1, and columns need none (kernels/pd/bond_column.h). */
 static void whole_volumes(real *volume, int64_t n, real full)
 {
 #pragma omp parallel for schedule(static)
@@ -81,7 +81,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
     for (int64_t k = p->n; k < p->n_all; k++) volume[k] = volume[s->image[k - p->n].source];
 }
 
-/* Returns the bound of omega^2 m of one particle [N/m]. */
+/* Returns an upper bound of omega^2 m for one particle [N/m], from the springs of the bonds in its row. */
 static real row_stiffness(const struct row *row, const struct particles *p, int32_t i, real stiffness)
 {
     struct spring_bound bound = {{{0}}, 0};
@@ -107,7 +107,8 @@ real bonds_row_stiffness_bound(const struct bonds *b, const struct particles *p,
     return spring_bound_of(&bound, p->dim);
 }
 
-/* Bounds of eight consecutive particles, side by side. */
+/* Sums of the springs on eight consecutive particles, from which bounds of their frequencies follow: stiffness matrix
+ * of the particle's own displacement and total stiffness [N/m]. */
 struct eight_bounds {
     real block[DIM_MAX][DIM_MAX][LANES], total[LANES];
 };
@@ -126,7 +127,7 @@ static ALWAYS_INLINE void bounds_add(struct eight_bounds *bound, const struct pa
     for (int l = 0; l < LANES; l++) bound->total[l] += K[l];
 }
 
-/* Adds such springs in the dimension of the particles. */
+/* Adds springs as bounds_add does, in the dimension of the particles. */
 static void bounds_add_any(struct eight_bounds *bound, const struct particles *p, int64_t i, int64_t j,
                            const real *inverse, const real *w, real stiffness)
 {
@@ -143,7 +144,7 @@ static void bounds_add_any(struct eight_bounds *bound, const struct particles *p
     }
 }
 
-/* Returns the largest omega^2 of particles i .. i + 7 [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 from the sums of their springs [1/s^2]. */
 static real bounds_frequency(const struct eight_bounds *bounds, const struct particles *p, int64_t i)
 {
     real largest = 0;
@@ -156,7 +157,8 @@ static real bounds_frequency(const struct eight_bounds *bounds, const struct par
     return largest;
 }
 
-/* Returns the largest omega^2 in a regular row block whose rows are not made [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of particles i .. i + 7 from the bonds that the site map gives, without
+ * making their rows [1/s^2]. */
 static real row_block_frequency(const struct regular_bonds *bonds, const struct bond_source *s,
                                 const struct particles *p, const struct pair_table *pairs, int64_t i, real stiffness)
 {
@@ -171,7 +173,7 @@ static real row_block_frequency(const struct regular_bonds *bonds, const struct 
     return bounds_frequency(&bounds, p, i);
 }
 
-/* Returns the largest omega^2 in row block g from its stored bonds [1/s^2]. */
+/* Returns an upper bound of the largest omega^2 of the particles in row block g from its stored bonds [1/s^2]. */
 static real row_block_frequency_made(const struct bonds *b, const struct particles *p, int64_t g)
 {
     const int64_t columns = b->column_count[g];
@@ -200,8 +202,9 @@ real bonds_critical_step_of_existing(const struct bonds *b, const struct particl
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
 }
 
-/* Returns the stiffnesses of bonds between materials over that of material 0; state-based models: mean of both
- * materials, because each row of a bond responds with its own modulus. Release `ratio` with memory_free. */
+/* Returns the stiffnesses of bonds between two materials over that of material 0, for bounds of frequencies. For
+ * state-based models it is the mean of both materials, because each row of a bond responds with its own modulus.
+ * Release `ratio` with memory_free. */
 static struct pair_table pairs_of_bound(const struct bond_source *s)
 {
     struct pair_table pairs = pair_table_make(s);

@@ -3,7 +3,7 @@
 
 #include "bonds_parts.h"
 
-/* Breaks the bond of a row to particle nbr, if it exists and is intact. */
+/* Marks the bond of a row to particle nbr as broken by load, unless it does not exist or is marked already. */
 static void bond_take(struct bonds *b, int64_t row, int32_t nbr)
 {
     const int lane = (int)(row % LANES);

@@ -96,8 +96,9 @@ static struct lattice_sums lattice_sums(const struct family *f)
     return s;
 }
 
-/* Computes weights for bonds nearer the axes and nearer the diagonals such that sum r n1^4 = 3 sum r n1^2 n2^2: C11 =
- * C12 + 2 C44 with C12 = C44, an isotropic solid. Their scale keeps sum r V unchanged. */
+/* Computes weights of bonds nearer the axes and of bonds nearer the diagonals such that the family is isotropic: sum r
+ * n1^4 = 3 sum r n1^2 n2^2, i.e. C11 = C12 + 2 C44 with C12 = C44. Their scale keeps sum r V unchanged. Without a
+ * solution the weights stay as they are. */
 static void shells_isotropic(struct family *f)
 {
     if (space_dim(f->space) == 1) return;

@@ -45,7 +45,9 @@ static int crossings(const struct family *f, real height, struct crossing *c)
     return n;
 }
 
-/* Returns int dW of one layer for s_c = 1, summed from the last break back to the first. */
+/* Returns the work of separation of one layer of particles for s_c = 1, the integral of dW over the opening, summed
+ * from the last bond that breaks back to the first. height: of the layer above the plane [m]; local: Q is that of the
+ * intact bonds. */
 static real layer_work(const struct state_modulus *m, const struct family *f, real height, bool local,
                        struct crossing *c)
 {
@@ -73,7 +75,8 @@ real family_separation_work(const struct family *f, const struct state_modulus *
     return 2 * f->spacing * work;
 }
 
-/* Each column of the lattice has n parallel bonds across the plane if their normal component is n spacings. */
+/* Returns the energy per area of all bonds across a plane at the critical stretch [J/m^2]. Each column of the lattice
+ * has n parallel bonds across the plane if their normal component is n spacings. */
 real family_crossing_energy(const struct family *f, const struct material *m)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing);

@@ -6,7 +6,8 @@
 #include "base/memory.h"
 #include "surface_parts.h"
 
-/* Fills the factors by class and offset, and the weighted volumes of the classes. */
+/* Fills the tables of bond factors by class and offset, and of the weighted volumes of the classes. factor: factor of
+ * each group of bonds. */
 static void tables_make(struct surface_weights *to, const struct near_faces *b, const struct bond_classes *a,
                         const struct family *f, const real *factor)
 {

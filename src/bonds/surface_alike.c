@@ -19,8 +19,9 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 }
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
-/* Returns the colour (hash of the surroundings) of neighbour j seen in `mirrors`. Each particle has 2^dim consecutive
- * colours, one for each set of mirrors. */
+/* Returns the hash of the surroundings (colour) of neighbour j, reflected by the axes in `mirrors`. colour: 2^dim
+ * consecutive hashes for each particle near a face, one for each set of mirrors. Returns 1 without a particle (j < 0),
+ * 2 for a particle near no face. */
 static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
@@ -29,7 +30,8 @@ static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, 
     return t < 0 ? 2 : colour[(t << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Computes the colours of all particles near faces, in all mirrors. */
+/* Computes the hashes of the surroundings (colours) of all particles near faces, in all reflections, in RADIUS rounds,
+ * each of which includes the neighbours' hashes of the previous one. */
 static void colours(const struct near_faces *b, uint64_t *colour)
 {
     const struct offsets *o = &b->offset;
@@ -52,7 +54,8 @@ static void colours(const struct near_faces *b, uint64_t *colour)
     memory_free(before);
 }
 
-/* Returns the first set of mirrors >= `from` in which particle t has its smallest colour, -1 if there is none. */
+/* Returns the first set of mirrors from number `from` on in which particle t has its smallest hash (colour), -1 if
+ * there is none. */
 static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_t t, int from)
 {
     const uint64_t *own = colour + (t << b->offset.dim);
@@ -64,7 +67,7 @@ static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_
     return -1;
 }
 
-/* Numbers the classes in the order of their first particle. */
+/* Assigns particles with equal hashes (colours) to classes, numbered in the order of their first particle from 1 on. */
 static void classes_make(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
 {
     const int dim = b->offset.dim;
@@ -96,7 +99,7 @@ static int64_t root_of(int64_t *parent, int64_t k)
     return k;
 }
 
-/* Joins the groups of two entries. */
+/* Joins the groups of two entries, one of which may have none yet. */
 static void groups_join(int64_t *parent, int64_t one, int64_t other)
 {
     if (parent[one] < 0) parent[one] = one;
@@ -108,13 +111,15 @@ static void groups_join(int64_t *parent, int64_t one, int64_t other)
         parent[x] = y;
 }
 
-/* Returns the entry (class, offset in its mirrors) of bond k of particle t. */
+/* Returns the entry of bond k of particle t in the tables by class and offset: the offset is reflected by the mirrors
+ * that the particle has in its class. */
 static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b, int64_t t, int k)
 {
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the entries of both directions of every bond that may change. */
+/* Joins the entries of both directions of every bond, unless both particles have whole families: such bonds keep factor
+ * 1. */
 static void bonds_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     for (int64_t t = 0; t < b->n; t++)
@@ -127,7 +132,7 @@ static void bonds_join(const struct bond_classes *a, const struct near_faces *b,
         }
 }
 
-/* Joins bonds that are mirror images of each other within a class. */
+/* Joins the entries of bonds of a class that are mirror images of each other. */
 static void twins_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
 {
     const struct offsets *o = &b->offset;
@@ -139,7 +144,7 @@ static void twins_join(const struct bond_classes *a, const struct near_faces *b,
             }
 }
 
-/* Finds the mirrors under which each class is its own image. */
+/* Finds for each class the sets of mirrors under which it is its own image, one bit each in a->symmetry. */
 static void symmetries_find(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
 {
     a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);

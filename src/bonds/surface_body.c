@@ -8,7 +8,8 @@
 
 /* ---- offsets of a full family ------------------------------------------------------------------------------------ */
 
-/* Adds the offset at[dim] [spacings] if it is within the cutoff. states: state-based weights. */
+/* Adds the offset at[dim] [spacings] to the list if it is within the cutoff, with its length, direction and weight.
+ * states: the weights are those of state-based models. */
 static void offset_add(struct offsets *o, const struct family *f, bool states, const int *at)
 {
     real xi[DIM_MAX], length2 = 0;
@@ -28,7 +29,8 @@ static void offset_add(struct offsets *o, const struct family *f, bool states, c
     o->weight[o->n] = o->share[o->n] * (states ? length : 1), o->n++;
 }
 
-/* Lists the offsets of a full family. */
+/* Lists the offsets of all neighbours in a full family, with their lengths and weights. states: of state-based
+ * models. */
 static void offsets_make(struct offsets *o, const struct family *f, bool states)
 {
     const int dim = space_dim(f->space), reach = (int)ceil(f->cutoff / f->spacing), side = 2 * reach + 1;
@@ -79,6 +81,8 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
+/* Returns the particle of the body of which entry j of the particle arrays is an image (j itself, if it is not an
+ * image), and the mirrors in between as one bit per reversed axis. */
 struct seen mirrored_source_of(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_root(b->p, b->source->image, j), 0};
@@ -102,15 +106,16 @@ int reverse_offset(const struct near_faces *b, const struct seen *to, int k)
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
 }
 
-/* Working memory of one thread for a search. */
+/* Parameters and working memory of the neighbour search of one thread. */
 struct search {
     const struct site_map *map;
     int32_t *found;
     int room;
 };
 
-/* Finds the neighbours of particle i by offset (to [offsets], NULL: only counted). Returns their number, -1 if one is
- * not on the lattice. */
+/* Finds the neighbours of particle i that pre-cracks do not hide, and stores them by offset in to [offsets], -1 where
+ * there is none; to NULL: they are only counted. Returns their number, or -1 if one is not on the lattice of the
+ * particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
@@ -129,7 +134,8 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Returns true if the site map shows that eight particles have whole families. */
+/* Returns true if the site map shows that particles first .. first + 7 have whole families, with no crack or void near.
+ * False means that it is not known. */
 static bool eight_whole(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
                         int64_t first)
 {
@@ -139,7 +145,8 @@ static bool eight_whole(const struct near_faces *b, const struct site_map *map, 
     return !near;
 }
 
-/* Marks whole families. Returns false if a particle is not on the lattice. */
+/* Marks the particles with whole families in b->whole. Returns false if a particle is not on the lattice of its
+ * neighbours. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     const int room = bonds_most_neighbours(b->source);
@@ -163,7 +170,8 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Lists the particles near faces. Returns false if one is not on the lattice. */
+/* Lists the particles near faces, i.e. within the cutoff of a particle or image without a whole family, and their
+ * neighbours by offset. Returns false if a neighbour is not on the lattice. */
 static bool near_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
@@ -199,7 +207,8 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Finds the first particle with a neighbour, not behind a pre-crack, that is not a whole number of spacings away. */
+/* Finds the first pair of neighbours that is not a whole number of spacings apart along each axis and not separated by
+ * a pre-crack. apart: receives both, -1 if there is none. */
 static void apart_find(const struct near_faces *b, const struct site_map *map, int64_t apart[2])
 {
     const struct bond_source *s = b->source;

@@ -19,12 +19,13 @@
 
 enum { CHAIN = 3 }; /* layers over which area and dipole of a face are distributed */
 
-/* Area vector, centre [spacings] and size of a particle's face, as seen from another particle through mirrors. */
+/* Face of a particle, as seen from another one through mirrors: area vector [spacings^(dim-1)], position of its centre
+ * [spacings] and length of the area vector. */
 struct face {
     real area[DIM_MAX], centre[DIM_MAX], size;
 };
 
-/* Faces of single particles: sums of unit areas. */
+/* Area vectors of the faces of single particles near faces, sums of unit vectors along the axes without a neighbour. */
 struct raw_faces {
     const struct near_faces *body;
     real (*area)[DIM_MAX];
@@ -36,7 +37,7 @@ static bool lacks(const struct near_faces *b, int64_t t, int axis, int up)
     return neighbour_of(b, t, b->offset.axis[axis][up]) < 0;
 }
 
-/* Returns the face of particle or image j. */
+/* Returns the face of particle or image j, of area 0 if it is near no face. */
 static struct face face_seen(const struct raw_faces *raw, int64_t j)
 {
     const struct near_faces *b = raw->body;
@@ -62,7 +63,8 @@ struct mean_face {
     real normal[DIM_MAX], variance;
 };
 
-/* Adds a face to the sums of areas and moments about the point `from`. */
+/* Adds a face, times `weight`, to the sum of areas and to the sums of size, first and second moments of positions
+ * relative to `from`. */
 static void mean_add(const struct face *f, const real *from, real weight, int dim, real *area, real *sums)
 {
     real x[DIM_MAX];
@@ -74,7 +76,8 @@ static void mean_add(const struct face *f, const real *from, real weight, int di
     }
 }
 
-/* Computes the mean face around particle t. */
+/* Computes the mean normal of the faces around particle t that point in similar directions, and the variance of their
+ * positions along it. */
 static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
 {
     const struct near_faces *b = raw->body;
@@ -98,12 +101,14 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* For each particle with a face: projection of areas, and contribution to N (x) N. */
+/* For each particle: the projection that turns axis-parallel face areas into the mean normal, and its contribution to N
+ * (x) N. Both are interpolated to those of the single face where faces are not in one plane. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
 
-/* Computes projection and contribution of particle t. */
+/* Computes the projection of face areas and the contribution to N (x) N of particle t; without a face, the identity and
+ * 0. */
 static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t t)
 {
     const int dim = raw->body->p->dim;
@@ -123,7 +128,8 @@ static void smooth_make(struct smooth *to, const struct raw_faces *raw, int64_t 
         }
 }
 
-/* Returns the sum of weights of the faces of a plane as seen from a particle in it. */
+/* Returns the sum of the weights (nearness) of all faces of an infinite plane, seen from a particle in its first
+ * layer. */
 static real plane_of_faces(const struct offsets *o)
 {
     real sum = 1;
@@ -131,7 +137,9 @@ static real plane_of_faces(const struct offsets *o)
     return sum;
 }
 
-/* Computes the mean of N (x) N of particle t, weighted by nearness. */
+/* Computes N (x) N of particle t as the mean over the faces of its family, weighted by nearness, and reduced where
+ * fewer faces are near than at a plane face (`plane`: sum of weights there). rotates: of a model with rotations,
+ * without this reduction. */
 static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, real plane,
                            bool rotates, int64_t t)
 {
@@ -154,9 +162,10 @@ static void normals_gather(struct face_targets *f, const struct near_faces *b, c
         for (int c = 0; c < dim; c++) f->normal2[t][a][c] = trace > 1e-12 ? near * sum[a][c] / trace : 0;
 }
 
-/* Distributes the face of particle t at one end of an axis over the layers behind it. The area is extrapolated from the
- * middles of the layers to the face. The weights of the dipole have sum 0. Without rotations they are the difference 1,
- * -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order at the face. */
+/* Distributes the face of particle t at one end of an axis over the layers behind it, as area and as dipole. The area
+ * is extrapolated from the middles of the layers to the face. The weights of the dipole have sum 0: without rotations
+ * the difference 1, -1 of the first two layers; with rotations 2, -3, 1, a one-sided first derivative of second order
+ * at the face. up: the end in positive direction. */
 static void face_spread(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, int64_t t,
                         int axis, int up, bool rotates)
 {
@@ -179,7 +188,7 @@ static void face_spread(struct face_targets *f, const struct near_faces *b, cons
         for (int k = 0; k < 2; k++) f->dipole[b->place[chain[k].particle]] += first[k];
 }
 
-/* Returns the number of layers from face to face along an axis, at most `most`. */
+/* Returns the number of layers of particles along an axis through particle t, from face to face, at most `most`. */
 static int layers(const struct near_faces *b, int64_t t, int axis, int most)
 {
     int n = 1;

@@ -18,8 +18,8 @@
 #define STIFF 1000.0   /* weight of a strain that loads a face: 1/STIFF; empirical */
 #define ROTATIONS -0.2 /* alpha of models with rotations: fitted to bending */
 /* Weight of (f - 1)^2 relative to the mean square of a bond in its moments; empirical: with a twentieth of it,
- * frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth; wider bounds act
- * likewise. */
+ * frequencies of beams of 10 layers are closer by 0.1 %, and time steps shorter by a fifth. Wider limits LEAST and MOST
+ * of the factors have the same effect. */
 #define PRIOR 2e-2
 #define LEAST 0.2
 #define MOST 3.0
@@ -34,6 +34,7 @@ struct components {
     int n, rank, axis[FOURTHS][4];
 };
 
+/* Lists the components of symmetric tensors of rank `rank`: all ascending sequences of axes. */
 static void components_make(struct components *c, int rank, int dim)
 {
     int axis[4] = {0};
@@ -47,7 +48,7 @@ static void components_make(struct components *c, int rank, int dim)
     }
 }
 
-/* Returns the index of the component with these axes in any order. */
+/* Returns the index of the tensor component with the axes any [rank], in any order. */
 static int component_of(const struct components *c, const int *any)
 {
     int axis[4];
@@ -70,7 +71,7 @@ static real component_value(const struct components *c, int k, const real *n)
     return value;
 }
 
-/* Moments that all classes share. */
+/* Moments of the bonds by offset, of a full family, and the basis of strains, which are the same for all classes. */
 struct moments {
     int dim, strains;
     struct components third, fourth;
@@ -82,13 +83,14 @@ struct moments {
     real third_by[DIM_MAX][STRAINS][THIRDS];   /* coefficients of n_p.T:B_l by component of T */
 };
 
-/* Returns M_abcd over M_1111. */
+/* Returns component abcd of the fourth moment M of a full family, over M_1111. */
 static real full_of(const struct moments *m, int a, int b, int c, int d)
 {
     return m->full[component_of(&m->fourth, (const int[]){a, b, c, d})];
 }
 
-/* Computes the basis of strains, its stresses and the coefficients. */
+/* Computes the basis of strains B_k, their stresses M:B_k, and the coefficients by which products with them follow from
+ * the components of a moment. */
 static void strains_make(struct moments *m)
 {
     const int dim = m->dim;
@@ -110,7 +112,8 @@ static void strains_make(struct moments *m)
                     }
 }
 
-/* Computes the moments of all offsets. */
+/* Computes the third and fourth moments of the bonds of all offsets and of a full family, over M_1111 of the latter,
+ * and the basis of strains. */
 static void moments_make(struct moments *m, const struct offsets *o)
 {
     real sum[FOURTHS] = {0};
@@ -133,8 +136,8 @@ static void moments_make(struct moments *m, const struct offsets *o)
     strains_make(m);
 }
 
-/* Returns alpha of bonds for a plane face along which the body is stretched; for shear along the face it is equal in an
- * isotropic family. */
+/* Returns the coefficient alpha of the dipole in tau = alpha dipole, for bonds without rotation: the value for a plane
+ * face along which the body is stretched; for shear along the face it is equal in an isotropic family. */
 static real face_moment(const struct moments *m, const struct offsets *o)
 {
     const real c11 = m->full[0], c12 = full_of(m, 0, 0, 1, 1), across = c12 / (c11 + (m->dim - 2) * c12);
@@ -150,7 +153,8 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* Quadratic form of the moments of a class, times its members, and the target of the moments of its variable bonds. */
+/* The part of the least-squares problem of one class: matrices of the quadratic form in third and fourth moments, times
+ * the number of members, and the target of the moments of the bonds whose factors are variable. */
 struct class_fit {
     real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
 };
@@ -171,7 +175,8 @@ static void invert(real (*a)[STRAINS], int n)
     }
 }
 
-/* Computes P of a mean N (x) N. */
+/* Computes the weights P of strains, the inverse of 1 + STIFF times the product of their tractions, from the mean N (x)
+ * N of the faces nearby (normal2). */
 static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], real (*P)[STRAINS])
 {
     const int dim = m->dim;
@@ -186,7 +191,8 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
     invert(P, m->strains);
 }
 
-/* Adds sum_k by_k^T P by_k to `to`. */
+/* Adds the matrix sum_k by_k^T P by_k to `to` [n][room]. by: `rows` matrices with rows for the strains and n columns,
+ * `room` apart. */
 static void quadratic(const real *by, int rows, int strains, int n, int room, real (*P)[STRAINS], real *to)
 {
     for (int k = 0; k < rows; k++)
@@ -199,13 +205,14 @@ static void quadratic(const real *by, int rows, int strains, int n, int room, re
         }
 }
 
-/* Mean targets of the members of a class, over all mirrors under which it is its own image: beyond the surroundings
- * that define a class, members and their sides may differ. */
+/* Mean over the members of a class of face area, dipole and N (x) N, from which its target follows. Members are
+ * averaged over all mirrors under which the class is its own image: beyond the surroundings that define the class,
+ * members and their sides may differ. */
 struct class_goal {
     real area[DIM_MAX], dipole, normal2[DIM_MAX][DIM_MAX];
 };
 
-/* Adds the targets of particle t, reflected by `mirrors`, with weight `share`. */
+/* Adds area, dipole and N (x) N of particle t, reflected by `mirrors`, with weight `share`. */
 static void class_goal_add(struct class_goal *to, int dim, const struct face_targets *f, int64_t t, int mirrors,
                            real share)
 {
@@ -230,7 +237,8 @@ static void class_goals(struct class_goal *goal, int dim, const struct near_face
     }
 }
 
-/* Computes quadratic form and target of a class. */
+/* Computes the quadratic form of a class and the target of its moments, less those of the bonds that do not change.
+ * alpha: coefficient of the dipole. */
 static void class_make(struct class_fit *c, const struct moments *m, const struct near_faces *b,
                        struct class_goal *goal, const struct bond_classes *a, int32_t class, real alpha)
 {
@@ -255,7 +263,7 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
     }
 }
 
-/* Computes to = quadratic form of a class times `moment`. */
+/* Computes to = the quadratic form of a class times the moments `moment`. */
 static void class_weigh(const struct moments *m, const struct class_fit *c, const real *moment, real *to)
 {
     const int thirds = m->third.n, fourths = m->fourth.n;
@@ -268,7 +276,7 @@ static void class_weigh(const struct moments *m, const struct class_fit *c, cons
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* The least-squares problem. */
+/* The least-squares problem for the factors of the groups of bonds. An entry is the bond of a class at an offset. */
 struct problem {
     const struct bond_classes *alike;
     int offsets;
@@ -301,7 +309,7 @@ static void group_entries(struct problem *q)
     memory_free(next);
 }
 
-/* Computes to[group] = sum of `value` over its entries. */
+/* Computes for each group of bonds the sum of q->value over its entries. */
 static void group_sums(const struct problem *q, real *to)
 {
 #pragma omp parallel for schedule(static)
@@ -312,7 +320,8 @@ static void group_sums(const struct problem *q, real *to)
     }
 }
 
-/* Computes `value` of the entries of a class from its moments. */
+/* Computes q->value of the entries of a class: for each offset the product of the moments of its bond with the
+ * quadratic form times `moment`. */
 static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
 {
     real by[MOMENTS];
@@ -327,7 +336,7 @@ static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, con
     }
 }
 
-/* Computes `value` of the entries of a class from the factors x. */
+/* Computes q->value of the entries of a class from the factors x of the groups of bonds. */
 static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
 {
     const int64_t *group = q->alike->group_of + (int64_t) class * q->offsets;
@@ -340,7 +349,7 @@ static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, 
     class_back(q, class, moment, width);
 }
 
-/* Computes y = H x, the product with the matrix of the problem. */
+/* Computes the product y = H x with the matrix of the least-squares problem. context: a struct problem. */
 static void fit_product(void *context, const real *x, real *y)
 {
     const struct problem *q = context;
@@ -356,7 +365,7 @@ static void fit_product(void *context, const real *x, real *y)
     for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
 }
 
-/* Computes diagonal, prior and right side. */
+/* Computes the diagonal of the matrix, the weight of the prior, and the right side of the least-squares problem. */
 static void diagonal_make(struct problem *q)
 {
     const struct moments *m = &q->moments;
@@ -383,7 +392,8 @@ static void diagonal_make(struct problem *q)
     for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
 }
 
-/* Solves for the factors, starting from their present values; `fixed` ones do not change. */
+/* Minimises over the factors between LEAST and MOST, starting from their present values; factors with fixed[k] = 1 do
+ * not change. */
 static void solve(struct problem *q, real *factor, const uint8_t *fixed)
 {
     const int64_t n = q->alike->groups;
@@ -396,8 +406,8 @@ static void solve(struct problem *q, real *factor, const uint8_t *fixed)
     memory_free(high);
 }
 
-/* Returns true if particle t is at the end of a crack or of a narrow void: a neighbour's neighbour within its family is
- * cut from it. */
+/* Returns true if particle t is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
+ * within its cutoff, but separated from it. */
 static bool at_crack_end(const struct near_faces *b, int64_t t)
 {
     const struct offsets *o = &b->offset;
@@ -439,9 +449,9 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of bonds in thin parts, which have too few layers, and at crack ends: factor of the volume method
- * (Le & Bobaru 2018), in models with rotations 1. If bonds may break, bonds at crack ends break next and get factor 1,
- * for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
+/* Sets and fixes the factors of bonds in parts with too few layers and at ends of cracks: to the factor of the volume
+ * method (Le & Bobaru 2018), in models with rotations to 1. If bonds may break, those at ends of cracks break next and
+ * get factor 1, for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
 static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct face_targets *f,
                         const struct bond_classes *a, bool rotates)
 {

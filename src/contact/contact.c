@@ -11,6 +11,8 @@
 
 /* ---- the law ----------------------------------------------------------------------------------------------------- */
 
+/* Initialises the contact of a run; no pairs are searched yet. shape and rigid are kept by reference and must outlive
+ * c. */
 void contact_make(struct contact *c, enum contact_between between, struct contact_law law, real stiffness,
                   const struct bond_source *source, const struct region *const *shape, struct rigid_body *rigid,
                   int rigids)
@@ -81,7 +83,8 @@ static real rigid_swing(const struct contact *c, const struct particles *p, cons
     return most;
 }
 
-/* Two particles in contact have the squared frequency 2 k/m. A particle of a flat face has half of its bonds; of the
+/* Returns the critical time step of bodies in contact [s]; bonds: that of their bonds alone [s].
+ * Two particles in contact have the squared frequency 2 k/m. A particle of a flat face has half of its bonds; of the
  * other face one particle is opposite, or in 2D two and in 3D three are beside it, at 60 degrees or more to the face: a
  * normal stiffness of 1, 1.5 and 2 k in all. Rubble, with up to eight contacts a particle, needs 0.61 of the critical
  * step of the bonds in 2D; the safety where bonds may break is 0.5. (The rule of LAMMPS adds contact with all 2, 8 or
@@ -105,6 +108,7 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 
 /* ---- forces and energy ------------------------------------------------------------------------------------------- */
 
+/* Adds the contacts that one thread has found to those of all threads. */
 static void found_join(struct contact_found *all, const struct contact_found *own)
 {
     const int64_t touching = all->touching + own->touching;
@@ -112,7 +116,9 @@ static void found_join(struct contact_found *all, const struct contact_found *ow
     all->touching = touching;
 }
 
-/* Computes for all rows in parallel: form `surface`, the contact with faces; form `pair`, the forces. */
+/* Evaluates contact for all rows (particles that may come into contact) in parallel. Form `surface`: computes the gaps,
+ * from which faces_force computes forces; form `pair`: adds the forces. *all: receives number and depth of the
+ * contacts. dt: time step [s]. */
 static void rows_sweep(struct contact *c, struct particles *p, real dt, struct contact_found *all)
 {
     const bool faces = c->law.form == CONTACT_SURFACE;
@@ -156,7 +162,8 @@ void contact_allocate_forces(struct contact *c, const struct particles *p)
         if (!c->push[d]) c->push[d] = NEW("contact.push", p->n, real);
 }
 
-/* Records the negative forces before contact, then adds the forces after it. */
+/* Records the contact forces in c->push as the difference of p->f after and before they are added. after: false in the
+ * first call, true in the second. */
 static void record(struct contact *c, const struct particles *p, bool after)
 {
     for (int d = 0; d < p->dim; d++)
@@ -188,6 +195,7 @@ struct contact_sum {
     const struct particles *p;
 };
 
+/* Returns the contact energy of a row [J], for a sum over rows. context: a struct contact_sum. */
 static real contact_energy_term(const void *context, int64_t row)
 {
     const struct contact_sum *s = context;
@@ -205,6 +213,8 @@ real contact_energy(const struct contact *c, const struct particles *p)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
+/* Saves an array to the archive if a->saving, else allocates *array and restores it. name: of the entry; count: number
+ * of elements of `size` bytes. */
 status contact_archive_array(struct archive *a, const char *name, void **array, int64_t count, size_t size)
 {
     if (!a->saving) {
@@ -224,7 +234,8 @@ static status contact_check(const struct contact *c, const struct particles *p)
     return good ? OK : status_set(FAILED, "cannot resume: pairs in contact of the checkpoint are none of this body");
 }
 
-/* The list determines which pairs act and at which distance; it is restored without a search. */
+/* Saves or restores the state of contact. The list of pairs, which determines which pairs act and where their contact
+ * begins, is restored without a search. Returns FAILED if the archive has no valid list. */
 status contact_archive(struct contact *c, const struct particles *p, struct archive *a)
 {
     int64_t numbers[] = {c->made,   c->n,       c->rows,       c->pairs,        c->searched,

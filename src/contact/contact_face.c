@@ -74,7 +74,8 @@ static real table_depth(const struct contact_profile *profile, real density, rea
 
 /* ---- field of the faces ----------------------------------------------------------------------------------------- */
 
-/* Returns m_l of entry l in the field at entry k. *reach: range of the field [m]. */
+/* Returns the weight m_l of list entry l in the density at entry k, the ratio of the spacings to the power dim - 1.
+ * *reach: range of the density [m]. */
 static real field_share(const struct contact *c, int dim, int64_t k, int64_t l, real *reach)
 {
     const real mean = 0.5 * (c->size[k] + c->size[l]), ratio = c->size[l] / mean;
@@ -113,6 +114,7 @@ struct face_gap {
     bool leans;
 };
 
+/* Computes height and gap of a particle from the field at it. zero: height at which contact begins [spacings]. */
 static struct face_gap face_gap(const struct contact *c, const struct face_field *field, real zero)
 {
     struct face_gap at;
@@ -178,8 +180,8 @@ struct contact_weight contact_face_weight(const struct contact *c, const struct 
     return w;
 }
 
-/* The force has two parts: by the energy of the row, and by the energies of the rows whose fields contain its
- * particle. */
+/* Adds the contact force on the particle of a row to p->f: the derivative of the energy of this row and of those of all
+ * rows whose density field contains the particle. */
 void contact_face_add_force(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -248,8 +250,8 @@ static real face_notch(const struct contact *c, const struct particles *p, int64
     return widest / c->size[row];
 }
 
-/* Returns the smallest gap of a row for the present density, with the largest rise of its pairs [spacings]: the mean
- * rise changes abruptly when a particle enters an empty field. */
+/* Returns a lower bound of the gap of a row [spacings], for the present density but with the largest rise of its pairs
+ * in place of the mean rise: this changes abruptly when a particle comes into the range of others. */
 static real least_gap(const struct contact *c, const struct face_field *field, int64_t row)
 {
     struct face_field highest = *field;
@@ -268,7 +270,8 @@ static bool same_pairs(const struct contact *c, const struct contact *before, in
     return same;
 }
 
-/* For a row in contact the overlap is chosen such that the energy does not change. Otherwise contact begins where the
+/* Determines where contact of a row begins, after a search. was: row of the particle in the previous list `before`, -1:
+ * none. A row in contact gets the overlap with which its energy does not change. Otherwise contact begins where the
  * surfaces of the scene meet, or later if the reference or the present configuration is closer. */
 void contact_face_set_height(struct contact *c, const struct contact *before, int64_t was, const struct particles *p,
                              int64_t row)

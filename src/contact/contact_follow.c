@@ -50,7 +50,8 @@ static bool beside_active(const struct contact *c, int64_t row)
     return beside;
 }
 
-/* Marks rows near moving particles as ROW_ACTIVE, then their neighbours as ROW_SOURCE. Returns true if a row was marked
+/* Marks rows that may come into contact and have a moving particle nearby as ROW_ACTIVE, so that their contact is
+ * evaluated, and their neighbours, on which the forces act, as ROW_SOURCE. Returns true if a row was marked
  * ROW_ACTIVE. */
 static bool rows_follow(struct contact *c, const struct particles *p)
 {
@@ -72,6 +73,8 @@ static bool rows_follow(struct contact *c, const struct particles *p)
     return found > 0;
 }
 
+/* Marks the particles that contact may push as loaded and their row blocks as active, so that they move after
+ * contact. */
 static void rows_touch(const struct contact *c, const struct particles *p, struct bonds *b, struct loads *l)
 {
     int32_t *list = BARE("contact.list", c->rows, int32_t);

@@ -113,7 +113,8 @@ static void partner_invert(struct contact_partner *to, const real *inertia, cons
     }
 }
 
-/* Computes the pseudo-inverse of I and omega from the means [1/s]. */
+/* Computes the pseudo-inverse of the tensor I of the particles of the face about their mean position, and their angular
+ * velocity omega [1/s], from the means in *to. */
 static void partner_turn(struct contact_partner *to, const struct contact *c, const struct particles *p, int64_t row,
                          real lag, real *omega)
 {
@@ -134,7 +135,7 @@ static void partner_turn(struct contact_partner *to, const struct contact *c, co
     for (int d = 0; d < DIM_MAX; d++) omega[d] = dot(to->inverse[d], momentum, DIM_MAX);
 }
 
-/* Computes all members of contact_partner at the positions x - lag v. */
+/* Computes the rigid motion of the face beside a row (struct contact_partner) for the positions x - lag v [m]. */
 static struct contact_partner partner_at(const struct contact *c, const struct particles *p, int64_t row, real lag)
 {
     struct contact_partner partner = partner_mean(c, p, row, lag);
@@ -145,8 +146,8 @@ static struct contact_partner partner_at(const struct contact *c, const struct p
     return partner;
 }
 
-/* Half of a step is measured at its start and half at its end, since leap-frog applies the forces of both times to
- * it. */
+/* Advances the friction spring of a row by a step dt [s], and stores its reaction on the face. The slip is the mean of
+ * those at the start and at the end of the step, since leap-frog applies the forces of both times to it. */
 void contact_face_advance_spring(struct contact *c, const struct particles *p, int64_t row, real dt)
 {
     struct contact_spring *s = &c->spring[row];
@@ -170,7 +171,8 @@ void contact_face_advance_spring(struct contact *c, const struct particles *p, i
     }
 }
 
-/* Adds to f the reaction of the spring of row l on the particle of `row`, a part of the face of l. */
+/* Adds to f [N] the part of the reaction to the friction on row l that acts on the particle of `row`, which is part of
+ * the face that the particle of row l touches. */
 static void reaction_add(const struct contact *c, const struct particles *p, int64_t l, int64_t row, real *f)
 {
     const struct contact_reaction *reaction = &c->reaction[l];
@@ -182,7 +184,8 @@ static void reaction_add(const struct contact *c, const struct particles *p, int
     for (int d = 0; d < p->dim; d++) f[d] -= share * (c->spring[l].drag[d] + turning[d]);
 }
 
-/* Particles have no images: scenes with mirrors have no friction. */
+/* Adds the friction forces on the particle of a row to p->f: of its own spring, and the reactions of the springs of
+ * other rows. Particles have no images here: scenes with mirrors have no friction. */
 void contact_face_add_friction(const struct contact *c, struct particles *p, int64_t row)
 {
     const int32_t i = c->particle[row];
@@ -195,9 +198,11 @@ void contact_face_add_friction(const struct contact *c, struct particles *p, int
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
+/* Return the elastic energy of friction spring k, and the energy that its sliding has dissipated, for sums [J]. */
 static real stored_in(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].stored; }
 static real lost_by(const void *context, int64_t k) { return ((const struct contact_spring *)context)[k].lost; }
 
+/* Returns the sum of a term over the friction springs of all rows and of all contacts with rigid bodies. */
 static real springs_sum(const struct contact *c, real (*term)(const void *context, int64_t k))
 {
     real sum = c->spring ? reproducible_sum(c->rows, term, c->spring) : 0;
@@ -215,7 +220,8 @@ void contact_reactions_make(struct contact *c)
     c->reaction = NEW("contact.reaction", c->rows, struct contact_reaction);
 }
 
-/* Springs of particles still in contact are kept with their particles; the energy of other springs is lost. */
+/* Creates the friction springs of a new list of rows. Springs of particles that were in the previous list are copied
+ * from it; the energy of the other springs is lost. */
 void contact_springs_copy(struct contact *c, const struct contact *before)
 {
     if (!(c->law.friction > 0)) return;

@@ -9,6 +9,7 @@ struct contact_pair {
     real overlap, r, k, apart[DIM_MAX];
 };
 
+/* Returns the pair number q of a row; all members are 0 if it is not in contact. */
 static struct contact_pair contact_pair(const struct contact *c, const struct particles *p, int64_t row, int64_t q)
 {
     struct contact_pair pair = {0};
@@ -49,8 +50,9 @@ real contact_pair_gap(const struct contact *c, const struct particles *p, int64_
     return sqrt(contact_apart(c, p, row, c->other[q], apart)) - c->distance[q];
 }
 
-/* The distance is the smaller of the distance in the reference configuration and the mean spacing; for a pair that is
- * closer when it is found, its present distance until it opens. Bitwise equal from both rows. */
+/* Returns the distance at which contact between list entries k and l begins [m]: the smaller of the distance in the
+ * reference configuration and the mean spacing; for a pair that is closer when it is found, its present distance until
+ * it opens. was: contact distance on the previous list [m], NAN: the pair is new. Bitwise equal from both rows. */
 real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was)
 {
     const int32_t i = c->particle[k], j = c->particle[l];

@@ -59,8 +59,9 @@ static int64_t near_before(const struct contact *before, int body, int32_t parti
     return row >= 0 && low < before->near[body].n && before->near[body].row[low] == row ? low : -1;
 }
 
-/* Lists the particles near a body. As for pairs, contact of a particle that is closer when it is found begins at its
- * present gap, until the gap opens. */
+/* Lists the rows whose particles may come into contact with rigid body `body` before the next search, i.e. within
+ * `skin` [m]. before: previous lists, from which the state of contacts is kept. As for pairs, contact of a particle
+ * that is closer when it is found begins at its present gap, until the gap opens. */
 static void near_find_body(struct contact *c, const struct contact *before, const struct particles *p, int body,
                            real skin)
 {
@@ -125,7 +126,8 @@ real contact_rigid_gap(const struct contact *c, const struct particles *p, int b
     return gap_of(c, p, &c->rigid[body], near->row[q], normal) - near->zero[q];
 }
 
-/* Returns the overlap of list entry q if contact acts, else 0 [m]. */
+/* Returns the overlap of list entry q with a rigid body [m], 0 if contact does not act; in equilibria also negative, as
+ * the marks determine which contacts act. */
 static real overlap_of(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal)
 {
     const uint8_t *marks = contact_near_marks(c, body);
@@ -147,7 +149,7 @@ real contact_patch_diameter(const struct contact *c, const struct particles *p, 
     return sqrt(width2);
 }
 
-/* Updates the balance of list entry q after a step. */
+/* Updates the energy account (contact_balance.c) of list entry q of a rigid body after a step. */
 static void balance_step(struct contact *c, const struct particles *p, int body, int64_t q)
 {
     const struct contact_near *near = &c->near[body];
@@ -189,7 +191,8 @@ struct rigid_sum {
     int body;
 };
 
-/* Adds force and moment of list entries on the body to sum [6]. */
+/* Adds force and moment of the particles of list entries first .. end - 1 on a rigid body to sum [6], for
+ * reproducible_sums. */
 static void rigid_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -242,6 +245,7 @@ real contact_rigid_force_norm(const struct contact *c, const struct particles *p
     return sqrt(sum);
 }
 
+/* Returns the contact energy of list entry q of a rigid body [J], for a sum. context: a struct rigid_sum. */
 static real near_energy(const void *context, int64_t q)
 {
     const struct rigid_sum *s = context;

@@ -133,7 +133,7 @@ struct contact_search {
     real reach; /* range of the search [m] */
 };
 
-/* Pairs of consecutive rows, found by a thread. */
+/* The pairs of consecutive rows that one thread has found: list entries of the other particles. */
 struct pair_list {
     int64_t n;
     int32_t *other;
@@ -164,7 +164,8 @@ static void row_pairs(const struct contact_search *s, struct near *near, uint64_
     }
 }
 
-/* Sums the numbers of pairs up to each row and allocates the pairs. */
+/* Converts the numbers of pairs of the rows in c->first to the indices of their first pairs, and allocates the
+ * pairs. */
 static void pairs_room(struct contact *c)
 {
     for (int64_t k = 0; k < c->rows; k++) c->first[k + 1] += c->first[k];
@@ -240,6 +241,8 @@ static real search_reach(const struct contact *c)
     return most * (c->law.form == CONTACT_SURFACE ? CONTACT_REACH : pairs) + contact_skin(c);
 }
 
+/* Finds the exposed particles and the pairs that may come into contact, at the present positions, and transfers the
+ * state of pairs, friction springs and rigid bodies from the previous list. */
 static void search_pairs(struct contact *c, const struct particles *p, const struct bonds *b, const struct family *f)
 {
     struct contact before = *c;
@@ -286,7 +289,8 @@ static bool has_come_far(const struct contact *c)
     return !(c->moved < far) || contact_rigid_has_moved(c, far);
 }
 
-/* Particles with few broken bonds form no face; they are listed by the next search. */
+/* Requests a search for contact if one of n listed particles, which have just become peridynamic, is part of the first
+ * layer of a face. Particles with few broken bonds form no face; they are listed by the next search. */
 void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
                             int64_t n)
 {

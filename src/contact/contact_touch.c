@@ -29,8 +29,8 @@ void contact_selection_activate_all(struct contact *c)
     c->waiting = 0;
 }
 
-/* Sets a mark from a gap and the gap `close` at which contact counts [spacings]. Returns whether the mark has
- * changed. */
+/* Sets the mark of a contact, 1 for active, from its gap [spacings]: a contact becomes active at gaps below `close`,
+ * and stays active up to round-off (KEPT). Returns true if the mark has changed. */
 static bool mark_set(uint8_t *touch, real gap, real close)
 {
     const uint8_t was = *touch;
@@ -38,12 +38,14 @@ static bool mark_set(uint8_t *touch, real gap, real close)
     return *touch != was;
 }
 
-/* Returns `close` for particles of different bodies; faces of a crack, which coincide without force, have 0. */
+/* Returns the gap up to which contact of a row with list entry l is active [spacings]: `close` between different
+ * bodies, 0 between faces of one body, since faces of a crack coincide without force. */
 static real close_of(const struct contact *c, const struct particles *p, int64_t row, int64_t l, real close)
 {
     return p->body[c->particle[row]] != p->body[image_root(p, c->law.image, c->particle[l])] ? close : 0;
 }
 
+/* Sets the marks of the contacts of a row from their gaps (mark_set). Returns the number of marks that have changed. */
 static int64_t mark_row(struct contact *c, const struct particles *p, int64_t row, real close)
 {
     int64_t changed = 0;
@@ -59,7 +61,7 @@ static int64_t mark_row(struct contact *c, const struct particles *p, int64_t ro
     return changed;
 }
 
-/* Clears the forces left by contact_balance in the last step in time. */
+/* Sets the forces that contact_balance computed in the last time step to 0: an equilibrium must not contain them. */
 static void balances_rest(struct contact *c)
 {
     for (int64_t row = 0; row < c->rows && c->balance; row++) c->balance[row].drag = 0;
@@ -107,6 +109,7 @@ void contact_end_selection(struct contact *c)
 
 /* ---- terms ------------------------------------------------------------------------------------------------------- */
 
+/* Parameters of the visit of active contacts, and the contact that is passed to the function `visit`. */
 struct visit {
     const struct contact *c;
     const struct particles *p;
@@ -115,6 +118,7 @@ struct visit {
     struct contact_term term;
 };
 
+/* Calls v->visit for each active contact of a row with another particle (form `pair`), as a linear spring. */
 static void pair_terms(struct visit *v, int64_t row)
 {
     const struct contact *c = v->c;
@@ -131,6 +135,7 @@ static void pair_terms(struct visit *v, int64_t row)
     }
 }
 
+/* Calls v->visit for each active contact of a particle with a rigid body, as a linear spring. */
 static void rigid_terms(struct visit *v, int body)
 {
     const struct contact *c = v->c;
@@ -167,6 +172,7 @@ void contact_visit_springs(const struct contact *c, const struct particles *p,
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
+/* Saves the selection of contacts for equilibria (contact_select) to the archive if a->saving, else restores it. */
 status contact_selection_archive(struct contact *c, struct archive *a)
 {
     bool marks = c->touch != NULL;

@@ -52,6 +52,7 @@ static bool in_foreign_box(const struct particles *p, const struct body_box *box
     return false;
 }
 
+/* Returns true if particle i is closer than `reach` [m] to the surface of a rigid body. */
 static bool near_rigid(const struct particles *p, const struct rigid_body *rigid, int rigids, int64_t i, real reach)
 {
     real x[DIM_MAX] = {0}, normal[DIM_MAX];
@@ -61,6 +62,7 @@ static bool near_rigid(const struct particles *p, const struct rigid_body *rigid
     return false;
 }
 
+/* Marks a material point for conversion, and prevents a peridynamic particle from reverting. */
 static void mark(struct particles *p, int64_t i)
 {
     if (p->kind[i] == KIND_MPM)

@@ -69,6 +69,7 @@ void convert_cut_particles(struct particles *p, const struct bond_source *source
 
 #define MARKS (FLAG_LOST_BOND | FLAG_CRACKED | FLAG_STRESSED | FLAG_NEAR)
 
+/* Returns true if particle i is a material point that the rule converts because of its marks. */
 static bool triggers(const struct conversion_rule *rule, const struct particles *p, int64_t i)
 {
     /* whatever the criteria, material points convert that lost a bond, as damage is stored in bonds alone, and that are
@@ -99,6 +100,7 @@ static void list_stiffened(struct index_list *l, const struct bond_source *s, co
     }
 }
 
+/* Makes a material point peridynamic and appends it to `changed`. Does nothing for other particles. */
 static void become_peridynamic(struct particles *p, struct index_list *changed, int64_t i)
 {
     if (p->kind[i] != KIND_MPM) return;
@@ -140,6 +142,7 @@ static void convert_marked(struct conversion *c, const struct conversion_rule *r
     memory_free(near.at);
 }
 
+/* Appends particle i to the list unless it has been listed before (FLAG_LISTED). */
 static void list_once(struct index_list *l, struct particles *p, int64_t i)
 {
     if (p->flag[i] & FLAG_LISTED) return;

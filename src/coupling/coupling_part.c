@@ -18,7 +18,7 @@ static int reversions_most(const struct particles *p)
     return most;
 }
 
-/* Writes the representation of each of the first pre-cracks. */
+/* Writes for each of the first SAID pre-cracks in words whether it is a slit of the mesh or is cut through bonds. */
 static void put_notches(struct json *j, const struct notches *n, real spacing)
 {
     enum { SAID = 16 };

@@ -103,6 +103,7 @@ static int64_t pairs_pass(struct interface_zone *r, const struct particles *p, c
     return most;
 }
 
+/* Lists the neighbours of all members, and computes the scale of their velocity differences. */
 static void interface_zone_pairs_make(struct interface_zone *r, const struct particles *p, const struct bond_source *s,
                                       const uint8_t *mark, const int32_t *slot)
 {
@@ -174,7 +175,8 @@ static void difference_make(struct interface_zone *r, const struct particles *p,
     for (int d = 0; d < p->dim; d++) r->difference[k * p->dim + d] = p->mass[i] * sum[d];
 }
 
-/* Computes the change of momentum of member k [kg m/s]. The terms of the two members of a pair are bitwise opposite. */
+/* Computes the change of momentum of member k by damping [kg m/s]. share: strength of the damping [1]. The terms of the
+ * two members of a pair are bitwise opposite. */
 static void change_make(struct interface_zone *r, const struct particles *p, int64_t k, real share)
 {
     real *sum = r->change + k * p->dim;
@@ -186,7 +188,8 @@ static void change_make(struct interface_zone *r, const struct particles *p, int
     }
 }
 
-/* The energy is -1/2 times the changes times the present velocities of the members. */
+/* Returns half of the energy that damping removed [J]: -1/2 times the changes of momentum times the present velocities
+ * of the members. The other half is computed with the velocities before the step. */
 real interface_damp_end(const struct interface_zone *r, const struct particles *p)
 {
     real lost = 0; /* serial: few members, and the sum must not depend on the number of threads */

@@ -15,7 +15,7 @@ enum { EDGE_PARTS = 16 }; /* sampling points along an edge */
 
 /* ---- edges of cracks --------------------------------------------------------------------------------------------- */
 
-/* Finds the corners of edge e of a crack, from which it may grow; a segment has its two ends. */
+/* Finds the two corners of edge e of a polygon in 3D, or the end e of a segment twice; a crack may grow from there. */
 static void crack_end_of(const struct crack *c, int e, int dim, const real **from, const real **to)
 {
     *from = c->corner[e];
@@ -44,7 +44,7 @@ static bool edge_inside(const struct crack *c, int e, const struct particles *p,
     return false;
 }
 
-/* A crack, and its edges inside the body, one bit each. */
+/* A crack, its edges inside the body, one bit each, and the radius of the peridynamic zones round them [m]. */
 struct crack_edges {
     const struct crack *crack;
     uint64_t edges;
@@ -53,6 +53,7 @@ struct crack_edges {
 
 enum { EDGES_MAX = 64 };
 
+/* Finds the edges of a crack that are inside the body. radius: of the peridynamic zones round them [m]. */
 static struct crack_edges crack_edges_of(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                          real radius)
 {
@@ -76,6 +77,7 @@ static bool in_zone(const struct crack_edges *zone, const struct particles *p, i
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if the crack separates the reference positions of particles i and j. */
 static bool parted(const struct crack *c, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -84,6 +86,7 @@ static bool parted(const struct crack *c, const struct particles *p, int64_t i, 
     return crack_cuts(c, a, b, p->dim);
 }
 
+/* Returns true if the crack is within the cutoff of particle i. */
 static bool near_crack(const struct crack *c, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     real X[DIM_MAX];
@@ -98,11 +101,12 @@ static real apart(const struct particles *p, int64_t i, int64_t j)
     return sqrt(r2);
 }
 
-/* Numbers of particles whose bonds a crack cuts outside the zones round its ends; of these, particles in no mesh. */
+/* Numbers of particles whose bonds a crack cuts outside the zones round its ends: all, and those of them in no mesh. */
 struct flanks {
     int64_t particles, elsewhere;
 };
 
+/* Returns true if the crack cuts a bond of particle i to a listed neighbour of its body. */
 static bool loses_by(const struct crack *c, const struct particles *p, int64_t i, const struct near *near)
 {
     for (int k = 0; k < near->n; k++)
@@ -110,6 +114,7 @@ static bool loses_by(const struct crack *c, const struct particles *p, int64_t i
     return false;
 }
 
+/* Counts the particles whose bonds a crack cuts outside the zones round its ends. */
 static struct flanks flanks_of(const struct crack_edges *zone, const struct particles *p, const struct bond_source *s)
 {
     int64_t particles = 0, elsewhere = 0;
@@ -129,7 +134,8 @@ static struct flanks flanks_of(const struct crack_edges *zone, const struct part
     return (struct flanks){particles, elsewhere};
 }
 
-/* Returns the reason why a crack is no slit; NULL: it is one. */
+/* Returns the reason why a pre-crack cannot be a slit of the mesh, or NULL if it can. radius: of the peridynamic zones
+ * round its ends [m]. */
 static const char *notch_obstacle(const struct crack *c, const struct particles *p, const struct bond_source *s,
                                   real radius)
 {
@@ -143,6 +149,7 @@ static const char *notch_obstacle(const struct crack *c, const struct particles 
     return NULL;
 }
 
+/* Returns true if particle i is within the cutoff of a slit or of the image of one. */
 static bool near_slit(const struct notches *n, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     for (int k = 0; k < n->slits + n->images; k++)
@@ -150,8 +157,8 @@ static bool near_slit(const struct notches *n, const struct particles *p, const 
     return false;
 }
 
-/* Computes the share of the family of particle i beyond slits. Returns true if the particle faces another across a
- * slit. */
+/* Stores the share of the family volume of particle i that is beyond slits in n->lost[i]. Returns true if a nearest
+ * neighbour of the particle is beyond a slit. */
 static bool face_find(struct notches *n, const struct particles *p, const struct bond_source *source, struct near *near,
                       int64_t i)
 {
@@ -169,13 +176,14 @@ static bool face_find(struct notches *n, const struct particles *p, const struct
     return faces;
 }
 
+/* Returns true if particle i is beside a void so narrow that its faces face each other within a family. */
 static bool beside_void(const struct bond_source *source, int64_t i)
 {
     return voids_near(source->voids, i) && source->voids->near[i] & VOID_ACROSS;
 }
 
-/* Finds the particles with a part of their family beyond slits, and those beside a slit or a narrow void with their
- * depth in the body. */
+/* Stores for every particle the share of its family beyond slits (n->lost), and lists the particles beside a slit or a
+ * narrow void (n->face) with their depth in the body (n->depth). */
 static void faces_find(struct notches *n, const struct particles *p, const struct bond_source *source)
 {
     uint8_t *faces = NEW("notch.faces", p->n, uint8_t);

@@ -29,7 +29,7 @@ static const char *obstacle_of(const struct scene *s, const struct reference_fra
     return why;
 }
 
-/* Returns REFUSED if the scene requires slits and a pre-crack is none. */
+/* Returns REFUSED, with the reason, if the scene requires pre-cracks to be slits of the mesh and one cannot be. */
 static status notches_check(const struct scene *s, const struct notches *n)
 {
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
@@ -69,6 +69,7 @@ void notch_describe(const struct notches *n, int crack, real spacing, char *text
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
+/* Marks material points beside slits whose faces approach each other (FLAG_NEAR). */
 bool slits_flag_approaching(struct run *e)
 {
     const struct notches *n = &e->coupling->notches;

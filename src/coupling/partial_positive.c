@@ -87,7 +87,8 @@ static void make_positive(real *M, int n)
  * matrix over symmetric components has the eigenvalues of its tensor. */
 static real partial_positive_root_of(int c, int dim) { return c < dim ? 1 : M_SQRT2; }
 
-/* Subtracts from T the part that makes eigenvalues of V C + q L L - T negative. */
+/* Reduces T, the part of the stiffness of a point that its bonds replace [J], so that V C + q L L - T has no negative
+ * eigenvalue. C: elastic constants of the material m; V: volume of the point. */
 static void stay_below(real *T, const struct material *m, int dim, real V, real q, const real *L)
 {
     const int n = symmetric_count(dim);

@@ -25,6 +25,7 @@ enum { ENTRY_MOST = SYM_MAX * SYM_MAX + SYM_MAX };
 
 /* ---- geometry ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the share of the segment a-b inside the cube of half edge `half` round X [1]. */
 real segment_share_in_cube(const real *a, const real *b, const real *X, real half, int dim)
 {
     real in = 0, out = 1;
@@ -58,6 +59,7 @@ struct reflection mirror_reflection_of(const struct bond_source *s, const struct
 
 /* ---- the tensor -------------------------------------------------------------------------------------------------- */
 
+/* Returns 1 for equal indices, else 0 (Kronecker's delta). */
 static bool same(int a, int b) { return a == b; }
 
 void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half, struct response k,
@@ -81,7 +83,8 @@ void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real
         }
 }
 
-/* Returns V/Q of particle or image i, with Q of a full family if it has no row [m]. */
+/* Returns the volume V of particle or image i over the weighted volume Q of its family [m]. A particle without a row
+ * gets Q of a full family. */
 static real family_share(const struct particles *p, const struct bonds *b, const struct bond_source *s, int64_t i)
 {
     const int32_t row = b->row_of[image_root(p, s->image, i)];
@@ -107,6 +110,7 @@ struct box {
     real low[DIM_MAX], high[DIM_MAX];
 };
 
+/* Computes the box round all intact bonds of a row, in the reference configuration. */
 static struct box box_of(const struct particles *p, const struct bonds *b, int64_t row)
 {
     struct box box = {{0}, {0}};
@@ -123,6 +127,7 @@ static struct box box_of(const struct particles *p, const struct bonds *b, int64
     return box;
 }
 
+/* Returns true if the box and the cube of half edge `half` round X do not overlap. */
 static bool box_passes(const struct box *box, const real *X, real half, int dim)
 {
     for (int d = 0; d < dim; d++)
@@ -158,7 +163,8 @@ real particle_half_edge(const struct particles *p, const struct bond_source *s, 
     return 0.5 * pow(p->volume0[i] / s->family.section, 1.0 / p->dim);
 }
 
-/* Computes T V of point i [J] bond by bond, for any arrangement of particles. */
+/* Computes T V of point i [J], the stiffness that bonds add to its cell, by adding the bonds of all rows nearby one by
+ * one, for any arrangement of particles. */
 static void tensor_sum(real *T, const struct particles *p, const struct bonds *b, const struct bond_source *s,
                        const struct box *box, int64_t i, struct near *near)
 {
@@ -171,8 +177,9 @@ static void tensor_sum(real *T, const struct particles *p, const struct bonds *b
             tensor_add_row(T, p, b, s, box, near->at[k], X, half);
 }
 
-/* Computes M = T C^-1 / V over symmetric components (a shear strain counts twice in T : eps). Returns false if no bond
- * crosses. */
+/* Computes the matrix M = T C^-1/V that gives the stress carried by bonds, M : sigma, from the stress of point i, over
+ * symmetric components (a shear strain counts twice in T : eps). Returns false if no bond crosses the cell of the
+ * point. */
 static bool partial_matrix(real *M, const real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -189,15 +196,16 @@ static bool partial_matrix(real *M, const real *T, const struct particles *p, co
     return largest > 0;
 }
 
-/* Returns the number of values of an entry: M, and for state-based models L. */
+/* Returns the number of values that are stored for a point: those of M, and for state-based models those of L. */
 static int partial_stress_entry_size(const struct bond_source *s, int dim)
 {
     const int n = symmetric_count(dim);
     return n * n + (s->modulus ? n : 0);
 }
 
-/* Computes the entry of point i for state-based models from T V [J]. Returns false if none is needed. In hand-shake
- * coupling a point leaves no stress to bonds; an entry of zeros marks it as a point of PD-MPM bonds. */
+/* Computes the values stored for point i under state-based models, the matrix M and the tensor L, from T V [J]. Returns
+ * false if the point needs none. In hand-shake coupling a point leaves no stress to bonds: M is then 0, and its being
+ * stored marks a point of PD-MPM bonds. */
 static bool state_entry(real *entry, real *T, const struct partial_stress *partial, const struct particles *p,
                         const struct bonds *b, const struct bond_source *s, int64_t i)
 {
@@ -208,7 +216,8 @@ static bool state_entry(real *entry, real *T, const struct partial_stress *parti
     return end;
 }
 
-/* Computes the entry of point i for bond-based models from T V [J]. Returns false if none is needed. */
+/* Computes the values stored for point i under bond-based models, the matrix M, from T V [J]. Returns false if no bond
+ * crosses the cell of the point. */
 static bool bond_entry(real *entry, real *T, const struct particles *p, const struct bond_source *s, int64_t i)
 {
     partial_tensor_limit_bonds(T, p, s, i);
@@ -229,8 +238,10 @@ struct renewal {
 
 enum { OTHERS_ROW = 1, DIRTY = 2, OWN = 4 };
 
-/* Marks particles within `radius` [m] of changed ones (DIRTY), and particles up to `reach` [m] farther (OTHERS_ROW).
- * changed: NULL, around all peridynamic particles. */
+/* Sets bits in mark [particles]: DIRTY for particles within `radius` [m] of changed ones, whose stored values must be
+ * recomputed, and OTHERS_ROW for those up to `reach` [m] farther, whose rows may have bonds across the cells of the
+ * former; sets OWN for the changed ones themselves. changed [n]: their indices; NULL: around all peridynamic
+ * particles. */
 static void mark_dirty(uint8_t *mark, const struct particles *p, const struct bond_source *s, real radius, real reach,
                        const int32_t *changed, int64_t n)
 {
@@ -301,7 +312,8 @@ static void renewal_free(struct renewal *r)
 
 /* ---- entries ----------------------------------------------------------------------------------------------------- */
 
-/* Stores M and L (`local` values) as the entry of point i, a new entry if it has none. */
+/* Stores the matrix M (`size` values) and the tensor L that follows it (`local` values) for point i, in a new entry if
+ * the point has none. */
 static void entry_put(struct partial_stress *partial, int64_t i, const real *M, int size, int local)
 {
     if (partial->index[i] < 0) {
@@ -343,7 +355,7 @@ static bool entry_is(const struct partial_stress *partial, int64_t i, const real
            arrays_equal(partial->local + at * local, M + size, local, sizeof *M);
 }
 
-/* Appends particle i to partial->touched. */
+/* Appends particle i to the list of points whose stored values have changed, partial->touched. */
 static void touch(struct partial_stress *partial, int64_t i)
 {
     GROW("partial.touched", partial->touched, partial->touches + 1);

@@ -12,7 +12,8 @@
 enum { VECTORS_MOST = 2048, BODIES_MOST = UINT8_MAX + 1 };
 enum { ROWS_AHEAD = 6 }; /* distance of prefetching: bond responses are in outer caches */
 
-/* A bond of a given vector that starts at a given site has this share of its length inside the cell of the point. */
+/* Share of the length of a bond that is inside the cell of the point. The bond is given by the numbers of its vector
+ * and direction; crossings are listed by the site at which the bond starts. */
 struct crossing {
     int16_t vector, direction;
     real share;
@@ -23,7 +24,8 @@ struct near_place {
     int16_t place, at[DIM_MAX];
 };
 
-/* Bond responses of the rows of material points; valid until a bond of the row changes. */
+/* Responses to strain (struct response) of the bonds of all rows of material points, by the vector of the bond. The
+ * values of a row are valid until one of its bonds changes. */
 struct responses {
     int32_t *of;    /* [n] entry of a particle, -1: no row with an intact bond */
     real *response; /* [room][vectors][parts]                                             */
@@ -31,7 +33,8 @@ struct responses {
     int32_t *free; /* [room] unused entries, the first `frees` */
 };
 
-/* The table. Sites are numbered like the cells of a cube with `reach` cells on either side of the middle. */
+/* Table, for one lattice, of the shares of all possible bonds inside the cell of a point, and of their tensors. Sites
+ * are numbered like the cells of a cube with `reach` cells on either side of the middle. */
 struct partial_table {
     int dim, reach, parts, size; /* parts of a response; values of a tensor */
     real spacing, per_spacing;   /* [m] [1/m]                                                          */
@@ -48,6 +51,7 @@ struct partial_table {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the number of sites: (2 reach + 1)^dim. */
 static int64_t partial_table_places_of(const struct partial_table *t)
 {
     int64_t n = 1;
@@ -110,6 +114,7 @@ static void vectors_make(struct partial_table *t, real cutoff)
     }
 }
 
+/* Returns the number of the direction of a bond vector; a vector and its opposite have the same. */
 static int direction_of(const struct partial_table *t, int vector)
 {
     return vector < t->directions ? vector : t->vectors - 1 - vector;
@@ -253,6 +258,7 @@ void partial_table_free(struct partial_table *t)
 
 /* ---- bond responses ---------------------------------------------------------------------------------------------- */
 
+/* Returns true if the table can be used, i.e. if the particles are on a lattice and have few enough bond vectors. */
 bool partial_table_exists(const struct partial_table *t) { return t->vectors > 0; }
 bool partial_table_covers_all(const struct partial_table *t) { return t->uniform; }
 
@@ -261,7 +267,7 @@ static real *response_at(const struct partial_table *t, int64_t k)
     return t->responses.response + k * t->vectors * t->parts;
 }
 
-/* Allocates room for `open` entries in use at a time. */
+/* Extends the array of bond responses so that `open` rows can have entries at the same time. */
 static void responses_room(struct partial_table *t, int64_t open)
 {
     struct responses *a = &t->responses;
@@ -276,14 +282,15 @@ static void responses_room(struct partial_table *t, int64_t open)
     a->room = room;
 }
 
-/* Assigns an entry to particle i. */
+/* Assigns an entry of the array of bond responses to particle i, a released one if possible. Does nothing if it has
+ * one. */
 static void response_open(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
     if (a->of[i] < 0) a->of[i] = a->frees > 0 ? a->free[--a->frees] : (int32_t)a->n++;
 }
 
-/* Releases the entry of particle i. */
+/* Releases the entry of particle i in the array of bond responses. */
 static void response_close(struct partial_table *t, int64_t i)
 {
     struct responses *a = &t->responses;
@@ -292,7 +299,8 @@ static void response_close(struct partial_table *t, int64_t i)
     a->of[i] = -1;
 }
 
-/* Computes the bond responses of a row, [vectors][parts]. */
+/* Computes the responses to strain of the bonds of a row, response [vectors][parts], by the vector of the bond; 0 for
+ * broken bonds and for vectors without a bond. */
 static void response_make(const struct partial_table *t, const struct particles *p, const struct bonds *b,
                           const struct bond_source *s, int64_t row, real *response)
 {
@@ -313,12 +321,14 @@ static void response_make(const struct partial_table *t, const struct particles 
     }
 }
 
-/* Rows of a row block with an intact bond, cached: consecutive queries mostly concern the same row block. */
+/* The row block of the last query, and its rows with an intact bond, one bit each: consecutive queries mostly concern
+ * the same row block. */
 struct row_block_intact {
     int64_t row_block;
     unsigned rows;
 };
 
+/* Returns true if particle i is a material point with an intact bond. *last: cache of the last row block. */
 static bool partial_table_has_bonds(struct row_block_intact *last, const struct particles *p, const struct bonds *b,
                                     int64_t i)
 {
@@ -364,8 +374,9 @@ struct crossing_row {
     int32_t j, place, response;
 };
 
-/* Adds the bond responses of a row at site `place`, times the shares of the bonds inside the cell, to the sums by
- * direction. signs: axes that the reflections of an image reverse, one bit each. */
+/* Adds the responses of the bonds of a row, each times the share of the bond inside the cell of a point, to sum
+ * [directions][parts]. place: site of the row relative to the point; signs: axes that the reflections of an image
+ * reverse, one bit each. */
 static ALWAYS_INLINE void sum_row(const struct partial_table *t, real *sum, int64_t place, const real *response,
                                   int signs, const int parts)
 {
@@ -385,7 +396,7 @@ static ALWAYS_INLINE void row_fetch(const struct partial_table *t, const struct 
         __builtin_prefetch(response + t->crossing[c].vector * t->parts);
 }
 
-/* Adds the tensors of all directions and parts, times their sums, to T. */
+/* Adds to T the tabulated tensor of each direction and part of a response, times its sum. */
 static void sum_tensors(const struct partial_table *t, const real *sum, real *T)
 {
     for (int k = 0; k < t->directions * t->parts; k++) {

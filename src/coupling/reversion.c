@@ -43,8 +43,8 @@ static bool meets(struct search *s, int64_t i, real radius, const uint8_t *mark)
     return false;
 }
 
-/* Returns true if the largest principal stress of particle i is low. The virial of a family truncated by a surface is
- * scaled to that of a full family. */
+/* Returns true if the largest principal stress of particle i is below rule->low_stress times the stress at which it
+ * would convert. The virial of a family truncated by a surface is scaled to that of a full family. */
 static bool low_stress(const struct reversion_rule *rule, const struct particles *p, const struct bonds *b, int64_t i)
 {
     const struct family *f = &rule->source->family;
@@ -55,9 +55,10 @@ static bool low_stress(const struct reversion_rule *rule, const struct particles
     return stress_principal(stress, p->dim) < limit;
 }
 
-/* Updates low_since of the peridynamic particles. held: set for particles that lost a bond, are inside rule->kept, or
- * whose stress has not been low for the hold time; cut: set for particles that lost a bond. Returns the number of
- * peridynamic particles that are not held. */
+/* Finds the peridynamic particles that may not revert themselves: sets held[i] to 1 for particles with a broken bond,
+ * inside rule->kept, or whose stress has been low for less than the hold time, and cut[i] to 1 for those with a broken
+ * bond. Updates low_since, the time from which on the stress has been low [s]. Returns the number of peridynamic
+ * particles with held[i] = 0. */
 static int64_t mark_constrained(const struct reversion_rule *rule, struct particles *p, const struct bonds *b, real t,
                                 uint8_t *held, uint8_t *cut)
 {
@@ -79,9 +80,10 @@ static int64_t mark_constrained(const struct reversion_rule *rule, struct partic
     return rested;
 }
 
-/* Sets `bound` for peridynamic particles that stay so: those with a held particle within the cutoff or a cut one within
- * BROKEN_HORIZONS. Sets `near` for particles that have an unbound peridynamic particle within the cutoff, as candidates
- * for the centre of a ball without bound particles. */
+/* Sets bound[i] to 1 for peridynamic particles that must stay so: those with a particle marked in `held` within the
+ * cutoff, or with one that lost a bond (`cut`) within BROKEN_HORIZONS. Sets near[i] to 1 for particles that have a
+ * peridynamic particle j with bound[j] = 0 within the cutoff, as candidates for the centre of a ball in which no
+ * particle is marked in `bound`. */
 static void mark_bound(const struct reversion_rule *rule, const struct particles *p, const uint8_t *held,
                        const uint8_t *cut, uint8_t *bound, uint8_t *near)
 {
@@ -106,7 +108,8 @@ static void mark_bound(const struct reversion_rule *rule, const struct particles
     memory_free(s.near.at);
 }
 
-/* Marks the particles in `wanted` that have (`meeting`) or do not have a particle in `other` within the cutoff. */
+/* Sets mark[i] to 1 for particles with wanted[i] = 1 that have a particle j with other[j] = 1 within the cutoff
+ * (`meeting` true), or have none (false). */
 static void mark_meeting(const struct reversion_rule *rule, const struct particles *p, const uint8_t *wanted,
                          const uint8_t *other, bool meeting, uint8_t *mark)
 {
@@ -143,6 +146,7 @@ int64_t reversion_choose(const struct reversion_rule *rule, struct particles *p,
 
 /* ---- state of reverted particles --------------------------------------------------------------------------------- */
 
+/* Exchanges n numbers of two rows of a matrix. */
 static void rows_swap(real *a, real *b, int n)
 {
     for (int c = 0; c < n; c++) {
@@ -175,8 +179,9 @@ static bool reversion_solve(real *A, real *b, int n, int columns)
     return true;
 }
 
-/* Sums over the intact bonds of a row for the deformation gradient F of its family: K = sum w e e, G = sum w e y/r, K
- * F^T = G. */
+/* Adds the moments of the intact bonds of a row, from which the deformation gradient F of its family follows, K F^T =
+ * G: K = sum w e e and G = sum w e y/r, with the weight w, reference direction e, present vector y and reference length
+ * r of a bond. */
 static void family_moments(const struct bonds *b, const struct particles *p, int64_t row, real *K, real *G)
 {
     const int32_t i = b->particle[row];
@@ -201,7 +206,8 @@ struct crossing {
     real stress[SYM_MAX], T[SYM_MAX * SYM_MAX], X[DIM_MAX], half;
 };
 
-/* Adds half of the bond that starts at particle or image j; the entry at its other end adds the other half. */
+/* Adds half of the contribution of a bond of particle or image j to stress and derivative in the cell of `to`; the row
+ * at the other end of the bond adds the other half. r: reflection that gives the image. */
 static void crossing_add(struct crossing *to, const struct bonds *b, const struct particles *p,
                          const struct reflection *r, int64_t j, const struct bond *bond)
 {
@@ -262,8 +268,9 @@ static real determinant(const real *F, int dim)
     return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
 
-/* Replaces the stress of the crossing bonds by that of full families under the strain T^-1 stress of these bonds; no
- * change if T is singular. */
+/* Replaces the stress [Pa] that the bonds across the cell of particle i carry by that of full families under the same
+ * strain T^-1 stress. T: derivative of the stress by a uniform strain [Pa]. Leaves the stress unchanged if T is
+ * singular. */
 static void complete(const struct bond_source *source, const struct particles *p, int64_t i, real *T, real *stress)
 {
     const int dim = p->dim, n = symmetric_count(dim);

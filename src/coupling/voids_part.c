@@ -29,12 +29,13 @@ static const char *void_position_text(const struct particles *p, int64_t i, char
     return text;
 }
 
-/* Particles at voids that the run joins: their number, and the first. */
+/* Particles beside voids whose sides the grid joins, as the voids are too narrow: their number, and the first of
+ * them. */
 struct closed {
     int64_t n, first;
 };
 
-/* Adds particle i. */
+/* Counts particle i as beside a closed void, and stores it if it is the first. */
 static void closed_add(struct closed *to, int64_t i)
 {
     if (to->n++ == 0) to->first = i;

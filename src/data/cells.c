@@ -202,7 +202,9 @@ int cells_most_neighbours(const struct cells *c, real radius)
     return (int)most;
 }
 
-/* Lists the particles near particle i, growing the list as needed. */
+/* Lists in near->at the particles and images within `radius` [m] of particle i in the reference configuration, and
+ * stores their number in near->n. The list grows as needed. itself: includes i; any_order: the list need not be
+ * sorted. */
 static void cells_find(struct near *near, const struct cells *c, const struct particles *p, int64_t i, real radius,
                        bool itself, bool any_order)
 {

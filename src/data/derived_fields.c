@@ -69,6 +69,7 @@ void tensor_principal_values(const real s[6], real value[3], real direction[9])
 
 /* ---- the table --------------------------------------------------------------------------------------------------- */
 
+/* Derived fields of one particle, for the table below: from its stress or velocity `from` to the value `to`. */
 static void mises_from(const real *from, real *to) { *to = tensor_mises_stress(from); }
 static void pressure_from(const real *from, real *to) { *to = -(from[XX] + from[YY] + from[ZZ]) / 3; }
 static void principal_from(const real *from, real *to) { tensor_principal_values(from, to, NULL); }

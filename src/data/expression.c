@@ -84,7 +84,8 @@ real expression_apply_operation(enum expression_op op, real a, real b)
     }
 }
 
-/* Returns the value that a step pushes. */
+/* Returns the value of a step without operands: a number, the time t, or a coordinate of X, which is 0 if X is NULL or
+ * has no such component. */
 static real leaf(const struct expression_step *step, const real *X, int dim, real t)
 {
     if (step->op == EXPRESSION_NUMBER) return step->value;

@@ -42,6 +42,7 @@ static void grid_arrays_make(struct grid *g)
 
 /* Boxes grow by steps of this many nodes. */
 enum { BOX_STEP = 4 };
+/* Returns the largest multiple of BOX_STEP that is not above k. */
 static int64_t box_floor(int64_t k)
 {
     return k >= 0 ? k / BOX_STEP * BOX_STEP : -((-k + BOX_STEP - 1) / BOX_STEP) * BOX_STEP;

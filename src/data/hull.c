@@ -91,7 +91,8 @@ static int64_t sides_make(const struct hull *s, struct piece *side)
     return n;
 }
 
-/* Finds the edges that adjacent faces traverse in one direction more often than in the other. */
+/* Counts in s->open_edges the edges (2D: end points) that adjacent faces do not traverse equally often in both
+ * directions, so that the surface has a hole there. Stores the middle of the first one in s->open_at. */
 static void find_open(struct hull *s)
 {
     struct piece *side = NEW("hull.pieces", s->faces * s->dim, struct piece);
@@ -136,6 +137,7 @@ static int64_t count_shells(const struct hull *s)
 
 /* ---- measures ------------------------------------------------------------------------------------------------- */
 
+/* Computes the area vector of face k [m^2]; of a segment its length times its normal [m]. */
 void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX])
 {
     const real *a = s->corner[s->face[k][0]], *b = s->corner[s->face[k][1]];

@@ -255,7 +255,8 @@ static bool hull_outside(const struct hull *s, const real *X)
     return s->open || box_apart2(&s->node[0], X, s->dim) > 0 || hull_winding_number(s, X) < 0.5;
 }
 
-/* If the surface is farther away than `most`, only the side has to be found. */
+/* Returns true if the signed distance of X from the surface, negative inside, is at most `most` [m]. Faces farther away
+ * than |most| are not searched: then only the side of X is determined. */
 bool hull_is_within(const struct hull *s, const real *X, real most)
 {
     real size = 0, point[DIM_MAX];

@@ -64,7 +64,8 @@ static real rayleigh_function(real v, real longitudinal, real shear)
     return 4 * sqrt(d2 * s2) - square(1 + s2);
 }
 
-/* Returns its root, between 0.68 (nu = -1) and 0.96 (nu = 1/2) of the shear speed; v = 0 is a second, trivial root. */
+/* Returns the Rayleigh wave speed [m/s] for the given longitudinal and shear wave speeds [m/s]: the non-trivial root of
+ * rayleigh_function, between 0.68 (nu = -1) and 0.96 (nu = 1/2) of the shear speed, by bisection. */
 static real rayleigh_speed(real longitudinal, real shear)
 {
     real low = 0.5 * shear, high = shear;

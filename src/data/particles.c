@@ -8,6 +8,8 @@
 
 #include "base/memory.h"
 
+/* Numbers of components of an array of particles, for the table below; optional: the optional arrays that the scene
+ * needs (bits WITH_...). 0: the array does not exist. */
 static int one(int dim, int optional) { return (void)dim, (void)optional, 1; }
 static int vector(int dim, int optional) { return (void)optional, dim; }
 static int symmetric(int dim, int optional) { return (void)optional, symmetric_count(dim); }
@@ -71,7 +73,8 @@ _Static_assert(sizeof(struct particles) ==
                    offsetof(struct particles, X) + (5 * DIM_MAX + 40 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
-/* Through bytes: a `real *` must not be read as a `void *`. */
+/* Returns the pointer to component k of an array of the table. It is copied byte by byte, since a `real *` must not be
+ * read as a `void *`. */
 static void *get(const struct particles *p, const struct particle_field *f, int k)
 {
     void *array;
@@ -79,6 +82,7 @@ static void *get(const struct particles *p, const struct particle_field *f, int 
     return array;
 }
 
+/* Stores the pointer to component k of an array of the table, the reverse of `get`. */
 static void particles_put(struct particles *p, const struct particle_field *f, int k, void *array)
 {
     memcpy((char *)p + f->offset + (size_t)k * sizeof array, &array, sizeof array);
@@ -189,8 +193,8 @@ real particles_longest_edge(const struct particles *p)
     return longest;
 }
 
-/* Computes the sort keys. Rows start a quarter below the first particle: no row of a lattice is near a boundary between
- * rows, so round-off cannot split it. */
+/* Computes the sort keys of all particles. The borders between rows are a quarter of the spacing below the particles of
+ * the first row: no row of a lattice is near a border, so that round-off cannot split it. */
 static void find_places(const struct particles *p, real spacing, struct place *place)
 {
     real low[DIM_MAX] = {0}, high;
@@ -211,7 +215,7 @@ static void permute(char *array, size_t size, const struct place *place, int64_t
     array_copy(array, scratch, n, size);
 }
 
-/* Returns true if the keys are ascending. */
+/* Returns true if n sort keys are in ascending order. */
 static bool in_order(const struct place *place, int64_t n)
 {
     bool sorted = true;
@@ -246,7 +250,7 @@ static bool eight_alike(const struct particles *p, int64_t i)
     return eight_same(p->kind + i) && (meshed == 0 || meshed == EIGHT_TIMES(FLAG_MESHED));
 }
 
-/* Appends the particles i .. i + more - 1 to a list of *n. */
+/* Appends the indices i .. i + more - 1 to list, which has *n entries before. */
 static void list_append(int32_t *list, int64_t *n, int64_t i, int more)
 {
     for (int l = 0; l < more; l++) list[*n + l] = (int32_t)i + l;
@@ -266,7 +270,8 @@ void particles_update_lists(struct particles *p)
     }
 }
 
-/* Tests eight particles at a time; entries beyond the body are images, which never have these flags. */
+/* Returns true if a particle is marked for conversion: it lost a bond, has a high stress, or is near another body.
+ * Eight particles are tested at a time; entries beyond the body are images, which never have these flags. */
 bool conversion_is_due(const struct particles *p)
 {
     uint64_t any = 0;

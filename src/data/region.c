@@ -47,8 +47,9 @@ bool region_bounds(const struct region *r, int dim, real from[DIM_MAX], real to[
     return bounded;
 }
 
-/* Uses Kronecker's quasi-random sequence whose increments are powers of the root of g^(dim + 1) = g + 1 (Roberts
- * 2018). */
+/* Returns the volume of the region inside the box from..to [m^dim], estimated by the share of sample points inside the
+ * region. The points are Kronecker's quasi-random sequence whose increments are powers of the root of g^(dim + 1) = g +
+ * 1 (Roberts 2018). */
 real region_volume(const struct region *r, int dim, const real *from, const real *to)
 {
     static const real root[] = {0, 1.61803398874989485, 1.32471795724474602, 1.22074408460575947};
@@ -317,6 +318,7 @@ bool crack_may_cut_near(const struct crack *c, const real *X, real reach, int di
 
 /* ---- waves ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the state of the wave at X at t = 0, in material of wave speed c [m/s]. */
 struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim)
 {
     const real root_of_pi = 1.77245385090551602730, radius = 0.25 * w->width;

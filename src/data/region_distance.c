@@ -10,7 +10,8 @@
 
 enum { RUN_LEAST = 8 }; /* smallest number of solids for which a tree is faster */
 
-/* Returns the number of consecutive solids from `first` on with one operation, 1 if too few for a tree. */
+/* Returns how many solids from `first` on have the same operation (added, subtracted ..), or 1 if they are too few for
+ * a tree of boxes to be faster. */
 static int run_length(const struct region *r, int first)
 {
     const struct solid *s = &r->solid[first];
@@ -48,7 +49,8 @@ static struct region_run region_run(const struct region *r, int j)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a solid of the run has a level of at most `most` at X, as if all were added. */
+/* Returns true if a solid of the run, i.e. of consecutive solids with the same operation, has a level (solid_level, <=
+ * 0 inside) of at most `most` at X [m]. The operation itself is not applied. */
 static bool run_within(const struct solid *s, const struct region_run *run, const real *X, int dim, real most)
 {
     struct box_search near;
@@ -60,7 +62,7 @@ static bool run_within(const struct solid *s, const struct region_run *run, cons
     return within;
 }
 
-/* Returns the smallest level of the solids of the run at X. */
+/* Returns the smallest level (solid_level, <= 0 inside) at X over the solids of the run [m]. */
 static real run_level(const struct solid *s, const struct region_run *run, const real *X, int dim)
 {
     struct box_search near;
@@ -72,7 +74,8 @@ static real run_level(const struct solid *s, const struct region_run *run, const
     return nearest;
 }
 
-/* Returns the distance of the nearest solid of the run and its normal; of equally near solids the first. */
+/* Returns the signed distance of X from the nearest solid of the run, negative inside [m], and its normal. If several
+ * solids are equally near, the first one counts. */
 static real run_distance(const struct solid *s, const struct region_run *run, const real *X, int dim, real *normal)
 {
     struct box_search near;
@@ -99,8 +102,9 @@ static real number_before(real x)
     return fabs(before) < DBL_MIN ? -DBL_MIN : before;
 }
 
-/* A subtracted solid loses its surface to the region, which stays closed; growing the region shrinks it: it consists of
- * points with a level below -tolerance. */
+/* Returns true if X is in the region extended by `tolerance` [m]. Subtracting a solid leaves its surface in the region,
+ * which stays closed, and extending the region shrinks the hole: points with a level below -tolerance in a subtracted
+ * solid are outside. */
 bool region_contains(const struct region *r, const real *X, int dim, real tolerance)
 {
     bool inside = r->n == 0 || r->solid[0].intersect;

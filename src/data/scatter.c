@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* Algorithm AS 241 (PPND7) of Wichura 1988: seven digits. */
+/* Returns the quantile of the standard normal distribution for the probability u, by algorithm AS 241 (PPND7) of
+ * Wichura 1988, with seven digits. */
 real normal_quantile(real u)
 {
     const real q = u - 0.5;

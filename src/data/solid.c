@@ -23,6 +23,7 @@ static real box_surface(const real *at, const real *half, int dim, real *normal)
     return out > 0 ? out : nearest;
 }
 
+/* Returns the signed distance of X from a box parallel to the axes, negative inside [m], and the outward normal. */
 static real box_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     real at[DIM_MAX], half[DIM_MAX];
@@ -33,6 +34,7 @@ static real box_from(const struct solid *s, const real *X, int dim, real *normal
     return box_surface(at, half, dim, normal);
 }
 
+/* Returns the largest of the signed distances of X from the faces of a box, <= 0 inside [m]. */
 static real box_level(const struct solid *s, const real *X, int dim)
 {
     real far = -INFINITY;
@@ -40,6 +42,7 @@ static real box_level(const struct solid *s, const real *X, int dim)
     return far;
 }
 
+/* Returns the support of a box: the maximum of X . along over its points X. */
 static real box_support(const struct solid *s, const real *along, int dim)
 {
     real sum = 0;
@@ -58,16 +61,20 @@ static real centre_from(const struct solid *s, const real *X, int dim, real *nor
     return r;
 }
 
+/* Returns the signed distance of X from a ball, negative inside [m], and the outward normal. */
 static real ball_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     return centre_from(s, X, dim, normal) - s->radius;
 }
 
+/* Returns the support of a ball: the maximum of X . along over its points X. */
 static real ball_support(const struct solid *s, const real *along, int dim)
 {
     return dot(s->centre, along, dim) + s->radius * sqrt(dot(along, along, dim));
 }
 
+/* Returns the signed distance of X from the solid between radii `inner` and `radius`, negative inside [m], and the
+ * normal. */
 static real ring_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real r = centre_from(s, X, dim, normal), out = r - s->radius, in = s->inner - r;
@@ -75,6 +82,7 @@ static real ring_from(const struct solid *s, const real *X, int dim, real *norma
     return real_max(out, in);
 }
 
+/* Returns the signed distance of X from a half-space, negative inside [m], and the outward normal. */
 static real half_space_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim));
@@ -86,6 +94,7 @@ static real half_space_from(const struct solid *s, const real *X, int dim, real 
     return above;
 }
 
+/* Returns the signed distance of X from the face of a half-space [m]; INFINITY if its normal has no length. */
 static real half_space_level(const struct solid *s, const real *X, int dim)
 {
     real length = sqrt(dot(s->normal, s->normal, dim)), above = 0;
@@ -93,7 +102,8 @@ static real half_space_level(const struct solid *s, const real *X, int dim)
     return length > 0 ? above / length : INFINITY;
 }
 
-/* Bounded only along its normal, up to round-off. */
+/* Returns the support of a half-space, the maximum of X . along over its points X: finite only if `along` is its normal
+ * up to round-off, else INFINITY. */
 static real half_space_support(const struct solid *s, const real *along, int dim)
 {
     const real length = sqrt(dot(s->normal, s->normal, dim)), size = sqrt(dot(along, along, dim));
@@ -150,12 +160,15 @@ static real pipe_from(const struct solid *s, const real *X, real inner, real *no
     return distance;
 }
 
+/* Returns the signed distance of X from a cylinder, negative inside [m], and the outward normal. */
 static real cylinder_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
     return pipe_from(s, X, -s->radius, normal);
 }
 
+/* Returns the signed distance of X from a tube with the radii `inner` and `radius`, negative inside [m], and the
+ * normal. */
 static real tube_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -172,6 +185,8 @@ static real solid_direction(const real *a, const real *b, int dim, real unit[DIM
     return length;
 }
 
+/* Returns the larger one of the signed distances of X from the mantle and from the ends of a cylinder, <= 0 inside
+ * [m]. */
 static real cylinder_level(const struct solid *s, const real *X, int dim)
 {
     real axis[DIM_MAX], arm[DIM_MAX], length = solid_direction(s->from, s->to, dim, axis);
@@ -181,7 +196,8 @@ static real cylinder_level(const struct solid *s, const real *X, int dim)
     return real_max(sqrt(across) - s->radius, real_max(-along, along - length));
 }
 
-/* Returns the support of a disc normal to the axis from .. to of the solid. */
+/* Returns the support, the maximum of X . along over its points X, of a disc about `centre` normal to the axis of the
+ * solid. */
 static real end_support(const struct solid *s, const real *centre, real radius, const real *along)
 {
     real axis[DIM_MAX];
@@ -196,7 +212,8 @@ static real cylinder_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->radius, along));
 }
 
-/* The section through the axis of a cone is a trapezoid, or a triangle if it ends in a point. */
+/* Returns the signed distance of X from a cone [m] and the normal, both from its section in the plane through axis and
+ * X: a trapezoid, or a triangle if the cone ends in a point. */
 static real cone_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -220,7 +237,8 @@ static real cone_support(const struct solid *s, const real *along, int dim)
     return real_max(end_support(s, s->from, s->radius, along), end_support(s, s->to, s->inner, along));
 }
 
-/* A torus: a ring of radius `radius` about the axis `normal`, with round section. */
+/* Returns the signed distance of X from a torus [m] and the normal. The circle of radius `radius` about the axis
+ * `normal` is the middle of a round section of radius `inner`. */
 static real torus_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     struct solid line = {0};
@@ -245,6 +263,7 @@ static real torus_support(const struct solid *s, const real *along, int dim)
 
 /* ---- polygons, ellipsoids, extrusions, groups -------------------------------------------------------------------- */
 
+/* Returns the signed distance of X from a polygon in the plane, negative inside [m], and the outward normal. */
 static real polygon_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)dim;
@@ -271,6 +290,8 @@ static void plane_axes(const struct solid *s, int axes[2])
     axes[1] = s->axis == 2 ? 1 : 2;
 }
 
+/* Returns the signed distance of X from an extrusion of a plane region along an axis, negative inside [m], and the
+ * normal. */
 static real extrusion_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     int axes[2];
@@ -287,6 +308,7 @@ static real extrusion_from(const struct solid *s, const real *X, int dim, real *
     return outside > 0 ? outside : real_max(across, along);
 }
 
+/* Returns the larger one of the level of the plane region and the distance from the ends of an extrusion [m]. */
 static real extrusion_level(const struct solid *s, const real *X, int dim)
 {
     int axes[2];
@@ -296,6 +318,7 @@ static real extrusion_level(const struct solid *s, const real *X, int dim)
     return real_max(region_level(&s->region, flat, 2), real_max(s->begin - X[s->axis], X[s->axis] - s->end));
 }
 
+/* Returns true if the level of X for an extrusion is at most `most` [m]. */
 static bool extrusion_within(const struct solid *s, const real *X, int dim, real most)
 {
     int axes[2];
@@ -344,6 +367,7 @@ static real hull_reach(const struct solid *s, const real *along, int dim)
     return hull_support(s->hull, along) + s->radius * sqrt(dot(along, along, dim));
 }
 
+/* Returns true if X is at most `most` [m] outside a surface that is extended by the radius of the solid. */
 static bool hull_holds(const struct solid *s, const real *X, int dim, real most)
 {
     (void)dim;
@@ -362,7 +386,7 @@ static real voxels_level(const struct solid *s, const real *X, int dim)
     return voxel_part_distance(s->voxels, X, NULL);
 }
 
-/* Returns the support of the whole image. */
+/* Returns the support, the maximum of X . along over its points X, of the box of the whole voxel image. */
 static real voxels_reach(const struct solid *s, const real *along, int dim)
 {
     const struct voxels *v = s->voxels->of;
@@ -371,7 +395,7 @@ static real voxels_reach(const struct solid *s, const real *along, int dim)
     return sum;
 }
 
-/* The solid that is everywhere. */
+/* Returns the distance from the solid that fills all of space: -INFINITY, with an arbitrary normal. */
 static real all_from(const struct solid *s, const real *X, int dim, real *normal)
 {
     (void)s, (void)X;

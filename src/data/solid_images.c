@@ -41,7 +41,7 @@ static void solid_reflection(const struct solid_motion *m, int dim, real R[DIM_M
             R[a][b] = (a == b) - (a < dim && b < dim ? 2 * m->axis[a] * m->axis[b] / length2 : 0);
 }
 
-/* Returns the placement `from` transformed by R about a point. */
+/* Returns the placement `from` of a copy, transformed by the rotation or reflection R about the point `about` [m]. */
 static struct placement image_turned(const struct placement *from, real R[DIM_MAX][DIM_MAX], const real *about, int dim)
 {
     struct placement to = {0};
@@ -86,7 +86,7 @@ static real motion_count(const struct solid_motion *m, int dim)
 
 /* ---- one copy ---------------------------------------------------------------------------------------------------- */
 
-/* Computes to = turn^T b: a direction in the coordinates of the solid as described. */
+/* Rotates the direction b back to the coordinates in which the solid was described: to = turn^T b. */
 static void turn_back(const struct placement *i, const real *b, int dim, real *to)
 {
     for (int c = 0; c < dim; c++) {
@@ -95,7 +95,7 @@ static void turn_back(const struct placement *i, const real *b, int dim, real *t
     }
 }
 
-/* Returns the support of one copy. */
+/* Returns the support, the maximum of X . along over its points X, of one copy of a solid. */
 static real image_support(const struct solid *s, const struct placement *i, const real *along, int dim)
 {
     real own[DIM_MAX] = {0};
@@ -111,8 +111,9 @@ static void place_back(const struct placement *i, const real *X, int dim, real *
     turn_back(i, off, dim, to);
 }
 
-/* Returns how far levels may be below those that the box implies [m]. Other solids are no deeper inside than their box;
- * levels of voxels are those of their centres, and a surface with holes may be far from points inside it. */
+/* Returns by how much the level of a solid (solid_level) may be below the one that its bounding box implies [m]: 0 for
+ * most solids; the size of a voxel for voxels, whose levels are those of their centres; INFINITY for a surface with
+ * holes, which may be far from points inside it. */
 static real box_slack(const struct solid *s, int dim)
 {
     real slack = 0;
@@ -169,7 +170,8 @@ bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim)
 
 /* ---- all copies -------------------------------------------------------------------------------------------------- */
 
-/* Of equally near copies the first counts. */
+/* Returns the signed distance of X from the nearest copy of the solid, negative inside [m], and its normal. If several
+ * copies are equally near, the first one counts. */
 real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
 {
     real nearest = INFINITY, own[DIM_MAX], at[DIM_MAX];
@@ -192,7 +194,7 @@ real solid_distance(const struct solid *s, const real *X, int dim, real *normal)
     return nearest;
 }
 
-/* Returns the level of the solid as described. */
+/* Returns the level (solid_level, <= 0 inside) of X for the solid as described, before it is moved or copied [m]. */
 static real image_level(const struct solid *s, const real *X, int dim)
 {
     const struct solid_type *type = &solid_types[s->kind];
@@ -213,7 +215,8 @@ real solid_level(const struct solid *s, const real *X, int dim)
     return nearest;
 }
 
-/* Returns true if the level of the solid as described is at most `most`. */
+/* Returns true if the level (solid_level, <= 0 inside) of X for the solid as described, before it is moved or copied,
+ * is at most `most` [m]. */
 static bool image_within(const struct solid *s, const real *X, int dim, real most)
 {
     const struct solid_type *type = &solid_types[s->kind];

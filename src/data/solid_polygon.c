@@ -24,7 +24,8 @@ struct nearest {
     bool at_corner;
 };
 
-/* Updates the nearest part with the edge a-b; sense as in struct polygon. */
+/* Updates the nearest part of the outline with the edge a-b if this is nearer to X. sense: 1 if the corners are in
+ * counter-clockwise order, else -1. */
 static void edge_nearest(struct nearest *n, const real *a, const real *b, real sense, const real *X)
 {
     real along[2], arm[2], foot[2];
@@ -76,7 +77,8 @@ static void bend_nearest(struct nearest *n, const struct polygon *p, int k, cons
                           false};
 }
 
-/* Returns true if X is between corner k and its arc, where polygons with sharp and round corners differ. */
+/* Returns true if X is between corner k and the arc that rounds it: in this region the polygons with sharp and with
+ * round corners differ. */
 static bool bend_cuts(const struct polygon *p, int k, const real *X)
 {
     real arm[2];

@@ -56,7 +56,8 @@ static void rank_blocks(struct transfer_order *o, const struct block_shape *s, i
 
 /* ---- room -------------------------------------------------------------------------------------------------------- */
 
-/* Reserves room for cells; their number is known last and grows slowly. */
+/* Extends the list of the first entries of cells, without keeping its contents, so that it holds `cells` cells with a
+ * reserve. */
 static void cells_room(struct transfer_order *o, int32_t cells)
 {
     if (o->cells_room >= cells + 1) return;
@@ -144,7 +145,8 @@ static void find_blocks_of(const struct sorting *s, int chunk)
     }
 }
 
-/* Computes the first entry of each block and, within it, of the points of each chunk. */
+/* Replaces the number of points of each chunk in each block (s->fill) by the index of the first of them in a list
+ * sorted by block, then by chunk. block_start [blocks + 1]: receives the first index of each block. */
 static void add_up(const struct sorting *s, int32_t *block_start)
 {
     int32_t next = 0;
@@ -158,7 +160,7 @@ static void add_up(const struct sorting *s, int32_t *block_start)
     block_start[s->shape.n] = next;
 }
 
-/* Distributes the points of a chunk to the blocks. */
+/* Copies the points of a chunk and their cells to the indices of their blocks in s->bucket and s->sorted. */
 static void put_in_blocks(const struct sorting *s, int chunk)
 {
     int32_t *fill = s->fill + chunk * s->shape.n, key = 0, at = fill[0];
@@ -209,8 +211,8 @@ static void find_cells(struct transfer_order *o, const uint16_t *inside)
     o->cell_start[o->cells] = (int32_t)o->n;
 }
 
-/* Arrays are not cleared, since all entries are written before they are read. A grid without nodes has no block and no
- * chunk. */
+/* Allocates the working memory of a sort. Arrays are not cleared, since all entries are written before they are read. A
+ * grid without nodes has no blocks and needs no chunks. */
 static void sorting_make(struct sorting *s)
 {
     s->chunks = s->shape.n > 0 ? omp_get_max_threads() : 0;

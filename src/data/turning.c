@@ -12,14 +12,14 @@
 
 /* ---- making ------------------------------------------------------------------------------------------------------ */
 
-/* A particle and the position of its group. */
+/* A particle, and the integer position of the group of points, rotating together, to which it belongs. */
 struct member {
     real X[DIM_MAX];
     int64_t place[DIM_MAX];
     int32_t body, particle, off;
 };
 
-/* Orders groups by body, then by position. */
+/* Compares the positions a and b of two groups of points, first their bodies. */
 static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int body_b)
 {
     if (body_a != body_b) return body_a < body_b ? -1 : 1;
@@ -28,7 +28,7 @@ static int order_of_places(const int64_t *a, int body_a, const int64_t *b, int b
     return 0;
 }
 
-/* Orders particles by group, then by position, then by number. */
+/* Compares two particles by the group of points to which they belong, then by position, then by number, for sorting. */
 static int by_member(const void *a, const void *b)
 {
     const struct member *p = a, *q = b;
@@ -38,14 +38,15 @@ static int by_member(const void *a, const void *b)
     return order ? order : (p->particle > q->particle) - (p->particle < q->particle);
 }
 
-/* Orders groups. */
+/* Compares two groups of points by body, then by position, for sorting and searching. */
 static int by_group(const void *a, const void *b)
 {
     const struct turning_group *p = a, *q = b;
     return order_of_places(p->place, p->body, q->place, q->body);
 }
 
-/* Returns the position of the group at u spacings from the middle; odd: a group is centred on the middle. */
+/* Returns the integer position of the group of points that contains the coordinate u, relative to the middle of the
+ * body [spacings]. odd: the middle of the body is the middle of a group, else it is a border between two. */
 static int64_t group_place(real u, bool odd)
 {
     const real far = floor((fabs(u) + (odd ? (TURNING_EDGE - 1) / 2.0 : TURNING_EDGE)) / TURNING_EDGE);
@@ -75,7 +76,8 @@ static struct member *members_sorted(const struct particles *p, real spacing, co
     return all;
 }
 
-/* Finds the neighbours of group g. */
+/* Stores the indices of the 26 groups of points around group g in its body: first those displaced along one axis, then
+ * along two, then along three; -1 where there is none. */
 static void groups_near(struct turning_groups *t, int32_t g)
 {
     struct turning_group *own = &t->group[g];
@@ -145,7 +147,7 @@ static void sum_mass(const struct turning_groups *t, struct turning_group *g, co
     }
 }
 
-/* Sums the lack of the points of group g. */
+/* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn). */
 static void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     memset(g->sum, 0, sizeof g->sum);
@@ -153,7 +155,7 @@ static void sum_lack(const struct turning_groups *t, struct turning_group *g, co
     for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
 }
 
-/* Computes the arm r of point i about the centre of the root. */
+/* Computes the vector r from the centre of mass of `root`, the group that others have joined, to point i [m]. */
 static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
 {
     for (int d = 0; d < DIM_MAX; d++) r[d] = d < p->dim ? p->x[d][i] - root->moment[d] : 0;
@@ -168,7 +170,8 @@ static void spin_add(const struct particles *p, int32_t i, const real *r, real *
     }
 }
 
-/* Sums inertia and angular momentum of group g about the centre of its root. */
+/* Sums tensor of inertia and angular momentum of the points of group g about the centre of mass of its root, the group
+ * that it has joined. */
 static void sum_inertia(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -184,8 +187,8 @@ static void sum_inertia(const struct turning_groups *t, struct turning_group *g,
     memcpy(g->inertia, sum, sizeof sum);
 }
 
-/* Adds the rotation of the root to the velocities of group g, and sums their angular momentum about the root's
- * centre. */
+/* Adds the rotation root->spin of the root of group g, the group that it has joined, to the velocities of the points of
+ * group g, and sums their angular momentum about the root's centre of mass. */
 static void spin_apply(const struct turning_groups *t, struct turning_group *g, struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -200,7 +203,8 @@ static void spin_apply(const struct turning_groups *t, struct turning_group *g, 
     }
 }
 
-/* Stores the spin of the root for all points of group g. */
+/* Stores the angular velocity of the root of group g, the group that it has joined, in t->turn for all points of group
+ * g. */
 static void spins_store(struct turning_groups *t, const struct turning_group *g, const struct particles *p)
 {
     const struct turning_group *root = &t->group[g->root];
@@ -210,7 +214,8 @@ static void spins_store(struct turning_groups *t, const struct turning_group *g,
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root of group g. */
+/* Returns the root of group g: the last one in the chain of groups that it has joined, g itself if it has joined
+ * none. */
 static int32_t group_root(const struct turning_groups *t, int32_t g)
 {
     while (t->group[g].root != g) g = t->group[g].root;
@@ -220,8 +225,8 @@ static int32_t group_root(const struct turning_groups *t, int32_t g)
 /* Returns the number of axes along which neighbour k of a group is displaced. */
 static int axes_of_near(int k) { return k < 6 ? 1 : k < 18 ? 2 : 3; }
 
-/* Joins groups of few points to the neighbour with the most points; of equal ones to one along an axis and near the
- * middle. */
+/* Joins each group of fewer than TURNING_FEW points to the neighbour with the most points. Among neighbours with
+ * equally many, those displaced along fewer axes come first, then those nearer to the middle of the body. */
 static void few_join(struct turning_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) t->group[g].root = g;
@@ -262,7 +267,8 @@ static void spin_solve(const real J[3][3], const real *sum, int dim, real *w)
     w[2] = (C * sum[0] + D * sum[1] + (a * b - d * d) * sum[2]) / all;
 }
 
-/* Computes the spins of roots from the sums of their groups. */
+/* Adds the sums of all groups to those of their roots, the groups that they have joined, and computes the angular
+ * velocity of each root from them. It is 0 without mass and in bodies that a support constrains. */
 static void spins_find(struct turning_groups *t, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -276,7 +282,8 @@ static void spins_find(struct turning_groups *t, int dim)
     }
 }
 
-/* Computes mass and centre of the roots. */
+/* Adds mass and first moment of all groups to those of their roots, the groups that they have joined, and divides the
+ * first moments by the masses: `moment` is then the centre of mass. */
 static void centres_find(struct turning_groups *t)
 {
     for (int32_t g = 0; g < t->groups; g++) {
@@ -290,7 +297,8 @@ static void centres_find(struct turning_groups *t)
         for (int d = 0; d < DIM_MAX && t->group[g].mass > 0; d++) t->group[g].moment[d] /= t->group[g].mass;
 }
 
-/* Computes the inertia of the roots; increased by that of LEAST_ARM if it nearly vanishes about some axis. */
+/* Adds the inertia of all groups to that of their roots, the groups that they have joined. If the sum nearly vanishes
+ * about some axis, it is increased by the inertia of its mass at a radius of LEAST_ARM spacings. */
 static void inertias_find(struct turning_groups *t, real spacing, int dim)
 {
     for (int32_t g = 0; g < t->groups; g++) {

@@ -121,6 +121,7 @@ bool void_separates_points(const struct voids *v, int body, const real *a, const
 
 /* ---- all particles ----------------------------------------------------------------------------------------------- */
 
+/* Returns true if a void is between particles i and j of a body. v NULL: false. */
 bool void_separates_particles(const struct voids *v, const struct particles *p, int64_t i, int64_t j)
 {
     real a[DIM_MAX] = {0}, b[DIM_MAX] = {0};
@@ -137,8 +138,9 @@ real voids_particle_depth(const struct voids *v, const struct particles *p, int6
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Returns the marks of particle i. depth: [p->n_all] lower bounds of the particles' distances from the surface [m]: a
- * segment covered by the balls of these radii around its ends is inside. */
+/* Returns VOID_NEAR if a segment from particle i to a particle of its body in `near` leaves the body, with VOID_ACROSS
+ * if both surfaces that it crosses face each other; else 0. depth: [p->n_all] lower bounds of the particles' distances
+ * from the surface [m]: a segment covered by the balls of these radii around its ends is inside. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, int64_t i,
                            const struct near *near)
 {

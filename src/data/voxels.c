@@ -5,7 +5,8 @@
 
 #include "base/memory.h"
 
-/* Part of a voxel by which a point counts as higher: points on the border between voxels would fall to either side. */
+/* Share of a voxel by which coordinates are increased before they are assigned to voxels, so that round-off does not
+ * decide for points on the border of two voxels. */
 #define BORDER 1e-6
 
 void voxels_free(struct voxels *v)

@@ -223,6 +223,7 @@ static real particles_expected(const struct scene *s, real *longest)
     return n;
 }
 
+/* Returns the number of particles, or before they exist its estimate. *longest: as in particles_expected. */
 static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
     const real expected = particles_expected(s, longest);
@@ -276,7 +277,8 @@ static void tables_free(struct material_tables *t)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
-/* Adds the path of the scene file to a message that names no place in it. */
+/* Adds the path of the scene file to a message that names no file and line. Returns `made`, the status of the
+ * message. */
 static status named(const struct scene *s, status made)
 {
     char place[PLACE_LENGTH];
@@ -299,6 +301,7 @@ static int optional_arrays(const struct scene *s)
     return optional;
 }
 
+/* Returns the force law of the peridynamic model. */
 static enum pd_model law_of(const struct scene *s, const struct bond_source *source)
 {
     if (s->model == MODEL_OSPD) return PD_OSPD;

@@ -10,8 +10,8 @@
 #include "step/report.h"
 #include "engine_internal.h"
 
-/* Frees what the new run computes from particles and scene, since large bodies have no memory for both. The motion of
- * the nodes stays. */
+/* Frees mesh, partial stress, interface zone and neighbour search, which the new run computes from particles and scene,
+ * since large bodies have no memory for both. The motion of the nodes is kept. */
 static void leave_derived(struct run *e)
 {
     struct mesh *mesh = &e->frame->mesh, moved = {.grid = {.n = mesh->grid.n, .dim = mesh->grid.dim}};

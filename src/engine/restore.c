@@ -4,7 +4,8 @@
 #include "mesh/mesh_part.h"
 #include "step/report.h"
 
-/* Creates the run again with the hollow cells of a checkpoint. absent: becomes the run's. */
+/* Creates the run again with the hollow cells of a checkpoint; keeps its report, warnings and timers. absent: marks of
+ * the hollow cells, owned by the run from now on. */
 static status remake(struct run *e, uint8_t *absent)
 {
     struct run_report *const report = e->report;

@@ -8,7 +8,7 @@
 #include "step/step.h"
 #include "step/checks.h"
 
-/* Finds the rings of SIF probes, in which cells are not coarsened. */
+/* Stores position and radius of the rings of all sif probes in the frame; cells there are not coarsened. */
 static void rings_find(struct reference_frame *f, struct probes *p, const struct observed *seen)
 {
     if (!f->ring) f->ring = NEW("frame.rings", p->n, struct frame_ring);

@@ -62,7 +62,8 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
                      coupling_name[kind]);
 }
 
-/* Warns of shape functions beside driven particles, and of cells with one point. on_grid: points are on the grid. */
+/* Warns of quadratic and cubic shape functions if a boundary drives particles, and of cells with a single point.
+ * on_grid: material points are on the grid of the current frame. */
 static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *to)
 {
     bool driven = false;

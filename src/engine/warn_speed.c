@@ -93,7 +93,8 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
                      d->load->boundary->name, change, within, d->limit);
 }
 
-/* A face that is moved at speed v strains the material behind it by v/c at once. */
+/* Warns of boundaries that move particles, or change their velocity at t = 0, by more than the speed at which bonds
+ * beside them break: a face moved at speed v strains the material behind it by v/c at once. */
 void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
                           struct warnings *to)
 {

@@ -9,12 +9,13 @@
 enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
 #define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
-/* Figures that have limits, in the order of ACCEPT_WORDS. */
+/* Quantities that are compared with limits, in the order of ACCEPT_WORDS. */
 enum rule { RULE_WAVES, RULE_STRETCH, RULE_STRESS, RULE_STRAIN, RULE_STEPS, RULE_REACH, RULE_PARTICLES, RULES };
 
-/* Limits of a figure, least to most, and what to look at where it is beyond. Waves: 18 km/s in diamond, 20 m/s in gels
- * of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals without flaws. Stress, over the strength
- * E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach: of waves in the duration [spacings]. */
+/* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
+ * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
+ * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
+ * of waves in the duration [spacings]. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -33,8 +34,8 @@ static const struct {
                         "spacing and lengths (mm?)"},
 };
 
-/* Warns if `value` is beyond the limits of a rule that the scene does not accept. subject: what it is of, and a note
- * with the numbers that it follows from, perhaps "". */
+/* Warns if `value` is beyond the limits of quantity k, unless the scene accepts it. subject: the part of the scene that
+ * has this value; note: text with the numbers from which it is computed, or "". */
 static void units_judge(const struct scene *s, enum rule k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
@@ -49,6 +50,7 @@ static void units_judge(const struct scene *s, enum rule k, const char *subject,
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
+/* Warns of implausible wave speeds and critical stretches of materials. */
 static void units_of_materials(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -65,16 +67,16 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
 
 /* ---- stress that loads can make -------------------------------------------------------------------------------- */
 
-/* Figures of all loads. stress: of tractions, pressures, body forces [Pa]; speed: of what is driven beside its
- * particles [m/s]; least, most: displacements of what is driven [dim, m]; supports: number of loads that hold or drive.
- */
+/* Largest values over all loads. stress: of tractions, pressures and body forces [Pa]; speed: of driven particles
+ * relative to undriven ones [m/s]; least, most: range of prescribed displacements [dim, m]; supports: number of loads
+ * that constrain or drive particles. */
 struct load_figures {
     real stress, speed, least[DIM_MAX], most[DIM_MAX];
     int supports;
 };
 
-/* Returns the stress that a load which is a force makes at one place and time [Pa]: of a body force over the longest
- * edge of the box round all particles. */
+/* Returns the stress caused by an applied force at the k-th particle of its load and at time t [Pa]: the size of a
+ * traction or pressure, or that of a body force times the longest edge of the box round all particles. */
 static real load_stress_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t)
 {
     real value[DIM_MAX] = {0}, density = 0;
@@ -85,7 +87,7 @@ static real load_stress_at(const struct scene *s, const struct particles *p, con
     return (l->boundary->by_mass ? density : 1) * sqrt(dot(value, value, s->dim)) * particles_longest_edge(p);
 }
 
-/* Adds a load at one place and time to the figures. */
+/* Updates the largest values *f by the k-th particle of a load at time t [s]. */
 static void load_figures_at(const struct scene *s, const struct particles *p, const struct load *l, int64_t k, real t,
                             struct load_figures *f)
 {
@@ -98,7 +100,7 @@ static void load_figures_at(const struct scene *s, const struct particles *p, co
     for (int d = 0; d < s->dim; d++) f->least[d] = real_min(f->least[d], u[d]), f->most[d] = real_max(f->most[d], u[d]);
 }
 
-/* Adds a load to the figures, by moments between 0 and the duration and some of its particles. */
+/* Updates the largest values *f by a load, at sampled times between 0 and the duration and at some of its particles. */
 static void load_figures_add(const struct scene *s, const struct particles *p, const struct load *l,
                              struct load_figures *f)
 {
@@ -136,7 +138,7 @@ static real units_stress_at_start(const struct particles *p)
     return most;
 }
 
-/* Returns the least strength E s_c of what can break [Pa]; INFINITY: nothing. */
+/* Returns the smallest strength E s_c of the materials and interfaces that can break [Pa]; INFINITY if none can. */
 static real least_strength(const struct scene *s)
 {
     real least = INFINITY, young = INFINITY;
@@ -149,9 +151,9 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
-/* Warns where the largest stress of the run can't break anything, or is far beyond the strength: tractions, rho c v of
- * speeds and E u/L of displacements. Displacements of bodies in motion may follow the first break, and say nothing of
- * too large a stress. */
+/* Warns if the largest stress of the run cannot break any material, or is far above the strength. It is estimated from
+ * tractions, from rho c v of speeds and from E u/L of displacements. In a body in motion displacements may grow after
+ * the first bonds have broken, so they do not count as too large a stress. */
 static void units_of_loads(const struct scene *s, const struct particles *p, const struct loads *loads,
                            struct warnings *to)
 {
@@ -178,7 +180,7 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     units_judge(s, RULE_STRESS, "loads", stress / strength, note, to);
 }
 
-/* Warns of tractions and pressures beside the least Young's modulus. */
+/* Warns of tractions and pressures that are implausible relative to the smallest Young's modulus. */
 static void units_of_tractions(const struct scene *s, struct warnings *to)
 {
     char subject[NAME_MAX_LENGTH + 16], note[80];
@@ -196,7 +198,7 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
-/* Warns of too few or too many steps in time, and of waves that do not reach the next particle. */
+/* Warns of implausibly few or many time steps, and of waves that travel less than a spacing during the run. */
 static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
     char note[80];
@@ -209,7 +211,7 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, RULE_STEPS, "time", (real)clock->steps, note, to);
 }
 
-/* Does a crack meet the box low to high, spacings around it included? */
+/* Returns true if the bounding box of a crack overlaps the box low..high, extended by one spacing on every side. */
 static bool crack_meets_box(const struct crack *c, const real *low, const real *high, const struct scene *s)
 {
     bool meets = true;
@@ -221,7 +223,8 @@ static bool crack_meets_box(const struct crack *c, const real *low, const real *
     return meets;
 }
 
-/* Returns the number of particles along an axis between two places, with their images beyond planes of symmetry. */
+/* Returns the number of particles along an axis between the positions low and high [m], including their images beyond
+ * planes of symmetry. */
 static real particles_across(const struct scene *s, real low, real high, int axis)
 {
     real n = round((high - low) / s->spacing) + 1;
@@ -244,7 +247,7 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     units_judge(s, RULE_PARTICLES, subject, least, note, to);
 }
 
-/* Looks at the bodies, those joined counted as one, that a pre-crack meets. */
+/* Warns of bodies with a pre-crack that have few particles across (units_of_body). Joined bodies count as one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {

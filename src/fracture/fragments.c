@@ -6,12 +6,14 @@
 
 #include "base/memory.h"
 
+/* Returns the leader of particle i, the root of its union-find tree, and shortens the path to it. */
 static int32_t fragment_leader(int32_t *leader, int32_t i)
 {
     while (leader[i] != i) i = leader[i] = leader[leader[i]];
     return i;
 }
 
+/* Joins the trees of both particles of every intact bond; the particle with the lower index becomes the leader. */
 static void join_ends(int32_t *leader, const struct bonds *b, const struct particles *p)
 {
     for (int64_t k = 0; k < p->n_of[KIND_PD]; k++) {

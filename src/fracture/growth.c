@@ -27,7 +27,8 @@ void growth_free(struct growth *g)
 
 /* ---- target speed of a crack that follows its toughness ---------------------------------------------------------- */
 
-/* Does one step of the law of growth.h for the target speed, once for each set of factors. settling: T [s]. */
+/* Updates the target speed of the tip by one secant step of the crack-tip equation of motion (growth.h), for a new set
+ * of stress-intensity factors. settling: time T of the filter [s]. */
 static void target_speed_find(struct growth *g, const struct control *control, real settling)
 {
     const struct crack_medium *m = &control->medium;
@@ -42,7 +43,8 @@ static void target_speed_find(struct growth *g, const struct control *control, r
     if (wanted == 0 && g->target_speed < SLOWEST * m->rayleigh) g->target_speed = 0;
 }
 
-/* Updates the filtered and the target speed; to be called before g->speed of the last step is overwritten. */
+/* Updates the filtered speed by the speed of the last step dt [s], and the target speed if `control` has new
+ * stress-intensity factors (NULL: no factors, the target is 0). Must be called before g->speed is overwritten. */
 static void target_speed_update(struct growth *g, const struct control *control, real horizon, real t, real dt)
 {
     if (!growth_follows(g->rule)) return;
@@ -58,7 +60,8 @@ static void target_speed_update(struct growth *g, const struct control *control,
 
 /* ---- growth and direction ---------------------------------------------------------------------------------------- */
 
-/* Returns true if the crack grows in this step. */
+/* Returns true if the crack grows at time t: it has started and not reached its length, and a SIF-driven crack has a
+ * target speed or factors that reach the toughness. */
 static bool grows(const struct growth *g, real t)
 {
     const struct growth_rule *r = g->rule;
@@ -93,7 +96,8 @@ static void growth_advance(struct growth *g, real increment, real horizon)
 
 /* ---- bonds that the tip crosses ---------------------------------------------------------------------------------- */
 
-/* Returns true if the entry i-j of a row is fading already. */
+/* Returns true if the entry of bond i-j in the row of i is on the list of fading bonds, whose weights decrease as the
+ * crack grows. */
 static bool fades(const struct growth *g, int32_t i, int32_t j)
 {
     for (int64_t k = g->n - 1; k >= 0; k--)
@@ -101,14 +105,15 @@ static bool fades(const struct growth *g, int32_t i, int32_t j)
     return false;
 }
 
-/* Appends entry i-j with weight w to the fading ones. length: present length of the crack [m]. */
+/* Appends the entry of bond i-j, with weight w, to the list of fading bonds. length: present length of the crack
+ * [m]. */
 static void fading_add(struct growth *g, int32_t i, int32_t j, real w, real length)
 {
     GROW("growth.fading", g->fading, g->n + 1);
     g->fading[g->n++] = (struct fading){i, j, w, w, w, length};
 }
 
-/* Adds the entries of the row of particle i that a path of the tip crosses to the fading ones. */
+/* Appends the intact bonds in the row of particle i that cross the path of the tip to the list of fading bonds. */
 static void cross_row(struct growth *g, const struct bonds *b, const struct particles *p, const struct crack *path,
                       int32_t i)
 {
@@ -133,7 +138,8 @@ static int near_path(const real from[2], const real to[2], struct particles *p, 
     return cells_find_near(s->cells, p, X, radius, -1, *found, room);
 }
 
-/* Marks material points near the tip for conversion, since cracks need bonds. Returns their number. */
+/* Marks the material points within the cutoff of the tip for conversion, since cracks grow through bonds only. Returns
+ * their number. */
 static int claim(const struct growth *g, struct particles *p, const struct bond_source *s)
 {
     int32_t *found;
@@ -148,7 +154,8 @@ static int claim(const struct growth *g, struct particles *p, const struct bond_
     return claimed;
 }
 
-/* Adds all entries crossed by the path of the tip from `from` to its present position to the fading ones. */
+/* Appends the bonds that the path of the tip, from `from` to its present position, crosses to the list of fading bonds,
+ * in both directions and with images in mirrors. */
 static void cross(struct growth *g, const struct bonds *b, struct particles *p, const struct bond_source *s,
                   const real from[2])
 {
@@ -178,7 +185,8 @@ static int64_t growth_entry_of(struct bonds *b, int32_t i, int32_t j, int64_t *r
     return -1;
 }
 
-/* Restores the weights of the previous step; bonds broken by load since then leave the list. */
+/* Sets the weights of the fading bonds to those of the previous step. Removes bonds from the list that have been broken
+ * by load since then. */
 static void step_back(struct growth *g, struct bonds *b)
 {
     int64_t kept = 0, row;
@@ -193,10 +201,10 @@ static void step_back(struct growth *g, struct bonds *b)
     g->n = kept;
 }
 
-/* Reduces the weights of the fading entries. Half the energy of the weights lost in the previous step and half of that
- * lost in this step are booked at the present positions (bond_fade). Rows change one after the other from the weights
- * of the previous step to those of the next step, so that their losses sum to the whole. Returns directed bonds
- * released. */
+/* Reduces the weights of the fading bonds by the growth of the crack. bond_fade books the energy lost: half of that of
+ * the previous step and half of that of this step, both at the present positions. Rows change one after the other from
+ * the weights of the previous step to those of the next, so that their losses sum to the whole. Returns the number of
+ * directed bonds whose weight becomes 0. */
 static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, const struct family *f)
 {
     const struct growth_rule *r = g->rule;
@@ -220,6 +228,9 @@ static int64_t fade(struct growth *g, struct bonds *b, struct particles *p, cons
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
+/* Advances a growing crack by one time step dt at time t [s]: moves the tip by its speed times dt, adds the bonds that
+ * the tip crosses to the list of fading bonds, and reduces the weights of all bonds in this list. control: present
+ * stress-intensity factors, NULL if not known. */
 int64_t growth_extend_crack(struct growth *g, struct bonds *b, struct particles *p, const struct bond_source *source,
                             const struct control *control, real t, real dt)
 {

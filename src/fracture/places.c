@@ -8,7 +8,8 @@
 #define EQUAL_POSITION 1e-6      /* tolerance of equal coordinates [reach] */
 enum { POSITIONS_MOST = 16384 }; /* limit of the number of positions: all pairs are compared */
 
-/* Returns true if two positions are within reach of each other, perpendicular to a direction. */
+/* Returns true if the distance of two positions, measured perpendicular to the vector `along`, is at most `reach`
+ * [m]. */
 static bool places_near(const struct place *a, const struct place *b, int dim, real reach, const real *along)
 {
     real apart[DIM_MAX];
@@ -27,7 +28,8 @@ static bool comes_after(const struct place *a, const struct place *b, int dim, r
     return false;
 }
 
-/* Numbers the groups of n positions from 0 on. Returns the number of groups. */
+/* Assigns n positions to groups of positions that places_near connects, directly or through others. group [n]: receives
+ * the number of the group, from 0 on. Returns the number of groups. */
 static int64_t groups_number(const struct place *place, int64_t n, int dim, real reach, const real *along,
                              int32_t *group)
 {
@@ -48,7 +50,8 @@ static int64_t groups_number(const struct place *place, int64_t n, int dim, real
     return groups;
 }
 
-/* Computes the mean of the counting positions of a group, or the nearest of them. */
+/* Computes the mean of the positions of group number `which`, without those marked `beside`. If the mean is farther
+ * than `reach` from all of them, as in a ring, returns the position nearest to it instead. */
 static void group_middle(const struct place *place, const int32_t *group, int64_t n, int32_t which, int dim, real reach,
                          real *middle)
 {

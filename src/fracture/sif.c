@@ -29,8 +29,8 @@ void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, 
 
 /* ---- one point --------------------------------------------------------------------------------------------------- */
 
-/* Returns the integrand of the first sum of sif.h per area, for a unit slope of q in the direction n: flux through the
- * ring [Pa]. */
+/* Returns the integrand of the interaction integral with the gradient of the weight q, per area and for a unit gradient
+ * along n [Pa]: the energy flux of the actual motion a and the auxiliary motion b. */
 static real ring_density(const struct crack_state *a, const struct crack_state *b, real density, const real n[2])
 {
     real flux = 0, energy = 0;
@@ -44,7 +44,8 @@ static real ring_density(const struct crack_state *a, const struct crack_state *
     return flux - n[0] * energy;
 }
 
-/* Returns the integrand of the second sum of sif.h per area and unit weight q [Pa/m]. */
+/* Returns the inertial integrand of the interaction integral, per area and for q = 1, from the actual motion a and the
+ * auxiliary motion b [Pa/m]. */
 static real disc_density(const struct crack_state *a, const struct crack_state *b, real density)
 {
     real sum = 0;
@@ -68,7 +69,7 @@ real sif_integrand(const struct sif_tip *tip, const struct contour *c, const rea
 
 /* ---- particles round the tip ------------------------------------------------------------------------------------- */
 
-/* State of a particle in the local frame. */
+/* Position relative to the tip [m], area [m^2], and fields of a particle, all in the axes of the crack. */
 struct sif_point {
     real x[2], area;
     struct crack_state state;
@@ -106,8 +107,8 @@ static void local_place(const struct sif_tip *tip, const struct particles *p, in
     local_vector(tip, (real[2]){p->X[0][i] - tip->place[0], p->X[1][i] - tip->place[1]}, x);
 }
 
-/* Finds the particles of the body within the largest contour; in equilibrium particles within the smallest inner circle
- * do not contribute and are left out. */
+/* Lists the particles of the body within the largest of n contours. In equilibrium particles within the smallest inner
+ * circle do not contribute and are left out. */
 static void points_find(struct sif_points *s, const struct contour *contour, int n, const struct particles *p)
 {
     real least = INFINITY, most = 0, x[2];
@@ -122,6 +123,8 @@ static void points_find(struct sif_points *s, const struct contour *contour, int
     s->point = memory_new("sif.point", s->n, sizeof *s->point);
 }
 
+/* Sets the stress of particle i, in the axes of the crack: by Hooke's law from the displacement gradient, or as
+ * stored. */
 static void sif_point_stress(const struct sif_tip *tip, const struct sif_motion *m, int64_t i,
                              struct crack_state *state)
 {
@@ -163,6 +166,7 @@ static void point_make(struct sif_points *s, int64_t k, const struct sif_motion 
     for (int d = 0; d < 2; d++) point->state.acceleration[d] += moved[d];
 }
 
+/* Computes the gradients and fields of all particles round the tip. */
 static void points_make(struct sif_points *s, const struct sif_motion *m, const struct gradient_rule *rule,
                         const struct particles *p, const struct cells *c)
 {
@@ -178,9 +182,9 @@ static void points_make(struct sif_points *s, const struct sif_motion *m, const 
     }
 }
 
-/* Returns the share of the second sum that counts at distance r from the tip [1]. It increases gradually: with a sharp
- * edge particles would enter and leave the sum as the tip passes, and the factors would oscillate with the period of a
- * spacing. */
+/* Returns the weight of the inertial part of the interaction integral at distance r from the tip [1]. It increases
+ * gradually from 0 to 1: with a sharp edge particles would enter and leave the sum as the tip passes, and the factors
+ * would oscillate with the period of a spacing. */
 static real core_share(const struct sif_tip *tip, real r)
 {
     const struct contour edge = {tip->core / 3, tip->core * 5 / 3};
@@ -190,7 +194,8 @@ static real core_share(const struct sif_tip *tip, real r)
     return 1 - q;
 }
 
-/* Adds the sums of both modes and of the actual motion with itself over points first .. end - 1. */
+/* Adds the interaction integrals over particles first .. end - 1 to sum: with the auxiliary fields of both modes, then
+ * that of the actual motion with itself. */
 static void points_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct sif_points *s = context;
@@ -231,6 +236,8 @@ void sif_integrate(const struct sif_tip *tip, const struct contour *contour, int
 
 /* ---- path independence ------------------------------------------------------------------------------------------- */
 
+/* Returns the largest relative difference between the results of n contours [1]: of K_I or K_II over |K|, or of J over
+ * J, with means over the contours in the denominators; NAN if one of them is 0. found: n results of sif_integrate. */
 real sif_contour_spread(const struct sif *found, int n)
 {
     real low[MODES + 1], high[MODES + 1], mean[MODES + 1] = {0}, range[MODES + 1];

@@ -186,6 +186,8 @@ real crack_sif_after_wave(const struct crack_medium *m, real stress, real age)
 
 /* ---- direction of growth ----------------------------------------------------------------------------------------- */
 
+/* Returns the angle between a crack and the direction of the largest circumferential stress ahead of its tip [rad]
+ * (Erdogan & Sih 1963), by a formula that stays accurate as K_II -> 0. */
 real crack_kink_angle(const real K[MODES])
 {
     return 2 * atan2(-2 * K[MODE_II], K[MODE_I] + sqrt(square(K[MODE_I]) + 8 * square(K[MODE_II])));

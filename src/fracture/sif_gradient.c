@@ -29,6 +29,8 @@ static real sif_gradient_between(const real *a, const real *b) { return hypot(a[
 
 /* Returns the distance from particle i at which neighbour j counts [m]: round the tip if a crack is between them;
  * INFINITY: j does not count. */
+/* Returns the distance of particles i and j [m]. If a crack or a broken bond is between them, the distance is increased
+ * by the path round the tip (rule->diffraction), or INFINITY. */
 static real distance_round_cracks(const struct gradient_rule *rule, const struct particles *p, int64_t i, int32_t j)
 {
     real from[DIM_MAX] = {0}, to[DIM_MAX] = {0};
@@ -84,8 +86,9 @@ static void basis(const struct particles *p, int64_t i, int32_t j, real scale, r
     b[0] = 1, b[1] = x, b[2] = y, b[3] = x * x, b[4] = x * y, b[5] = y * y;
 }
 
-/* Computes A = P^T W P (Belytschko et al. 1994, with the factors in the order that conforms) and the linear
- * coefficients of A^-1 P^T W as weights. weight[k][0] contains W on entry. Returns false if A is singular. */
+/* Computes the moment matrix A = P^T W P of moving least squares (Belytschko et al. 1994; their order of the factors
+ * does not conform) and replaces the weights W in weight[k][0] by the linear coefficients of A^-1 P^T W in weight[k].
+ * Returns false if A is singular. */
 static bool least_squares(struct gradient_stencil *s, const struct particles *p, int64_t i, real scale, int terms)
 {
     real A[QUADRATIC][QUADRATIC] = {{0}}, b[QUADRATIC], y[2][QUADRATIC] = {{0, 1}, {0, 0, 1}};
@@ -154,6 +157,7 @@ static void stencil_pddo(struct gradient_stencil *s, const struct gradient_rule 
 
 /* ---- public functions -------------------------------------------------------------------------------------------- */
 
+/* Ensures room for `room` neighbours in a stencil, whose contents may be lost. */
 static void stencil_room(struct gradient_stencil *s, int room)
 {
     if (room <= s->room) return;

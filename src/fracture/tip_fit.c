@@ -12,7 +12,8 @@ enum { TERMS = 9, UNKNOWNS = MODES * TERMS + 2 };
 #define ON_FACE 0.03
 #define SINGULAR 1e-12 /* least pivot over the diagonal entry */
 
-/* Computes the displacements of a unit coefficient of term n at (r/outer, theta) in the frame, times 2 G [1]. */
+/* Computes the displacements of term n of the Williams series with a unit coefficient, for both modes, times 2 G [1],
+ * at the distance r from the tip over the outer radius and at the angle theta from the crack. */
 static void fit_term(real kappa, int n, real r, real theta, real mode_1[2], real mode_2[2])
 {
     const real half = 0.5 * n, s = n % 2 ? -1 : 1, q = pow(r, half);
@@ -29,6 +30,7 @@ struct fit {
     int particles;
 };
 
+/* Adds an equation, row . coefficients = value, to the normal equations. */
 static void fit_add(struct fit *f, const real *row, real value)
 {
     for (int m = 0; m < UNKNOWNS; m++) {
@@ -37,8 +39,8 @@ static void fit_add(struct fit *f, const real *row, real value)
     }
 }
 
-/* Returns true for a particle of the row of the lattice along which the crack runs: its face would depend on
- * round-off. */
+/* Returns true for a particle at X relative to the tip that is on the line of the crack behind the tip: round-off would
+ * decide on which side of the crack it is. */
 static bool on_face(const struct tip_view *v, const real X[2])
 {
     return dot(v->last, X, 2) < 0 && fabs(v->last[0] * X[1] - v->last[1] * X[0]) < ON_FACE * v->inner;
@@ -82,6 +84,7 @@ static bool fit_solve(struct fit *f)
     return true;
 }
 
+/* Returns true if no crack is between the tip, moved slightly ahead, and X. */
 static bool seen(const struct tip_view *v, const real *X)
 {
     real eye[DIM_MAX] = {0};

@@ -19,7 +19,7 @@ void tips_free(struct tips *t)
 
 /* ---- particles of each crack ------------------------------------------------------------------------------------- */
 
-/* Assignment of newly damaged particles to cracks in a sample. */
+/* State of one sample, in which newly damaged particles are assigned to cracks from neighbour to neighbour. */
 struct flood {
     struct tips *t;
     struct tip_search search;
@@ -30,6 +30,7 @@ struct flood {
     bool grown_by[TIPS_MAX]; /* another crack has become a part of the crack in this sample */
 };
 
+/* Returns true if particle i is damaged, not driven and not yet assigned to a crack. */
 static bool can_belong(const struct tips *t, const struct particles *p, int64_t i)
 {
     return t->label[i] == 0 && p->damage[i] > TIP_DAMAGE && !(p->flag[i] & FLAG_DRIVEN);
@@ -42,7 +43,8 @@ static uint64_t damage_bits(const struct particles *p, int64_t i)
     return bits;
 }
 
-/* Returns true if one of n listed particles has lost a bond. The test is on bits, not on numbers. */
+/* Returns true if one of n listed particles has lost a bond. Combines the bits of the damages instead of comparing
+ * numbers, which is faster. */
 static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
 {
     uint64_t any = 0;
@@ -53,8 +55,8 @@ static bool any_damage(const struct particles *p, const int32_t *at, int64_t n)
     return any != 0;
 }
 
-/* Returns the start of the next piece of the list from `first` on that contains a damaged particle, or the end of the
- * list. */
+/* Returns the start of the first piece (of up to TIP_PIECE entries) of the list of peridynamic particles, from entry
+ * `first` on, that contains a particle with damage above TIP_DAMAGE, or the end of the list. */
 static int64_t next_damaged(const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -68,20 +70,22 @@ static int64_t next_damaged(const struct particles *p, int64_t first)
     return p->n_of[KIND_PD];
 }
 
+/* Assigns particle i to a crack and appends it to the queue. */
 static void flood_label(struct flood *f, int32_t i, int tip)
 {
     f->t->label[i] = (uint8_t)(tip + 1);
     f->queue[f->queued++] = i;
 }
 
+/* Returns the crack of which `tip` has become a part, `tip` itself if of none. */
 static int tips_root_of(const struct flood *f, int tip)
 {
     while (f->into[tip] != tip) tip = f->into[tip];
     return tip;
 }
 
-/* Joins two cracks that touch. Cracks from ends of pre-cracks stay separate; another crack becomes part of the crack
- * that it touches. */
+/* Joins cracks a and b, which touch. A crack that starts at the end of a pre-crack stays separate from others of this
+ * sort; any other crack becomes part of the one that it touches. */
 static void flood_join(struct flood *f, int a, int b)
 {
     a = tips_root_of(f, a), b = tips_root_of(f, b);
@@ -158,7 +162,9 @@ static int tip_nearest(const struct tips *t, const struct particles *p, int64_t 
     return nearest;
 }
 
-/* Starts a crack at the most damaged new particle that belongs to none. Returns false if there is no such particle. */
+/* Starts a new crack at the most damaged of the new particles without a crack and assigns the damaged particles
+ * connected with it. If no more tips fit, adds them to the crack with the nearest tip. Returns false if all have a
+ * crack. */
 static bool flood_nucleate(struct flood *f)
 {
     const struct particles *p = f->search.p;
@@ -183,7 +189,7 @@ static bool flood_nucleate(struct flood *f)
     return true;
 }
 
-/* Removes the cracks that became part of others from the list and from the record. */
+/* Removes the cracks that became part of others from the list and from the record, and renumbers the remaining ones. */
 static void flood_close_ranks(struct flood *f)
 {
     struct tips *t = f->t;
@@ -248,7 +254,8 @@ static void flood_all(struct flood *f)
 
 /* ---- length and speed -------------------------------------------------------------------------------------------- */
 
-/* Updates position, growth and times of a tip. took_in: another crack has become part of its crack. */
+/* Updates position, growth and times of a tip from the extent r of its crack. took_in: another crack has become part of
+ * its crack, so that a jump in growth counts as joined. */
 static void tip_move(struct tip *tip, const struct tip_reach *r, const struct tips *t, real time, bool took_in)
 {
     real gain = r->farthest - tip->growth;
@@ -295,7 +302,8 @@ real tips_speed(const struct tips *t, int k)
     return regression(t, k, first < last ? first : last - 1, last);
 }
 
-/* Updates the largest and mean speed of tip k. Earlier samples have covered all windows but the last. */
+/* Updates the largest speed of tip k, over the window that ends at the last sample, and its mean speed since its
+ * start. */
 static void tip_speeds(struct tips *t, int k)
 {
     struct tip *tip = &t->tip[k];
@@ -339,6 +347,8 @@ void tips_update(struct tips *t, const struct particles *p, const struct cells *
 
 /* ---- queries ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the angle between the direction of the pre-crack and the straight line from the start of the crack to its
+ * tip, 0 to 180 [degree], or NAN if the crack has not grown. */
 real tip_angle(const struct tip *tip, int dim)
 {
     if (!(tip->growth > 0)) return NAN;
@@ -352,8 +362,8 @@ real tip_angle(const struct tip *tip, int dim)
     return acos(real_max(-1, real_min(1, dot(chord, tip->along, dim) / length))) * (180 / M_PI);
 }
 
-/* The first of equally long tips is returned, so that round-off does not choose between the halves of a symmetric
- * crack. */
+/* Returns the tip with the largest growth, or NULL if no crack has grown. Of equally long ones the first is returned,
+ * so that round-off does not choose between the halves of a symmetric crack. */
 const struct tip *tips_longest(const struct tips *t)
 {
     const struct tip *longest = NULL;

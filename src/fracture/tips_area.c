@@ -17,7 +17,8 @@ static int64_t strips_of(const struct tips *t, const struct tip *tip)
     return (int64_t)real_max(1, floor(front_width(tip, t->dim) / t->spacing + 0.5));
 }
 
-/* Returns the strip that contains X, or the nearest strip beside the front. */
+/* Returns the number of the strip, along the front of a pre-crack, that contains X; beside the front that of the
+ * nearest strip. */
 static int64_t strip_at(const struct tips *t, const struct tip *tip, const real *X)
 {
     const real edge2 = dot(tip->edge, tip->edge, t->dim);
@@ -28,12 +29,14 @@ static int64_t strip_at(const struct tips *t, const struct tip *tip, const real 
     return at > 0 ? (int64_t)real_min(at, (real)(n - 1)) : 0;
 }
 
-/* A damaged particle: nearest front of a pre-crack, -1: none; distance ahead of it [spacings]. */
+/* Position of a damaged particle relative to the nearest front of a pre-crack: number of the tip with this front, or -1
+ * if the particle is not ahead of it, and distance from the front [cells of one spacing]. */
 struct ahead {
     int tip;
     int64_t cell;
 };
 
+/* Finds the nearest front of a pre-crack in a body, and the distance of X ahead of it. */
 static struct ahead ahead_of(const struct tips *t, int body, const real *X)
 {
     struct ahead found = {-1, 0};
@@ -51,8 +54,9 @@ static struct ahead ahead_of(const struct tips *t, int body, const real *X)
     return found;
 }
 
-/* Marks the cells of strips with particles of more damage than `least`. deepest: number of cells of a strip; cell:
- * NULL, the largest distance ahead is only determined, and returned [cells]. */
+/* Marks the cells of strips that contain a particle with more damage than `least`. A strip has `deepest` cells ahead of
+ * the front; the strips of tip k start at first[k]. cell: marks, or NULL: none are set. Returns the largest distance
+ * ahead of a front [cells]. */
 static int64_t strips_mark(const struct tips *t, const struct particles *p, real least, const int64_t *first,
                            int64_t deepest, uint8_t *cell)
 {

@@ -7,8 +7,8 @@
 
 static bool is_of_crack(uint8_t label) { return label != 0 && label != TIP_BEFORE; }
 
-/* Returns the start of the next piece of the list from `first` on that contains a particle of a crack, or the end of
- * the list. */
+/* Returns the start of the first piece (of up to TIP_PIECE entries) of the list of peridynamic particles, from entry
+ * `first` on, that contains a particle of a crack, or the end of the list. */
 static int64_t next_of_crack(const struct tips *t, const struct particles *p, int64_t first)
 {
     for (; first < p->n_of[KIND_PD]; first += TIP_PIECE) {
@@ -24,7 +24,8 @@ static int64_t next_of_crack(const struct tips *t, const struct particles *p, in
     return p->n_of[KIND_PD];
 }
 
-/* Returns the distance of particle i from the start of its crack [m], -1 beside the end of the pre-crack itself. */
+/* Returns the distance of particle i from the start of its crack [m], or -1 for a particle beside the end of the
+ * pre-crack, behind the start. */
 static real tips_reach_of(const struct tips *t, const struct particles *p, int64_t i)
 {
     const struct tip *tip = &t->tip[t->label[i] - 1];
@@ -35,7 +36,7 @@ static real tips_reach_of(const struct tips *t, const struct particles *p, int64
     return behind && distance <= (TIP_START_REACH + TIP_EQUAL) * t->spacing ? -1 : distance;
 }
 
-/* Particles within a spacing of the farthest particles of each crack [TIPS_MAX]. */
+/* For each crack [TIPS_MAX]: its extent, and the particles within a spacing of the largest distance from its start. */
 struct ahead {
     const struct tips *t;
     const struct particles *p;
@@ -46,7 +47,7 @@ struct ahead {
 
 typedef void of_crack_fn(struct ahead *a, int32_t i, int tip);
 
-/* Calls `visit` for every particle of a crack, in the order of the list. */
+/* Calls visit(a, particle, tip) for every particle that belongs to a crack, in the order of the list. */
 static void each_of_crack(struct ahead *a, of_crack_fn *visit)
 {
     const int32_t *list = a->p->list[KIND_PD];
@@ -56,6 +57,7 @@ static void each_of_crack(struct ahead *a, of_crack_fn *visit)
             if (is_of_crack(a->t->label[list[k]])) visit(a, list[k], a->t->label[list[k]] - 1);
 }
 
+/* Updates number of particles and largest distance from the start of crack `tip` by particle i. */
 static void extent_find(struct ahead *a, int32_t i, int tip)
 {
     struct tip_reach *r = &a->reach[tip];
@@ -63,6 +65,7 @@ static void extent_find(struct ahead *a, int32_t i, int tip)
     r->farthest = real_max(r->farthest, tips_reach_of(a->t, a->p, i));
 }
 
+/* Counts particle i of crack `tip`, or stores its position, if it is within a spacing of the farthest one. */
 static void farthest_collect(struct ahead *a, int32_t i, int tip)
 {
     const real farthest = a->reach[tip].farthest, equal = TIP_EQUAL * a->t->spacing;

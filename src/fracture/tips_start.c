@@ -9,6 +9,7 @@
 
 /* ---- search ------------------------------------------------------------------------------------------------------ */
 
+/* Finds the particles, mirror images included, within `radius` [m] of the position X [m]. */
 int tip_search_near(struct tip_search *s, const real *X, real radius)
 {
     radius = real_min(radius, s->c->edge);
@@ -22,6 +23,8 @@ int tip_search_near(struct tip_search *s, const real *X, real radius)
 
 /* ---- starts: the ends of pre-cracks ------------------------------------------------------------------------------ */
 
+/* Computes the vector from the nearest point of a segment to the point X [m]. centre: middle of the segment [m]; half:
+ * vector from the middle to one end [m]; offset: receives dim components [m]. */
 real tip_offset(const real *centre, const real *half, const real *X, int dim, real *offset)
 {
     real half2 = dot(half, half, dim), along = 0;

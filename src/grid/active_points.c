@@ -5,9 +5,10 @@
 
 #include "base/memory.h"
 
-/* Returns true if a load may move a particle at rest, as planes of symmetry do not. */
+/* Returns true if the load may move a particle at rest; planes of symmetry never do. */
 static bool moves(const struct loads *l, int load) { return l->load[load].boundary->kind != BOUNDARY_MIRROR; }
 
+/* Returns true if nothing moves or loads material point i: no load, bond, velocity, force or stress. */
 static bool active_points_is_inactive(const struct loads *l, const struct particles *p, const struct bonds *b,
                                       int32_t i, bool has_gradient)
 {
@@ -46,16 +47,17 @@ static void widen(const struct grid *g, const uint8_t *from, uint8_t *to, int ax
     }
 }
 
-/* Returns the number of cells over which motion spreads in a step. Cells are connected through a shared node: to the
- * next cell, or to the third if shapes reach beyond a cell; FLIP maps twice. Planes of symmetry connect nodes on both
- * sides. */
+/* Returns the number of cells by which motion can spread in the time between two searches: one cell per step through
+ * shared nodes, three if shapes reach beyond a cell, twice as many with FLIP, which maps twice, and two more if planes
+ * of symmetry connect nodes on both sides. */
 static int64_t active_points_reach_of(const struct grid *g, enum shape shape, enum transfer transfer)
 {
     const int shared = shape == SHAPE_LINEAR ? 1 : 3;
     return ACTIVE_POINTS_STEPS * ((transfer == TRANSFER_FLIP ? 2 : 1) * shared + (g->mirror_nodes > 0 ? 2 : 0));
 }
 
-/* Marks the active cells in r->active_cell. Cells outside the order `now` are still at rest. */
+/* Marks in r->active_cell the cells with a point that moves or is loaded, and those of nodes that a wall moves. now:
+ * the cells to be examined; all others are still at rest. */
 static void active_points_mark(struct active_points *r, const struct transfer_order *now, const struct particles *p,
                                const struct grid *g, const struct bonds *b, const struct loads *l, bool has_gradient)
 {
@@ -71,6 +73,7 @@ static void active_points_mark(struct active_points *r, const struct transfer_or
         if (moves(l, g->wall[k].load)) r->active_cell[g->wall[k].node] = 1;
 }
 
+/* Reallocates the marks of cells if the grid has more nodes than before; all are then 0. */
 static void make_room(struct active_points *r, const struct grid *g)
 {
     if (r->nodes >= g->n) return;
@@ -79,7 +82,7 @@ static void make_room(struct active_points *r, const struct grid *g)
     r->active_cell = NEW("active_set.active_cell", g->n, uint8_t), r->near = NEW("active_set.near", g->n, uint8_t);
 }
 
-/* Makes r->order from the marked cells of `all`, in the same order. */
+/* Makes the list of active cells and their points (r->active) from the marked cells of the list `all`, in its order. */
 static void active_points_take(struct active_points *r, const struct transfer_order *all, const struct particles *p,
                                const struct grid *g)
 {

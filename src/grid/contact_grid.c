@@ -18,7 +18,8 @@
 
 /* ---- nodes shared by two bodies ---------------------------------------------------------------------------------- */
 
-/* Range of nodes that two grids share, counted from the anchor. */
+/* Box of nodes that two grids share: first node and numbers of nodes along the axes, relative to the anchor of both
+ * grids; n: total number. */
 struct shared {
     int64_t first[DIM_MAX], count[DIM_MAX], n;
 };
@@ -153,6 +154,7 @@ static void points_reach(struct grid_contact *c, const struct shared *s, const s
 
 /* ---- the list of a step ------------------------------------------------------------------------------------------ */
 
+/* Allocates the sums of the energy dissipated by contact, for each pair of `sides` bodies. */
 void grid_contact_make(struct grid_contact *c, int sides)
 {
     memory_free(c->dissipated);
@@ -193,15 +195,16 @@ void grid_contact_find_nodes(struct grid_contact *c, const struct grid_side *sid
 
 /* ---- exchange ---------------------------------------------------------------------------------------------------- */
 
-/* Share of the parting speed before the step that an impulse leaves as approach [1]. Points in FLIP receive less than
- * the nodes: the work of an impulse is over the mean of the velocities before and after the step, the latter smoothed
- * by the map. If a node parts before the step, an impulse that just stops the approach would add energy. The value is
- * empirical: discs and blocks dissipate with it. Where contact of two bodies has nevertheless added energy, impulses
- * act only on nodes that approach already before the step, which always dissipates. */
+/* If the sides separated before the step, the impulse of contact leaves them approaching at this share of their speed
+ * of separation [1]. Points in FLIP receive less than the nodes: the work of an impulse is over the mean of the
+ * velocities before and after the step, the latter smoothed by the map, so that an impulse that just stops the approach
+ * would add energy. Empirical: discs and blocks dissipate with it. Where contact of two bodies has nevertheless added
+ * energy, impulses act only on nodes that approach already before the step, which always dissipates. */
 #define PARTING_SHARE 1.6
 
-/* Returns the speed along the unit vector `along` that an impulse may remove, from the relative velocities before and
- * after the forces of the step [m/s]. strict: 0 unless the sides approach before the step. */
+/* Returns the speed of approach along the unit vector `along` that the impulse of contact removes [m/s]. before, now:
+ * relative velocity before and after the forces of the step [m/s]; strict: returns 0 unless the sides approach before
+ * the step. */
 static real speed_taken(const real *before, const real *now, const real *along, bool strict, int dim)
 {
     const real parting = dot(before, along, dim);
@@ -209,8 +212,9 @@ static real speed_taken(const real *before, const real *now, const real *along, 
     return real_max(0, dot(now, along, dim) + PARTING_SHARE * real_min(0, parting));
 }
 
-/* Computes the impulse per reduced mass [dim, m/s] that removes approach and, up to friction, sliding. Returns false if
- * the sides part or do not touch. */
+/* Computes the impulse over the reduced mass, taken [dim, m/s], that stops the approach of both sides at a node and, up
+ * to friction, their sliding. before, now: relative velocity before and after the forces of the step [m/s]. Returns
+ * false if the sides separate or do not touch. */
 static bool exchange_of(const struct grid_contact *c, const struct grid_contact_node *node, const real *before,
                         const real *now, int dim, real *taken)
 {
@@ -230,15 +234,15 @@ static bool exchange_of(const struct grid_contact *c, const struct grid_contact_
     return true;
 }
 
-/* Marks the nodes held by walls with `mark`. */
+/* Sets grid.held to `mark` for the nodes that walls constrain. */
 static void walls_mark(const struct grid_side *side, int sides, uint8_t mark)
 {
     for (int k = 0; k < sides; k++)
         for (int64_t q = 0; q < side[k].grid->walls; q++) side[k].grid->held[side[k].grid->wall[q].node] = mark;
 }
 
-/* Returns the inertia of node I against an impulse along the normal [kg], infinite if walls hold the node; replaces its
- * velocities in directions held by walls by those of the walls. */
+/* Returns the mass of node I, or INFINITY if walls constrain it mainly along `normal` [kg]. Replaces its velocities
+ * before and after the forces of the step, in components that walls prescribe, by those of the walls. */
 static real mass_against(const struct grid *g, int64_t I, const real *normal, real *before, real *now)
 {
     real held2 = 0;

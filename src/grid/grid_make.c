@@ -15,8 +15,8 @@ static real node_coordinate(const struct scene *s, int axis, real corner)
     return corner;
 }
 
-/* Returns the anchor, shifted by at most half a spacing to be midway between particles of a lattice with a particle at
- * `site` [m]. */
+/* Returns the coordinate of a node, `anchor`, shifted by at most half a spacing to the middle between two particles of
+ * the lattice that has a particle at `site` [m]. */
 static real between_particles(real anchor, real site, real spacing)
 {
     const real steps = (site - anchor) / spacing - 0.5;
@@ -38,7 +38,8 @@ int unjoined_body_index(const struct scene *s, int k)
     return -1;
 }
 
-/* Allocates a grid for each body if material points of several bodies may be in contact, else one. */
+/* Allocates one grid for each body (joined bodies count as one) if material points of several bodies may be in contact,
+ * else a single grid. */
 static void make_fields(const struct scene *s, struct grid_method *grid)
 {
     const bool meet = !scene_at_rest(s) && s->method != METHOD_PD && s->contact_between != CONTACT_NONE &&
@@ -48,7 +49,7 @@ static void make_fields(const struct scene *s, struct grid_method *grid)
     grid->field = NEW("engine.fields", grid->fields, struct grid_field);
 }
 
-/* Returns how far shapes reach beyond the neighbours of their cell [m]. */
+/* Returns by how much the shape function of a point extends beyond the nodes of its cell [m]. */
 static real shape_reach(const struct scene *s)
 {
     const real cell = s->cell * s->spacing;
@@ -58,7 +59,9 @@ static real shape_reach(const struct scene *s)
                                          : 0.5 * s->spacing;
 }
 
-/* The lower corner of the body is that of the first shape, or of the particles of a list. */
+/* Sets up the grids of the current frame: position of the nodes, smallest masses, contact between grids. meshed: bodies
+ * have meshes of the reference frame. Nodes start at the lower corner of the first shape, or of the particles of a
+ * list. */
 void grid_part_make(struct grid_method *mpm, const struct scene *s, const struct particles *p, bool meshed)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];

@@ -19,7 +19,7 @@ static void bounds_widen(const struct particles *p, const int32_t *list, int64_t
     }
 }
 
-/* Lists the points of the body of a field. */
+/* Lists the material points of the body to which the grid of a field belongs. */
 static void field_list(struct grid_field *f, const struct particles *p)
 {
     if (!f->list) f->list = NEW("engine.field", p->n, int32_t);
@@ -28,8 +28,8 @@ static void field_list(struct grid_field *f, const struct particles *p)
         if (p->body[p->list_free[k]] + 1 == f->grid.body) f->list[f->n++] = p->list_free[k];
 }
 
-/* Extends the grid of a field over its particles and sorts its material points by cells. Sets *lost if positions are
- * not finite. */
+/* Extends the grid of a field over its particles and sorts its material points by cells. Sets *lost, without an error,
+ * if positions are not finite. Fails if the grid would need too many nodes. */
 static status field_sort(struct grid_field *f, const struct particles *p, enum coupling coupling, bool *lost)
 {
     real from[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, to[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
@@ -53,7 +53,7 @@ static status field_sort(struct grid_field *f, const struct particles *p, enum c
     return OK;
 }
 
-/* Sorts the points of all fields; does nothing while no particle has left its cell. */
+/* Sorts the points of all grids into cells (field_sort); does nothing while no particle has left its cell. */
 static status points_sort(struct grid_method *mpm, const struct particles *p, enum coupling coupling, bool *lost)
 {
     if (!mpm->sort_needed) return OK;
@@ -89,7 +89,8 @@ status grid_sort_points(struct run *e, bool *lost)
     return OK;
 }
 
-/* Returns the transfer of the grid-coupled peridynamic particles (coupling pm .. pgg). */
+/* Returns the parameters of transfers between the grid-coupled peridynamic particles and the grid (coupling pm ..
+ * pgg). */
 static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
 {
     struct transfer_data grid_coupled = mpm->transfer;
@@ -97,7 +98,7 @@ static struct transfer_data grid_coupled_data(const struct grid_method *mpm)
     return grid_coupled;
 }
 
-/* Returns the transfer of the points of field k. */
+/* Returns the parameters of transfers between the points of field k and their grid. */
 static struct transfer_data field_data(const struct grid_method *mpm, int k)
 {
     struct transfer_data own = mpm->transfer;
@@ -202,7 +203,9 @@ void grid_step(struct run *e, real middle)
     e->grid->sort_needed = moved > 0;
 }
 
-/* The power is the sum of P . f/m over the nodes before they move, f being the change by forces, contact and walls. */
+/* Returns the power of the forces on the grids at the start of a step [W]: the sum of P . f/m over the nodes before
+ * they move, f being the change of momentum per time by forces, contact and walls. middle: time in the middle of the
+ * step [s]. Returns 0 if no particle is on a grid. */
 real grid_power(struct run *e, real middle)
 {
     real power = 0;

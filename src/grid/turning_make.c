@@ -3,13 +3,15 @@
 #include "grid/grid_part.h"
 #include "data/turning.h"
 
-/* Returns the first of the bodies that share a grid with body b: joined bodies, or all bodies of a single grid. */
+/* Returns the lowest number of the bodies that share a grid with body b: of the bodies joined to it, or of all bodies
+ * if there is a single grid. */
 static int first_of(const struct grid_method *grid, const struct scene *scene, int b)
 {
     return grid->fields > 1 ? scene->body[b].joined : 0;
 }
 
-/* Marks the bodies held by a support: held[one[b]] for a particle of body b. Supports that rotate hold no body. */
+/* Sets held[one[b]] if a support or driving boundary without rotation acts on a particle of body b. one [bodies]:
+ * lowest number of the bodies that share a grid. */
 static void mark_held(const struct loads *loads, const struct particles *p, const int *one, bool *held)
 {
     for (int b = 0; b < loads->n; b++) {

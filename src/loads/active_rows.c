@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-/* Reach of a motion [levels]: forces of state-based models reach two horizons, of bond-based ones one. */
+/* Returns the level of moving row blocks, i.e. one more than the number of neighbouring row blocks to which motion
+ * spreads in a step: forces reach two horizons in state-based models, one in bond-based ones. */
 static int most_of(const struct bonds *b) { return b->state.modulus ? 3 : 2; }
 
 /* Returns true if a particle of the row block is not at its reference position. */
@@ -39,7 +40,8 @@ static int64_t row_block_of(const struct bonds *b, const struct particles *p, co
     return row < 0 ? -1 : row / LANES;
 }
 
-/* Raises a row block to a level, and its neighbours to one less, recursively. */
+/* Raises the level of a row block to `level`, and recursively those of its neighbours to one less. Level 0 is
+ * inactive. */
 static void row_block_activate(struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                                int level)
 {
@@ -55,7 +57,7 @@ static void row_block_activate(struct bonds *b, const struct particles *p, const
     }
 }
 
-/* Returns true if a neighbour of the row block has the level. */
+/* Returns true if a neighbour of the row block has exactly this level. */
 static bool is_next_to(const struct bonds *b, const struct particles *p, const struct loads *l, int64_t row_block,
                        int level)
 {
@@ -70,8 +72,8 @@ static bool is_next_to(const struct bonds *b, const struct particles *p, const s
     return false;
 }
 
-/* Finds all levels anew. Rows are rebuilt after every conversion, so inactive row blocks are searched, not active
- * ones. */
+/* Recomputes the levels of all row blocks from their present motion. Rows are rebuilt after every conversion, so
+ * inactive row blocks are searched, not active ones. */
 static void row_levels_find(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;
@@ -87,7 +89,8 @@ static void row_levels_find(struct bonds *b, const struct particles *p, const st
     r->is_current = true;
 }
 
-/* Updates the levels: only active row blocks that have not moved yet can have begun to move. */
+/* Raises the levels of the row blocks that have begun to move since the last call, and of their neighbours. Only active
+ * row blocks below the highest level are tested: no other one can have begun to move. */
 static void active_set_follow(struct bonds *b, const struct particles *p, const struct loads *l)
 {
     struct active_set *r = &b->active;

@@ -46,7 +46,8 @@ status loads_make(struct loads *l, const struct boundary *boundary, int n, struc
     return OK;
 }
 
-/* Both lists ascend, and so does the new one; particles without marks are left out. */
+/* Replaces the particles listed because contact acts on them by n particles in ascending order. The list of loaded
+ * particles stays ascending; particles to which nothing applies any more are removed. */
 void loads_set_contact_particles(struct loads *l, const struct particles *p, const int32_t *list, int64_t n)
 {
     if (!l->loaded && n == 0) return;
@@ -82,8 +83,9 @@ void loads_free(struct loads *l)
 
 /* ---- forces on particles ----------------------------------------------------------------------------------------- */
 
-/* Replaces the force on driven peridynamic particles by the force that gives them their velocity; its difference from
- * the bond force is the reaction of the support. Books impulse and work. */
+/* Replaces the force on the driven peridynamic particles of a load by the force that gives them their prescribed
+ * velocity. Its difference from the force of the bonds is the reaction of the support, whose impulse and work are
+ * booked. */
 static void drive(struct loads *l, struct load *load, struct particles *p, const struct prescribed_motion *by,
                   real dt_velocity)
 {
@@ -146,8 +148,8 @@ static void mirror_impulse(struct loads *l, const struct particles *p, real dt_v
     }
 }
 
-/* Updates the displacement of a load: mean over its particles if they differ; prescribed displacements are taken as
- * they are, velocities are integrated over the step. */
+/* Updates the displacement of a load by a step: prescribed displacements are stored, prescribed velocities are
+ * integrated over the step. If particles have different values, their mean is used. */
 static void displacement_update(struct load *load, const struct particles *p, const struct prescribed_motion *by)
 {
     const bool displaces = load->boundary->displaces;

@@ -36,6 +36,7 @@ static bool absorbs_in_mirror(const struct load *a, const struct load *mirror, c
     return false;
 }
 
+/* Returns REFUSED if a boundary absorbs at a face that is in the plane of a mirror. */
 static status absorbing_mirrors_check(const struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++)
@@ -68,7 +69,7 @@ status loads_absorbing_check(const struct loads *l, const struct particles *p)
     return OK;
 }
 
-/* Lists the particles of all absorbing faces. */
+/* Makes the list of all particles that belong to an absorbing face, in ascending order and without duplicates. */
 static void particles_join(struct loads *l, const struct particles *p)
 {
     struct absorbing *a = &l->absorbing;
@@ -82,7 +83,8 @@ static void particles_join(struct loads *l, const struct particles *p)
     memory_free(chosen);
 }
 
-/* Returns the dashpot rate of the q-th particle of a load along d, for a particle moved by method `by` [kg/s]. */
+/* Returns the coefficient of the dashpot on the q-th particle of an absorbing face, for motion along d [kg/s]: its area
+ * times the impedance of the material. by: bonds, grid or mesh, whichever moves the particle. */
 static real dashpot_rate(const struct absorbing *a, const struct load *load, const struct particles *p, int64_t q,
                          enum moved_by by, int d)
 {
@@ -104,8 +106,8 @@ static int64_t dashpot_of(const struct absorbing *a, int32_t i)
     return found ? found - a->particle : -1;
 }
 
-/* Removes dashpots in components that a support prescribes, for particles moved by bonds; grid nodes have walls
- * instead. */
+/* Sets the dashpot coefficients to 0 in components that a support prescribes, for particles moved by bonds. On grids
+ * the walls of the nodes have this effect. */
 static void rates_hold(struct loads *l, const struct particles *p)
 {
     for (int b = 0; b < l->n; b++) {
@@ -152,6 +154,8 @@ void loads_absorbing_free(struct loads *l)
 
 /* ---- particles that bonds move ----------------------------------------------------------------------------------- */
 
+/* Adds the forces of the absorbing dashpots to p->f, for particles that are moved by bond forces (not by grid or mesh).
+ * dt_velocity: duration of the velocity update [s]. */
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity)
 {
     struct absorbing *a = &l->absorbing;
@@ -179,14 +183,16 @@ void loads_add_absorbed(struct loads *l, const struct absorbed *by)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
+/* Compares two dashpots by their nodes, for sorting. */
 static int by_dashpot(const void *a, const void *b)
 {
     const struct dashpot *p = a, *q = b;
     return (p->node > q->node) - (p->node < q->node);
 }
 
-/* Sets negative rates to 0 and reduces the others, keeping the sum. Rates are linearly extrapolated from the first two
- * particles of a face, which gives nodes behind them negative rates if the face is not on nodes. */
+/* Replaces negative dashpot coefficients by 0 and reduces the positive ones so that the sum stays equal (all are 0 if
+ * it is negative). Coefficients are extrapolated linearly from the first two particles of a face, which gives nodes
+ * behind them negative values if the face is not on nodes. */
 static void rates_clip(real *rate, int64_t n)
 {
     real all = 0, left = 0;
@@ -194,8 +200,8 @@ static void rates_clip(real *rate, int64_t n)
     for (int64_t I = 0; I < n && all < left; I++) rate[I] = all > 0 ? real_max(rate[I], 0) * (all / left) : 0;
 }
 
-/* Lists the dashpots of nodes by their rates [dim][g->n], which are destroyed. A node beyond a mirror plane transfers
- * its rate to its image. */
+/* Adds a dashpot for each node with a positive coefficient. rate: coefficients [dim][g->n] [kg/s], overwritten. The
+ * coefficient of a node beyond a mirror plane is added to that of its image. */
 static void dashpots_list(struct grid *g, real *rate)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
@@ -253,8 +259,8 @@ void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct parti
     memory_free(value);
 }
 
-/* Returns the weight of a cell corner for the part of a face belonging to the point at `place` [1]; the face is half a
- * spacing in front of the point along `axis`. */
+/* Returns the share of the face area of the point at quarter point `place` of a cell that a corner of the cell receives
+ * [1]. The face is half a spacing in front of the point, along `axis` to side `side`. */
 static real face_weight(int dim, int corner, int place, int axis, int side)
 {
     const bool before = (corner >> axis & 1) == (side > 0), first = (place >> axis & 1) == (side > 0);
@@ -264,7 +270,8 @@ static real face_weight(int dim, int corner, int place, int axis, int side)
     return weight;
 }
 
-/* Adds the rates of an absorbing face to the nodes of its cells. */
+/* Adds the dashpot coefficients of an absorbing face to the nodes of its cells: rate [dim][nodes of the mesh]
+ * [kg/s]. */
 static void mesh_face(const struct absorbing *a, const struct load *load, const struct mesh *mesh,
                       const struct particles *p, real *rate)
 {

@@ -17,8 +17,8 @@ static bool same_particles(const struct load *a, const struct load *b)
            arrays_equal(a->particle, b->particle, a->n, sizeof *a->particle);
 }
 
-/* Replaces the share of component d of load b by an equal array of an earlier load with the same leader, if there is
- * one. */
+/* Frees the array of shares of component d of load b and uses an equal array of an earlier load with the same leader in
+ * its place, if there is one. */
 static void share_join(struct loads *l, int b, int d, int dim)
 {
     struct load *load = &l->load[b];
@@ -32,7 +32,8 @@ static void share_join(struct loads *l, int b, int d, int dim)
         }
 }
 
-/* Finds the leader of load b, joins equal shares, and makes room for the positions that the leader stores. */
+/* Finds the leader of load b, the first load on the same particles, replaces arrays of shares that are equal to earlier
+ * ones, and allocates the positions that the leader stores to compute work. */
 static void load_join(struct loads *l, int b, int dim)
 {
     struct load *load = &l->load[b];
@@ -79,7 +80,8 @@ void loads_applied_free(struct loads *l)
 
 /* ---- one component of all loads of a leader ---------------------------------------------------------------------- */
 
-/* One component of all loads of a leader: particles, distinct shares with their values, force and positions. */
+/* One component of all loads with the same leader, i.e. on the same particles: the particles; different arrays of
+ * shares, each with the sum of its values; forces, and positions now and at the last application. */
 struct push {
     const int32_t *particle;
     int terms;
@@ -87,8 +89,8 @@ struct push {
     real value[BOUNDARIES_MAX], *f, *before;
 };
 
-/* Collects component d of all loads of a leader, times their factors [loads]. Returns false if none has this
- * component. */
+/* Collects component d of all loads with this leader in *a. factor [loads]: factor of each load at present. Returns
+ * false if none has this component. */
 static bool push_make(struct push *a, const struct loads *l, int leader, struct particles *p, int d, const real *factor)
 {
     const struct load *first = &l->load[leader];
@@ -114,7 +116,7 @@ static void loads_applied_forces(const struct push *a, int64_t first, int64_t en
     }
 }
 
-/* Adds the force [N] to f and stores the coordinate of the particle. Returns the force. */
+/* Adds the force [N] to that on particle i, the k-th one of the load, and stores its coordinate. Returns the force. */
 static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     a->before[k] = a->x[i];
@@ -122,7 +124,8 @@ static ALWAYS_INLINE real push_one(const struct push *a, int64_t k, int64_t i, r
     return force;
 }
 
-/* Returns the work of the force over the displacement since push_one [J]. */
+/* Returns the work of the force [N] over the displacement of particle i, the k-th one of the load, since push_one
+ * [J]. */
 static ALWAYS_INLINE real work_one(const struct push *a, int64_t k, int64_t i, real force)
 {
     return force * (a->x[i] - a->before[k]);
@@ -179,8 +182,9 @@ static real kick_factor(const struct time_function *f, real t, real dt_velocity)
     return 0.5 * (time_function_value(f, t - dt_velocity) + time_function_value(f, t));
 }
 
-/* The impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of
- * steps, not with steps times particles. */
+/* Adds the applied forces at time t to their particles and their impulses over dt_velocity [s] to l->impulse. The
+ * impulse of a step is summed before it is added to that of all steps: round-off then grows with the number of steps,
+ * not with steps times particles. */
 void loads_add_forces(struct loads *l, struct particles *p, real t, real dt_velocity)
 {
     real factor[BOUNDARIES_MAX], given;

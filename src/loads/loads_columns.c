@@ -64,8 +64,8 @@ static void find_width(struct columns *c, const struct boundary *b, const struct
     if (fabs(c->width - c->spacing) <= EVEN * c->spacing) c->width = c->spacing;
 }
 
-/* Coordinate of a lattice site along d from `low` on, by the mean direction of the particles on a circle of one width
- * [m]; false: the particles have no order. */
+/* Finds a lattice site of the body along d, at or near `low` [m]: particles are placed on a circle of one width, and
+ * their mean direction gives the site. Returns false if the particles have no order. */
 static bool find_site(const struct columns *c, const struct particles *p, int d, real low, real *site)
 {
     const int64_t stride = p->n / SITES_SAMPLED + 1;
@@ -81,7 +81,8 @@ static bool find_site(const struct columns *c, const struct particles *p, int d,
            along > (1 - EVEN) * (real)n;
 }
 
-/* Computes the position of column 0 and the step of the columns, for each axis. */
+/* Computes the distance of the columns and the position of column 0 along each axis across them: at lattice sites if
+ * the particles are ordered, else FINE columns per particle width. */
 static void find_middles(struct columns *c, const struct boundary *b, const struct particles *p)
 {
     real low[DIM_MAX - 1];
@@ -179,7 +180,7 @@ static real loads_columns_height(const struct boundary *b, const struct particle
     return b->side * p->X[b->face][i];
 }
 
-/* Returns true if particle i is below particle j; equal heights are ordered by index. */
+/* Returns true if particle i is lower than particle j along the outward normal; equal heights are ordered by index. */
 static bool is_lower(const struct boundary *b, const struct particles *p, int32_t i, int32_t j)
 {
     return loads_columns_height(b, p, i) < loads_columns_height(b, p, j) ||

@@ -22,6 +22,8 @@ static void rotation_matrix(const struct boundary *b, int dim, real angle, real 
 
 /* ---- displacements ----------------------------------------------------------------------------------------------- */
 
+/* Returns the displacements that boundary b prescribes at time t [s], prepared for evaluation at many positions by
+ * prescribed_displacement_at: evaluates the function of time and the rotation once. */
 struct prescribed_displacement prescribed_displacement_make(const struct boundary *b, int dim, real t)
 {
     struct prescribed_displacement s = {.boundary = b, .dim = dim, .t = boundary_time(b, t)};
@@ -61,6 +63,8 @@ status load_check_displacement_known(const struct boundary *b)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the motion that boundary b prescribes in the step of size dt from t - dt/2 to t + dt/2 [s], prepared for
+ * evaluation at many positions by prescribed_velocity_at. */
 struct prescribed_motion prescribed_motion_make(const struct boundary *b, int dim, real t, real dt)
 {
     struct prescribed_motion s = {

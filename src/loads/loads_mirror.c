@@ -80,7 +80,7 @@ void loads_update_images(const struct loads *l, struct particles *p)
     }
 }
 
-/* REFUSED for a mirror with the body on both sides: images would coincide with particles. */
+/* Returns REFUSED for a mirror with particles of its body on both sides: images would coincide with particles. */
 static status mirror_checked(const struct boundary *b, const struct particles *p, real spacing)
 {
     bool below = false, above = false;
@@ -104,9 +104,9 @@ static int mirror_outside(const struct boundary *b, const struct particles *p)
     return sum > 0 ? -1 : 1;
 }
 
-/* REFUSED for parallel mirrors closer than the reach of bonds: a particle between them would have bonds to images of
- * images on both sides, of which only one exists. The forces would have no potential, and no time step would be small
- * enough. */
+/* Returns REFUSED for parallel mirrors closer than the reach of bonds: a particle between them would have bonds to
+ * images of images on both sides, of which only one exists. The forces would have no potential, and no time step would
+ * be small enough. */
 static status mirrors_apart(const struct boundary *b, int n, real reach, real spacing)
 {
     for (int k = 0; k < n; k++)

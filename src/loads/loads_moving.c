@@ -49,7 +49,8 @@ status loads_check_finite(const struct loads *l, const struct particles *p, real
     return OK;
 }
 
-/* Gives each component its own array of shares, multiplied by the formula at t if `with`. */
+/* Replaces the arrays of shares of a load, which components may have in common, by a copy for each component. with: the
+ * copies are multiplied by the formula of the component at time t. */
 static void shares_part(struct load *l, const struct particles *p, bool with, real t)
 {
     for (int d = p->dim; d-- > 0;) {
@@ -85,8 +86,8 @@ void load_time_shares_free(struct load *l)
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */
 
-/* Computes the shares: mean of function of time and formula over the kick from t - dt to t (as kick_factor), times the
- * base shares; the result is weighted by `half`, the previous shares by 1 - half. */
+/* Updates the shares of component d for the kick from t - dt to t: base shares times the mean of function of time and
+ * formula at both times. The result is weighted by `half` and the previous shares by 1 - half. */
 static void moving_shares(struct load *l, const struct particles *p, int d, real t, real dt, real half)
 {
     const struct boundary *b = l->boundary;
@@ -116,7 +117,8 @@ void loads_update_shares_for_kick(struct loads *l, const struct particles *p, re
     moving_update(l, p, t, dt_velocity, 1);
 }
 
-/* Mean of the kicks before and after a drift, at the positions before and after it. */
+/* Replaces the shares by the mean of those for the kicks before and after the drift of a step, at the positions before
+ * and after it, so that the work of the drift can be summed. */
 void loads_update_shares_for_work(struct loads *l, const struct particles *p, real t, real dt)
 {
     moving_update(l, p, t + dt, dt, 0.5);
@@ -124,6 +126,8 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 
 /* ---- totals ----------------------------------------------------------------------------------------------------- */
 
+/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
+ * dim components [N]. */
 void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force)
 {
     const struct boundary *b = l->boundary;

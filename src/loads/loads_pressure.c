@@ -13,7 +13,7 @@
 #include "loads_surface.h"
 #include "base/memory.h"
 
-/* Context of end_found: free ends of columns along one axis. */
+/* Parameters of end_found, which receives the free ends of columns of particles along one axis. */
 struct ends {
     const struct boundary *boundary, *all; /* boundary with axis and side; boundaries of the scene */
     int n;                                 /* number of boundaries of the scene */
@@ -35,7 +35,8 @@ static bool is_mirrored(const struct ends *e, int32_t i)
     return false;
 }
 
-/* Passes on a free end unless it is on a mirror. */
+/* Calls `found` of the context, a struct ends, for the free face of particle i at an end of a column, unless the face
+ * is on a mirror. area: of the face [m^2]. */
 static void end_found(void *context, int32_t i, real area)
 {
     const struct ends *e = context;
@@ -66,13 +67,15 @@ static void surface_faces_free(struct surface_faces *f)
     *f = (struct surface_faces){0};
 }
 
-/* Context of face_pressed: areas of free faces along their outward normals. */
+/* Parameters of face_pressed: the sum of the areas of free faces along their outward normals, and a list of the
+ * faces. */
 struct pressed {
     real *const *area;           /* by component [particles] [m^2] */
     struct surface_faces *faces; /* list for a pressure that follows the surface; NULL: none */
 };
 
-/* Adds a free face to the areas and, if needed, to the list. */
+/* Adds a free face of particle i, with its outward normal along `axis` to side `side`, to the areas and, if there is
+ * one, to the list of faces. context: a struct pressed. */
 static void face_pressed(void *context, int32_t i, int axis, int side, real area)
 {
     const struct pressed *a = context;

@@ -23,7 +23,7 @@ void loads_make_static_boundaries(struct boundary *to, const struct boundary *fr
     }
 }
 
-/* Returns true if the work of its support must be summed over particles, because displacements differ. */
+/* Returns true if the work of the support must be summed over its particles, because their displacements differ. */
 static bool works_by_place(const struct boundary *b) { return b->frozen && drives_by_place(b); }
 
 /* Returns the final displacement of component d of the k-th particle of a load; k < 0: of a load without particles

@@ -47,7 +47,7 @@ struct surface {
 
 /* ---- sites ------------------------------------------------------------------------------------------------------- */
 
-/* A lattice site, or the corner below it, of a body as one number. */
+/* A lattice site of a body, or the corner of cubes below it, as a number, with the particle or the corner there. */
 struct site {
     int64_t key;
     int32_t value;
@@ -82,7 +82,8 @@ static int64_t site_key(int body, const int64_t *k, int dim)
     return key;
 }
 
-/* Computes the steps k of particle i from the first of its body. Returns false if it is not on their lattice. */
+/* Computes the lattice position k of particle i, in spacings from the first particle of its body. Returns false if the
+ * particle is not on the lattice. */
 static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
 {
     bool on = true;
@@ -94,7 +95,7 @@ static bool place_on_lattice(const struct sites *s, int32_t i, int64_t *k)
     return on;
 }
 
-/* Returns the particle at a site, -1: none. */
+/* Returns the particle at the site with this key, or -1. */
 static int32_t site_find(const struct sites *s, int64_t key)
 {
     const struct site wanted = {key, 0};
@@ -129,13 +130,13 @@ static status sites_make(struct sites *s, const struct surface_faces *f)
     return OK;
 }
 
-/* Returns twice the position of a mirror in steps from the first particle of a body. */
+/* Returns twice the distance of a mirror from the first particle of a body, along its axis [spacings]. */
 static real mirror_steps(const struct sites *s, const struct boundary *m, int body)
 {
     return 2 * (m->at - s->p->X[m->axis][s->first[body]]) / s->spacing;
 }
 
-/* REFUSED for a mirror that is not midway between sites of a body with faces nearby. */
+/* Returns REFUSED for a mirror that is not midway between sites of a body with faces nearby. */
 static status mirrors_between(const struct sites *s, const struct surface_faces *f)
 {
     for (int m = 0; m < s->boundaries; m++)
@@ -154,8 +155,8 @@ static status mirrors_between(const struct sites *s, const struct surface_faces 
     return OK;
 }
 
-/* Returns the particle of a body at a site, or the source of the image there; *turned: components that are reversed.
- * -1: none. */
+/* Returns the particle of a body at a lattice site or, beyond mirrors, the particle whose image is there; -1: none.
+ * *turned: components of the displacement that the mirrors reverse, one bit each. */
 static int32_t site_or_image_find(const struct sites *s, int body, const int64_t *site, uint8_t *turned)
 {
     int64_t k[DIM_MAX];
@@ -205,7 +206,7 @@ static struct site *corners_number(struct surface *a, const struct sites *s, con
     return all;
 }
 
-/* Lists the faces that meet in each corner, from the sorted corners of faces. */
+/* Lists in a->part the faces that meet in each corner. all [n]: corners of all faces, sorted by site. */
 static void parts_make(struct surface *a, const struct site *all, int64_t n)
 {
     a->face_first = NEW("loads.face_first", a->corners + 1, int64_t);
@@ -224,7 +225,8 @@ struct around {
     real r[STENCIL_MOST][DIM_MAX], counts[STENCIL_MOST];
 };
 
-/* Adds the particle or image at a site, `off` steps from the corner's site. Returns true if there is one. */
+/* Adds the particle or image at a site, `off` steps from the site above the corner, to *t with weight `counts`, unless
+ * it is there already. Returns false if the site is empty. */
 static bool corner_reach(struct around *t, const struct sites *s, int body, const int64_t *site, const int64_t *off,
                          real counts)
 {
@@ -241,7 +243,7 @@ static bool corner_reach(struct around *t, const struct sites *s, int body, cons
     return true;
 }
 
-/* Lists the particles at a corner and, along each axis, those behind them. */
+/* Lists the particles whose cubes meet in a corner and, along each axis, those behind them, with smaller weight. */
 static void corner_around(struct around *t, const struct sites *s, int body, const int64_t *site)
 {
     const int dim = s->p->dim;
@@ -357,7 +359,7 @@ static void shares_transpose(struct surface *a, const struct load *l, int64_t pa
     memory_free(place);
 }
 
-/* Fills the surface and lists the particles of the load. */
+/* Makes the surface of a load from its free faces, lists the particles on which it acts, and computes their areas. */
 static void surface_fill(struct surface *a, struct load *l, const struct sites *s, const struct surface_faces *f,
                          struct particles *p)
 {
@@ -428,7 +430,8 @@ static bool is_torn(const struct surface *s, const real *const *x, int corners)
     return torn;
 }
 
-/* Computes half of a segment's area for each of its ends. */
+/* Computes for each end of a segment half of its area vector, to [2][2]. x: positions of both ends; sign:
+ * orientation. */
 static void segment_area(const struct surface *s, const real *const *x, real sign, real *to)
 {
     for (int c = 0; c < 2; c++) {
@@ -497,7 +500,7 @@ static void surface_corner_area(struct surface *s, int64_t c)
     }
 }
 
-/* Returns the inward area of the k-th particle along d. */
+/* Returns the inward area [m^2] along d that the corners give to the k-th particle of the load. */
 static real surface_share(const struct surface *s, int64_t k, int d)
 {
     real area = 0;
@@ -507,7 +510,8 @@ static real surface_share(const struct surface *s, int64_t k, int d)
     return area;
 }
 
-/* Each pass gathers: equal bits on any number of threads. */
+/* Computes the inward areas [m^2] of all particles of the load at their present positions. Each pass gathers: equal
+ * bits on any number of threads. */
 void surface_compute_areas(struct surface *s, const struct particles *p, real *const *area)
 {
     const bool many = s->corners > SUM_BLOCK;

@@ -8,7 +8,7 @@
 
 /* ---- walls of the grid ------------------------------------------------------------------------------------------- */
 
-/* Appends a constrained component. */
+/* Appends component `component` of a node, constrained by load number `load`, to the set. */
 static void constrained_add(struct constrained_set *s, int64_t node, int component, int load)
 {
     GROW("loads.held", s->held, s->n + 1);
@@ -73,8 +73,8 @@ static bool node_mirrored(const struct loads *l, const struct grid *g, int64_t I
     return image != I;
 }
 
-/* Returns true if the load acts on this grid; where bodies have separate grids, a region acts on those with particles
- * in it. */
+/* Returns true if the load may constrain nodes of this grid: where bodies have separate grids, a driving load acts only
+ * on grids of bodies that have particles in its region. */
 static bool load_holds(const struct load *load, const struct grid *g, const struct particles *p)
 {
     bool holds = g->body == 0 || load->boundary->kind != BOUNDARY_VELOCITY;
@@ -89,8 +89,9 @@ static void node_at(const struct grid *g, const struct mesh *mesh, int64_t I, re
     for (int d = 0; d < g->dim; d++) x[d] = grid_position(g, d, at / g->stride[d] % g->count[d]);
 }
 
-/* Returns true if the position of node I does not determine its constraints: nodes doubled by slits are driven by the
- * material of their cells, and on a mirror some have material that a slit separates from its image. */
+/* Returns true if the position of node I must not be used to decide whether the load constrains it: nodes doubled by
+ * slits are driven by the material of their cells, and on a mirror some have material that a slit separates from its
+ * image. */
 static bool place_misleads(const struct mesh *mesh, const struct load *load, int64_t I)
 {
     if (!mesh || !mesh->slits.split) return false;
@@ -98,8 +99,9 @@ static bool place_misleads(const struct mesh *mesh, const struct load *load, int
     return mesh->slits.split[I] && load->boundary->kind == BOUNDARY_VELOCITY;
 }
 
-/* Finds the nodes constrained by position, and the mirror nodes; once for each box of the grid. Extra nodes of a mesh
- * have no mirror nodes: slits are not allowed where a mirror is between nodes. */
+/* Lists in *s the components of nodes that regions and mirrors constrain by the position of the node, and adds the
+ * mirror nodes to the grid; once for each box of the grid. Extra nodes of a mesh have no mirror nodes: slits are not
+ * allowed where a mirror is between nodes. */
 static void constrained_find(const struct loads *l, struct constrained_set *s, struct grid *g, const struct mesh *mesh,
                              const struct particles *p, bool reference)
 {

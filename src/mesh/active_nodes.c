@@ -18,6 +18,7 @@ static int64_t nodes_end(const struct mesh *mesh, int64_t block)
     return end < row ? end : row;
 }
 
+/* Returns true if no node of a block has mass and no extra node of a slit belongs to it. */
 static bool nodes_empty(const struct mesh *mesh, int64_t block)
 {
     if (mesh->slits.linked && mesh->slits.linked[block]) return false; /* cells there may have extra nodes */
@@ -28,9 +29,8 @@ static bool nodes_empty(const struct mesh *mesh, int64_t block)
 
 static void mesh_activate(struct mesh *mesh, int64_t block);
 
-/* Extra nodes of a slit are neighbours of the nodes beside their position. Activates the blocks of extra nodes
- * positioned in block `near`; and, if `near` is itself a block of extra nodes that moves, the blocks of their
- * positions. */
+/* Activates the blocks with extra nodes of slits that are positioned in block `near`, because they are neighbours of
+ * the nodes there. moves: if `near` itself consists of extra nodes, activates the blocks at their positions, too. */
 static void slits_activate(struct mesh *mesh, int64_t near, bool moves)
 {
     const struct mesh_slits *s = &mesh->slits;
@@ -59,6 +59,7 @@ static void mesh_activate(struct mesh *mesh, int64_t block)
     }
 }
 
+/* Returns true if a node of the block is displaced. */
 static bool nodes_moved(const struct mesh *mesh, int64_t block)
 {
     for (int d = 0; d < mesh->grid.dim; d++)
@@ -76,7 +77,8 @@ static bool nodes_inactive(const struct mesh *mesh, int64_t block)
     return !nodes_moved(mesh, block);
 }
 
-/* Returns true if a wall never moves: it moves no node at rest. */
+/* Returns true if a wall holds its node at rest for the whole run: the wall of a mirror, or of a prescribed velocity of
+ * 0. */
 static bool wall_is_fixed(const struct loads *l, const struct wall *w)
 {
     const struct boundary *b = l->load[w->load].boundary;
@@ -98,7 +100,8 @@ void active_nodes_activate_all(struct mesh *mesh)
     array_fill_bytes(mesh->active.level, 1, mesh->active.blocks, 1);
 }
 
-/* Determines the levels of all blocks. */
+/* Recomputes which blocks of nodes are active: those with a node that moves or carries a force, those of moving walls,
+ * their neighbours, and those of exposed points. */
 static void mesh_find_levels(struct mesh *mesh, const struct loads *l)
 {
     struct active_set *r = &mesh->active;

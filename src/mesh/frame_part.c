@@ -10,8 +10,8 @@
 
 /* ---- choice of the frame ----------------------------------------------------------------------------------------- */
 
-/* Returns the obstacle to the reference frame of a body at auto that the scene allows; NULL: none. The body must be one
- * piece on one lattice, with particles at the quarter points of cells. */
+/* Returns the reason why a body for which the scene does not choose a frame cannot be in the reference frame; NULL if
+ * it can. The body must be one piece on one lattice, with particles at the quarter points of cells. */
 static const char *frame_obstacle(const struct particles *p, const struct grid_method *mpm, const struct hollow *hollow)
 {
     const int64_t pieces = mesh_count_parts(p, &mpm->field[0].grid, hollow);
@@ -25,6 +25,7 @@ static void take_frame(struct frame_choice *f, bool reference, const char *reaso
     *f = (struct frame_choice){reference, reason};
 }
 
+/* Sets FLAG_MESHED for all particles of the bodies in the reference frame. */
 static void frames_mark(struct particles *part, struct reference_frame *frame)
 {
     for (int64_t i = 0; i < part->n; i++)
@@ -118,8 +119,9 @@ status frame_make(struct run *e, const struct mesh_source *cuts, bool still)
     return OK;
 }
 
-/* Conversion may leave any subset of points in a cell. With partial stress no such cell has a smaller critical step
- * than the initial cells; with hand-shake a cell with a single point has. */
+/* Returns the critical time step of the mesh [s], INFINITY without points. Conversion may leave any subset of points in
+ * a cell: with partial stress no such cell has a smaller critical step than the initial cells, with hand-shake coupling
+ * a cell with a single point has. */
 real frame_critical_step(const struct reference_frame *r, const struct scene *s, enum coupling coupling)
 {
     real density[UINT8_MAX], step = INFINITY;
@@ -131,6 +133,8 @@ real frame_critical_step(const struct reference_frame *r, const struct scene *s,
 
 /* ---- in a step --------------------------------------------------------------------------------------------------- */
 
+/* Updates the positions of the exposed points (mesh_find_exposed) from the nodes, and the strain at points with
+ * state-based bonds to peridynamic particles. */
 void frame_update_exposed_points(struct reference_frame *r, struct particles *p)
 {
     mesh_exposed_move(&r->mesh, p);
@@ -145,7 +149,8 @@ void frame_compute_forces(struct reference_frame *r, struct particles *p, int64_
     levels_compute_forces(&r->levels, p, r->coarse, r->finite, levels_highest_due(&r->levels, step));
 }
 
-/* Sets the walls of the mesh and of the coarse cells that move in this step, with their longer steps. */
+/* Sets the walls, i.e. the prescribed velocities of nodes, of the mesh and of coarse levels 1 .. due, whose steps are
+ * 2^level times as long. middle: time in the middle of the step of the mesh [s]. */
 static void nodes_walls(struct reference_frame *r, const struct loads *loads, real middle, real dt, int due)
 {
     loads_set_mesh_walls(loads, &r->mesh, middle, dt);
@@ -156,7 +161,7 @@ static void nodes_walls(struct reference_frame *r, const struct loads *loads, re
     }
 }
 
-/* Books the reactions of the walls of the mesh and of coarse levels up to `due`. */
+/* Adds the reactions on the walls of the mesh and of coarse levels 1 .. due to their loads. */
 static void nodes_react(struct loads *loads, struct reference_frame *frame, real dt_velocity, int due)
 {
     loads_add_reactions(loads, &frame->mesh.grid, dt_velocity);

@@ -15,6 +15,8 @@ enum { AHEAD = 4 };     /* range of cells around level 0 that have particles, as
 
 /* ---- the start --------------------------------------------------------------------------------------------------- */
 
+/* Returns the reason in words why all particles of scene s must be made, or NULL if particles inside coarse cells may
+ * be left out. */
 const char *frame_hollow_why_not(const struct scene *s)
 {
     if (s->fill == FILL_ALL) return "the scene says so";
@@ -42,7 +44,8 @@ const char *frame_hollow_why_not(const struct scene *s)
     return NULL;
 }
 
-/* Finds the box of cells around the body, aligned with the nodes of its mesh. */
+/* Computes the box of cells around the body, with nodes at those of its mesh. Returns REFUSED if it has too many
+ * cells. */
 static status box_find(struct grid *box, const struct scene *s)
 {
     real from[DIM_MAX], to[DIM_MAX], site[DIM_MAX];
@@ -70,7 +73,8 @@ static bool near_cracks(const struct scene *s, const struct bond_source *source,
     return false;
 }
 
-/* Returns true if a load in a region acts on a particle at X. */
+/* Returns true if X is inside the region of a load that acts in its whole region, not on a face, within `tolerance`
+ * [m]. */
 static bool loads_reach(const struct scene *s, const real *X, real tolerance)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -81,8 +85,8 @@ static bool loads_reach(const struct scene *s, const real *X, real tolerance)
     return false;
 }
 
-/* Returns true if a load acts on a face of cell I (the adjacent cell is not whole), or on the layer behind such a
- * face. */
+/* Returns true if a load acts on a face of cell I, beside which the next cell is not completely inside the body, or on
+ * a layer behind such a face that contains the cell. X: a point of the cell. */
 static bool face_loaded(const struct scene *s, const struct hollow *h, int64_t I, const real *X)
 {
     for (int b = 0; b < s->boundaries; b++) {
@@ -124,7 +128,8 @@ static bool probed(const struct scene *s, const real *X, real h)
     return false;
 }
 
-/* Returns true if a particle of cell I is needed. */
+/* Returns true if cell I must have particles: near pre-cracks and probes, in regions of loads and on loaded faces, and
+ * near the region that is peridynamic from the start. */
 static bool cell_needed(const struct scene *s, const struct bond_source *source, const struct hollow *h, int64_t I)
 {
     for (int c = 0; c < 1 << s->dim; c++) {
@@ -161,6 +166,8 @@ status frame_hollow_choose_cells(struct hollow *h, const struct scene *s, const 
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if a cell that has level 0 (the finest) by level[mesh->grid.n] has no particles, so that the run must be
+ * set up again with more particles. */
 bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level)
 {
     for (int64_t I = 0; I < mesh->grid.n && mesh->absent; I++)
@@ -168,8 +175,8 @@ bool frame_hollow_lacks_particles(const struct mesh *mesh, const uint8_t *level)
     return false;
 }
 
-/* Returns the cells [box.n] without particles for these levels: those farther than `ahead` cells from level 0. Coarse
- * cells have all of their particles or none. */
+/* Returns flags [box.n] that are 1 for cells that need no particles with the levels `level`: those farther than `ahead`
+ * cells from level 0. A coarse cell has all of its particles or none. The caller frees them. */
 static uint8_t *absent_with(const struct reference_frame *r, const uint8_t *level, int ahead)
 {
     const struct hollow *h = &r->hollow;

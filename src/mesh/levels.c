@@ -8,7 +8,7 @@
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the lower corner of the body: the cell of its lowest particles of any kind. */
+/* Stores the index of the cell of level 0 at the lower corner of the box around all particles in l->offset[0]. */
 static void corner_find(struct mesh_levels *l, const struct particles *p)
 {
     const struct grid *g = &l->fine->grid;
@@ -75,6 +75,7 @@ void levels_free(struct mesh_levels *l)
 
 /* ---- points of coarse cells -------------------------------------------------------------------------------------- */
 
+/* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. */
 void levels_copy_to_ghosts(struct mesh_levels *l)
 {
     for (int level = 1; level <= l->n; level++) levels_update_ghosts(l, level);
@@ -130,6 +131,7 @@ int64_t levels_count_cells(const struct mesh_levels *l, int level)
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
+/* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
 real levels_kinetic_energy(const struct mesh_levels *l)
 {
     real sum = 0;
@@ -165,17 +167,19 @@ real levels_power(const struct mesh_levels *l)
 
 /* ---- checkpoints ------------------------------------------------------------------------------------------------- */
 
-/* Copies to marks [runs] which runs of a mesh may have a point beyond the stress at which they split, by the last
- * forces. */
+/* Copies the flags of the rows of cells of a mesh (runs) to marks [runs]: 1 if a point of the row may have exceeded the
+ * stress at which coarse cells are split, in the last computation of forces. */
 static void stressed_get(const struct mesh *mesh, uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) marks[r] = mesh->run[r].stressed;
 }
+/* Sets the flags of the rows of cells from marks [runs], the reverse of stressed_get. */
 static void stressed_put(struct mesh *mesh, const uint8_t *marks)
 {
     for (int64_t r = 0; r < mesh->runs; r++) mesh->run[r].stressed = marks[r] != 0;
 }
 
+/* Saves or restores the flags of stressed rows of cells of a level. */
 static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
 {
     char name[48];
@@ -188,7 +192,8 @@ static status stressed_archive(struct mesh *mesh, int level, struct archive *a)
     return s;
 }
 
-/* Makes all data that follow from the levels of cells. */
+/* Rebuilds everything that follows from the levels of the cells: cells and masses of all meshes, interfaces between
+ * levels, and distances to coarse cells. */
 static void cells_from_levels(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source)
 {
     mesh_cells_update(l->fine, p, source, l->level);
@@ -214,7 +219,8 @@ void levels_reconnect_finest(struct mesh_levels *l, const struct particles *p, c
     }
 }
 
-/* Saves or restores the fields of the nodes of a level. */
+/* Saves or restores displacements, velocities and momenta of the nodes of a level, and the flags of its stressed
+ * cells. */
 static status level_archive(struct mesh *mesh, int level, struct archive *a)
 {
     real *const *field[] = {mesh->displacement, mesh->grid.velocity, mesh->grid.momentum};

@@ -6,6 +6,8 @@
 
 /* ---- cells ------------------------------------------------------------------------------------------------------- */
 
+/* Makes the coarse cells for the present refinement levels and the masses of their nodes, without the transfer of mass
+ * between levels (levels_fold_masses). */
 void levels_cells_make(struct mesh_levels *l, const struct particles *p)
 {
     const struct mesh *fine = l->fine;
@@ -63,6 +65,7 @@ static bool coarse_beside(const struct mesh_levels *l, int level, const int64_t 
     return false;
 }
 
+/* Appends a ghost: node `coarse` of the coarse mesh, which takes its displacement from node `fine` of the finer one. */
 static void ghost_add(struct mesh_level *m, int64_t coarse, int64_t fine)
 {
     GROW("levels.ghost", m->ghost, m->ghosts + 1);
@@ -84,7 +87,8 @@ static void hanging_add(struct mesh_level *m, const struct mesh *mesh, int64_t I
     m->hanging[m->hangings++] = h;
 }
 
-/* Finds the ghosts of `level` and the hanging nodes of the next finer level. */
+/* Finds the nodes at the interface between the cells of `level` and finer ones: ghosts, nodes of the coarse mesh with a
+ * finer node at their position, and hanging nodes of the finer mesh, in the middle of coarse edges or faces. */
 static void interface_find(struct mesh_levels *l, int level)
 {
     struct mesh_level *m = &l->at[level];
@@ -108,7 +112,8 @@ static void interface_find(struct mesh_levels *l, int level)
     }
 }
 
-/* Marks, at their lowest nodes, the cells whose neighbours all have the same level and material. */
+/* Sets bit c of mesh->matched at each corner c of a whole cell if all neighbours of the cell are whole cells of its
+ * material. */
 static void matched_find(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;

@@ -10,14 +10,15 @@
 
 /* ---- from coarse cells to nodes of level 0 ----------------------------------------------------------------------- */
 
-/* Coarse cell around a node I of level 0, with indices k, that belongs to no cell of level 0, and the position in the
- * cell; level 0: none. */
+/* The coarse cell that contains a node of level 0 if no cell of level 0 does, and the position of the node in it, 0 to
+ * 1 along each axis. level 0: a cell of level 0 contains the node, or no cell. */
 struct cell_around {
     int level;
     int64_t cell;
     real t[DIM_MAX];
 };
 
+/* Finds the coarse cell that contains node I of level 0, which has the indices k. */
 static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, const int64_t *k)
 {
     const struct mesh *fine = l->fine;
@@ -40,7 +41,7 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Returns the value of a nodal field of the coarse cell at that position. */
+/* Interpolates a nodal field of the coarse mesh to the position `a` in a cell. */
 static real field_at(const struct mesh *mesh, const struct cell_around *a, const real *field)
 {
     real value = 0;
@@ -65,6 +66,7 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     }
 }
 
+/* Interpolates the motion of all nodes of a row of level 0 that are inside coarse cells. */
 static void row_interpolate(struct mesh_levels *l, int64_t row)
 {
     const struct grid *g = &l->fine->grid;
@@ -116,8 +118,8 @@ static void nodes_sample(struct mesh_levels *l)
     }
 }
 
-/* Returns the mean of a field of level 0 over the corners of the cells of level 0 in a cell of `level`. first: the
- * lowest. */
+/* Returns the mean of a nodal field of level 0 over the corners of all cells of level 0 inside a cell of `level`.
+ * first: the lowest of these cells. */
 static real cell_mean(const struct mesh_levels *l, int level, int64_t first, const real *field)
 {
     const int dim = l->fine->grid.dim, parts = parts_of(l, level);
@@ -127,7 +129,8 @@ static real cell_mean(const struct mesh_levels *l, int level, int64_t first, con
     return sum / (real)(parts << dim);
 }
 
-/* Distributes the momentum of a merged cell beyond that of its sampled corners to the corners. */
+/* Distributes the part of the momentum of a merged cell, J with indices q, that its corners do not have by their
+ * sampled velocities, to the corners in equal parts. */
 static void merged_correct(struct mesh_levels *l, int level, int64_t J, const int64_t *q)
 {
     struct mesh *mesh = &l->at[level].mesh;
@@ -146,6 +149,7 @@ static void merged_correct(struct mesh_levels *l, int level, int64_t J, const in
     }
 }
 
+/* Corrects the momenta of all cells that are coarser than before. before: previous levels of the cells of level 0. */
 static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
 {
     for (int level = 1; level <= l->n; level++) {
@@ -158,7 +162,7 @@ static void merged_cells_correct(struct mesh_levels *l, const uint8_t *before)
     }
 }
 
-/* Computes velocities of all nodes with mass; sets forces to 0. */
+/* Computes the velocities of the nodes of all levels from their momenta; sets momenta and forces to 0. */
 static void velocities_make(struct mesh_levels *l)
 {
     for (int level = 0; level <= l->n; level++) {

@@ -36,13 +36,14 @@ static real rise_of(const struct boundary *b)
     return steepest > 0 ? most / steepest : INFINITY;
 }
 
-/* Returns the largest edge of cells that carry a rise in a body of thickness `across` [spacings]. */
+/* Returns the largest edge of cells that represent waves with a given rise in a body of thickness `across` [spacings].
+ * edges: minimum number of cell edges across the body for a rise that is not a pulse. */
 static real edge_for(const struct load_rise *r, real across, real edges)
 {
     return r->pulse ? r->waves / RISES : real_max(across / edges, r->waves / RISES);
 }
 
-/* Replaces *least by *one if the latter requires smaller cells. */
+/* Replaces the rise *least by *one if *one requires smaller cells in a body of thickness `across` [spacings]. */
 static void rise_take(struct load_rise *least, const struct load_rise *one, real across)
 {
     const real now = edge_for(least, across, ACROSS), next = edge_for(one, across, ACROSS);
@@ -100,6 +101,9 @@ static real spacings_across(const struct scene *s, const struct particles *p, co
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
+/* Computes r->room, the highest refinement level that the thickness of the body allows in each cell, if scene s may
+ * have coarse cells; otherwise r->room stays NULL. particles: number of particles of the body, including those not
+ * made. */
 void frame_levels_find_limits(struct reference_frame *r, const struct scene *s, int64_t particles)
 {
     if (!scene_moves(s) || r->mesh.points == 0 || s->levels == 0) return;
@@ -161,7 +165,8 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
         snprintf(text, room, "%s rises within %.3g s = %.3g spacings of wave", name, r->seconds, r->waves);
 }
 
-/* Writes the load that cells of an edge [spacings] require. */
+/* Writes the pulse length, or the rise and body thickness, that cells of `edge` spacings require. edges: minimum number
+ * of cell edges across the body. */
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t room)
 {
     if (c->rise.pulse)
@@ -171,7 +176,7 @@ static void want_text(const struct levels_choice *c, int edge, int edges, char *
                  edges * edge, c->across);
 }
 
-/* Writes the reason for the number of levels by auto. */
+/* Writes the reason for the number of levels that was chosen automatically. */
 static void automatic_text(const struct levels_choice *c, const struct scene *s, char *text, size_t room)
 {
     char load[256], want[160];
@@ -220,7 +225,8 @@ void frame_levels_describe(const struct levels_choice *c, const struct scene *s,
         snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c->levels, why);
 }
 
-/* Writes where the body is too thin for coarse cells given by the scene. Returns false if it is thick enough. */
+/* Writes to text where the body is too thin for the coarse cells that the scene prescribes. Returns false, without
+ * text, if it is thick enough everywhere. */
 static bool thin_text(const struct reference_frame *r, char *text, size_t room)
 {
     const struct grid *g = &r->mesh.grid;

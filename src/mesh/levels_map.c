@@ -17,7 +17,8 @@ static struct level_map level_map_make(int64_t n)
     return (struct level_map){base, base + n, base + 2 * n, base + 3 * n};
 }
 
-/* Initialises the data of the cells of level 0. */
+/* Initialises the data of the cells of level 0. demand: 1 for cells that must be of level 0; limit: largest level of
+ * each cell, NULL: no limits. */
 static void base_map(struct level_map *to, const struct mesh_levels *l, const struct particles *p,
                      const uint8_t *demand, const uint8_t *limit)
 {
@@ -31,7 +32,8 @@ static void base_map(struct level_map *to, const struct mesh_levels *l, const st
     }
 }
 
-/* Combines the data of the 2^dim cells of the next finer level in cell I of `level`, with indices k. */
+/* Combines the data of the 2^dim cells of the next finer level that form cell I of `level`, with indices k: the cell is
+ * admissible if all of them are, have one material, and may have this level. */
 static void gather_parts(struct level_map *map, const struct mesh_levels *l, int level, int64_t I, const int64_t *k)
 {
     const struct grid *below = &level_mesh_of(l, level - 1)->grid;
@@ -69,7 +71,8 @@ static bool touching_alike(const struct level_map *map, const struct grid *g, co
     return some == 0 || some == all;
 }
 
-/* Returns true if the cells around the cell of level 1 with indices k allow it. */
+/* Returns true if a cell of level 1, with indices k, may be used beside its neighbours: every adjacent block of cells
+ * of level 0 touches it with cells that all contain points or all contain none. */
 static bool ring_of_first(const struct level_map *map, const struct mesh_levels *l, const int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -85,8 +88,8 @@ static bool ring_of_first(const struct level_map *map, const struct mesh_levels 
     return allows;
 }
 
-/* Returns true if the cells around the cell of `level` > 1 with indices k allow it: those of the next finer level must
- * be admissible. */
+/* Returns true if a cell of `level` > 1, with indices k, may be used beside its neighbours: all non-empty cells of the
+ * next finer level in it and around it must be admissible, so that adjacent cells differ by one level at most. */
 static bool ring_allows(const struct level_map *map, const struct mesh_levels *l, int level, const int64_t *k)
 {
     const int on = level - 1;
@@ -101,6 +104,7 @@ static bool ring_allows(const struct level_map *map, const struct mesh_levels *l
     return true;
 }
 
+/* Determines the admissible cells of `level` from the data of the next finer level. */
 static void level_map_find(struct level_map *map, const struct mesh_levels *l, int level)
 {
     const struct grid *g = &level_mesh_of(l, level)->grid;

@@ -49,7 +49,7 @@ static int64_t cell_of(const struct mesh *mesh, const struct particles *p, int64
     return I;
 }
 
-/* Marks the cells beside mirrors that are not on nodes of all levels. */
+/* Sets demand[I], i.e. requires level 0, for cells beside mirrors that are not on nodes of all levels. */
 static void demand_mirrors(const struct reference_frame *frame, const struct loads *loads, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -67,15 +67,16 @@ static void demand_mirrors(const struct reference_frame *frame, const struct loa
     }
 }
 
-/* Marks the cells beside slits, for whose extra nodes coarse cells have no counterpart. */
+/* Sets demand[I], i.e. requires level 0, for cells beside slits, for whose extra nodes coarse cells have no
+ * counterpart. */
 static void demand_slits(const struct mesh *mesh, uint8_t *demand)
 {
     for (int64_t I = 0; I < mesh->slits.first && mesh->slits.split; I++)
         for (int c = 0; c < 1 << mesh->grid.dim && mesh->slits.split[I]; c++) demand[I - mesh->corner[c]] = 1;
 }
 
-/* Marks the cells of level 0 inside and around a ring (demand: NULL, none). Returns true if one of them is part of a
- * coarse cell. */
+/* Marks the cells of level 0 inside and around the ring of a sif probe in `demand`, if that is not NULL. Returns true
+ * if one of these cells is part of a coarse cell at present. */
 static bool ring_cells(const struct reference_frame *frame, const struct frame_ring *ring, uint8_t *demand)
 {
     const struct mesh_levels *l = &frame->levels;
@@ -99,8 +100,8 @@ static bool ring_cells(const struct reference_frame *frame, const struct frame_r
     return coarse;
 }
 
-/* Marks the cells of all rings as ring_cells: sif probes need accelerations, which coarse cells have in some steps
- * only. */
+/* Marks the cells inside and around the rings of all sif probes, as ring_cells does: these probes need accelerations in
+ * every step, which coarse cells have in some steps only. Returns true if one is part of a coarse cell. */
 static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
 {
     bool coarse = false;
@@ -108,7 +109,7 @@ static bool rings_cells(const struct reference_frame *frame, uint8_t *demand)
     return coarse;
 }
 
-/* Adds marks to `mark`. more: NULL, none. */
+/* Sets mark[I] for all cells I of level 0 marked in `more`; does nothing if `more` is NULL. */
 static void marks_add(const struct mesh_levels *l, const uint8_t *more, uint8_t *mark)
 {
     for (int64_t I = 0; I < l->fine->grid.n && more; I++) mark[I] |= more[I];
@@ -141,7 +142,8 @@ static uint8_t *demand_make(const struct reference_frame *r, const struct partic
     return demand;
 }
 
-/* Marks the cells of level 0 in the marked cells of a level, and those around them. */
+/* Marks in `demand` all cells of level 0 that belong to the marked cells of `level`, and those within AROUND_STRESS
+ * cells. */
 static void demand_add(const struct mesh_levels *l, int level, const uint8_t *mark, uint8_t *demand)
 {
     const struct grid *fine = &l->fine->grid, *g = &level_mesh_of(l, level)->grid;
@@ -186,15 +188,17 @@ static bool any_merges(const struct mesh_levels *l, const uint8_t *level)
     return any;
 }
 
-/* Lowers `limit` to the levels that the thickness of the body allows, unless the scene gives the levels. */
+/* Reduces the upper bounds `limit` of the levels of cells to those that the thickness of the body allows, unless the
+ * scene prescribes the levels. */
 static void limit_by_room(const struct reference_frame *r, uint8_t *limit)
 {
     for (int64_t I = 0; I < r->mesh.grid.n && r->room && r->room_limits; I++)
         if (r->room[I] < limit[I]) limit[I] = r->room[I];
 }
 
-/* Computes the levels of the next steps; coarser cells than at present must represent the present motion. Changes
- * limit. */
+/* Computes the levels of all cells for the next steps, level [cells of level 0]. demand: cells that must be of level 0;
+ * limit: upper bounds, reduced here for cells that, if coarser than at present, would lose too much energy of motion.
+ * mass: of the body [kg]. */
 static void next_levels(struct reference_frame *r, const struct particles *p, real mass, const uint8_t *demand,
                         uint8_t *limit, uint8_t *level)
 {
@@ -214,7 +218,7 @@ void frame_levels_find_nodes(struct reference_frame *r, const struct particles *
     frame_find_exposed_points(r, p, bonds, loads);
 }
 
-/* Changes the levels; the change of energy is booked as damped. */
+/* Changes the levels of cells to `level`. The change of kinetic and strain energy is added to the damped energy. */
 static void change(struct run *e, const uint8_t *level)
 {
     struct reference_frame *r = e->frame;
@@ -274,7 +278,8 @@ status frame_levels_make(struct run *e, bool restored)
 
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
-/* Returns true if a coarse cell may have a point beyond SPLITS of the stress of conversion. */
+/* Returns true if the last forces showed a coarse cell in which a point may exceed SPLITS times the stress at which
+ * points convert. */
 static bool any_stressed(const struct mesh_levels *l)
 {
     bool any = false;
@@ -283,8 +288,9 @@ static bool any_stressed(const struct mesh_levels *l)
     return any;
 }
 
-/* Computes upper bounds of the levels for the next change: cells may become finer at once, and coarser after
- * consecutive checks. */
+/* Computes upper bounds of the levels of cells for the next change, limit [cells of level 0]. Cells may always become
+ * finer. They may become coarser only in calls with `checks`, after CALM_CHECKS such calls in which nothing required
+ * level 0 nearby. */
 static void limits_find(struct reference_frame *r, const struct particles *p, const struct loads *loads, bool checks,
                         uint8_t *limit)
 {
@@ -303,8 +309,8 @@ static void limits_find(struct reference_frame *r, const struct particles *p, co
     memory_free(stressed);
 }
 
-/* Marks the points again whose conversion was postponed after they lost a bond near coarse cells, which are finer now:
- * all material points in their cells. */
+/* Marks points that have lost a bond for conversion again, after it was postponed because coarse cells were too near,
+ * which have been split now. All material points of the recorded cells are marked. */
 static void lost_bonds_return(struct mesh_levels *l, struct particles *p)
 {
     if (!l->any_wanted) return;
@@ -348,7 +354,8 @@ void frame_levels_apply(struct run *e, const uint8_t *level)
     l->any_wanted = false;
 }
 
-/* Requests finer cells around a marked point near a coarse cell, and postpones its conversion if it is too near. */
+/* Requests finer cells around a point that is marked for conversion if a coarse cell is near. If it is too near for the
+ * bonds of the point, also removes the marks, so that the point converts later. */
 static void point_guard(struct mesh_levels *l, struct particles *p, int64_t i)
 {
     const unsigned marks = FLAG_STRESSED | FLAG_NEAR | FLAG_LOST_BOND;
@@ -373,6 +380,7 @@ void frame_levels_postpone_conversion(struct mesh_levels *l, struct particles *p
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the kinetic energy of all nodes of the reference frame, of all refinement levels [J]. */
 real frame_kinetic_energy(const struct reference_frame *reference)
 {
     return mesh_kinetic(&reference->mesh) + levels_kinetic_energy(&reference->levels);

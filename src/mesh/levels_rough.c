@@ -3,10 +3,10 @@
 
 #include "levels_parts.h"
 
-/* Returns the mean energy per mass [J/kg] of the differences between the motion of the nodes of level 0 in the cell of
- * `level` with indices q and that of its corners, plus the difference of the squares of velocities at its corners and
- * at those of its parts: where velocities vary much from corner to corner, lumped masses have another kinetic energy.
- * Displacements contribute by their strain over half the cell. */
+/* Returns the energy per mass that a cell of `level`, with indices q, would lose if the nodes of level 0 inside it
+ * moved by interpolation between its corners [J/kg]. It is the larger one of two estimates: the mean energy of the
+ * differences of velocity and displacement (as a strain over half the cell), and the change of kinetic energy by
+ * lumping the mass at the corners, which matters where velocities vary much between them. */
 static real departure(const struct mesh_levels *l, int level, const int64_t *q)
 {
     const struct mesh *fine = l->fine;

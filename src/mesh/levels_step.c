@@ -10,7 +10,8 @@ int levels_highest_due(const struct mesh_levels *l, int64_t step)
     return due;
 }
 
-/* Sets the displacements of ghosts, which the forces of their cells need. */
+/* Sets the displacements of the ghosts of a level, nodes of its mesh at positions of nodes of the next finer level, to
+ * those of the finer nodes: cells at the interface need them to compute forces. */
 static void ghosts_displace(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];
@@ -30,6 +31,7 @@ void levels_update_ghosts(struct mesh_levels *l, int level)
             m->mesh.grid.velocity[d][m->ghost[k].coarse] = fine->grid.velocity[d][m->ghost[k].fine];
 }
 
+/* Returns the mean of a nodal field over the masters of a hanging node. */
 static real mean_of(const struct mesh_hanging *h, const real *field)
 {
     real sum = 0;
@@ -63,8 +65,8 @@ static void hanging_fold(struct mesh_levels *l, int level)
         }
 }
 
-/* Transfers the forces of coarse cells on ghosts to the nodes of the finer level: twice, as its steps are half as
- * long. */
+/* Adds the forces of coarse cells on their ghosts to the finer nodes at the same positions, twice, as the steps of the
+ * finer level are half as long. */
 static void ghosts_fold(struct mesh_levels *l, int level)
 {
     const struct mesh_level *m = &l->at[level];

@@ -121,7 +121,7 @@ static enum cell_kind cell_kind(const struct mesh *mesh, const struct particles 
     return there == 0 ? CELL_EMPTY : there == 1 << dim && alike ? CELL_WHOLE : CELL_PARTIAL;
 }
 
-/* Adds whole cell I to the last run of the band, or starts a run. */
+/* Appends whole cell I to the last row of consecutive cells of one material (run) of the band, or starts a new row. */
 static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 {
     struct mesh_run *last = mesh->runs > mesh->band[mesh->bands] ? &mesh->run[mesh->runs - 1] : NULL;
@@ -136,7 +136,8 @@ static void run_add(struct mesh *mesh, int64_t I, uint8_t material)
 /* Returns the number of layers of cells, along the last axis, in a band. Bands that are not adjacent share no node. */
 static int64_t band_layers(int dim) { return dim == 1 ? INT64_MAX : dim == 2 ? 4 : 2; }
 
-/* Rows of nodes have one span each, which may contain nodes without mass. */
+/* Stores for each row of nodes the range from the first to behind the last node with mass (mesh->span). The range may
+ * contain nodes without mass. */
 void mesh_spans_make(struct mesh *mesh)
 {
     const struct grid *g = &mesh->grid;
@@ -155,7 +156,7 @@ static uint8_t material_of(const struct mesh *mesh, const struct particles *p, i
     return p ? p->material[mesh->point[I << mesh->grid.dim]] : mesh->material[I];
 }
 
-/* Makes the runs of whole cells, band by band, and the list of partial cells. */
+/* Lists the rows of consecutive whole cells of one material (runs), band by band, and the partial cells. */
 static void cells_list(struct mesh *mesh, const struct particles *p)
 {
     const struct grid *g = &mesh->grid;
@@ -175,7 +176,8 @@ static void cells_list(struct mesh *mesh, const struct particles *p)
     mesh->band[mesh->bands] = mesh->runs;
 }
 
-/* Determines the kinds of the cells marked in `dirty` (NULL: of all), and rebuilds runs and partial cells. */
+/* Determines the kinds of the cells marked in `dirty` (NULL: of all cells) from their points, and rebuilds the rows of
+ * whole cells and the list of partial cells. s: elastic constants and partial stresses. */
 static void cells_sort_out(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                            const uint8_t *dirty)
 {
@@ -219,6 +221,7 @@ void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- set-up ------------------------------------------------------------------------------------------------------ */
 
+/* Allocates all arrays of a mesh that covers the box from..to [m], without points or cells. */
 status mesh_box_make(struct mesh *mesh, const struct grid *like, const real *from, const real *to,
                      const struct particles *p, const struct mesh_source *source)
 {

@@ -3,12 +3,12 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Marks of points that bonds or loads use, and of the cells that contain them. */
+/* Flags of points that bonds or loads use [particles], and of the cells that contain such points [cells]. */
 struct exposure {
     uint8_t *point, *cell;
 };
 
-/* Marks a point; several threads may mark the same one. */
+/* Sets the flags of point i and of its cell. Atomic, since several threads may set the same flag. */
 static void point_expose(struct exposure *e, const struct mesh *mesh, int64_t i)
 {
 #pragma omp atomic write
@@ -36,7 +36,8 @@ static bool meets_images(const struct bonds *b, const struct particles *p, int64
     return first < 0 || first + LANES > p->n;
 }
 
-/* Appends cell I to the exposed cells. */
+/* Appends cell I to the list of exposed cells, with its exposed points as one bit per quarter point. exposed: flags of
+ * points. */
 static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
 {
     const int corners = 1 << mesh->grid.dim;
@@ -49,7 +50,8 @@ static void cell_expose(struct mesh *mesh, const uint8_t *exposed, int64_t I)
     mesh->exposed_list[mesh->exposed++] = (struct mesh_exposed){(int32_t)I, (uint8_t)places};
 }
 
-/* Marks the points that the bonds of a row block use. */
+/* Sets the flags of the points that have intact bonds in row block g, and of those whose images are neighbours
+ * there. */
 static void row_block_expose(struct exposure *e, const struct mesh *mesh, const struct particles *p,
                              const struct bonds *b, const struct loads *l, int64_t g)
 {

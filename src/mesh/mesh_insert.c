@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "mesh_parts.h"
 
-/* Nodes around the inserted points, in ascending order. */
+/* Indices of the nodes at the corners of the cells with inserted points, in ascending order without duplicates. */
 struct nodes {
     int64_t n;
     int32_t *at;
@@ -37,8 +37,8 @@ static real kinetic_of(const struct mesh *mesh, const struct nodes *t)
     return sum;
 }
 
-/* Inserts n listed points. The momentum of nodes and points is summed at the nodes (grid.momentum is used for this
- * alone). */
+/* Makes n listed particles points of the mesh, and recomputes mass and velocity of the nodes *t around them such that
+ * momentum is conserved (grid.momentum is used for this alone). */
 static void points_enter(struct mesh *mesh, struct particles *p, const struct nodes *t, const int32_t *list, int64_t n)
 {
     const int dim = p->dim;

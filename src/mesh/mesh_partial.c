@@ -12,8 +12,8 @@
 
 enum { TERMS_MAX = 3 };
 
-/* A term of a mode in the strain: the mode, times `factor`, times the signs of the coordinates along the axes in `set`,
- * is added to symmetric component `row`. */
+/* A term of the strain field of a mode: `factor` times the amplitude of the mode, times the signs of the coordinates
+ * along the axes in the bit set `set`, is added to symmetric component `row` of the strain. */
 struct mode_term {
     uint8_t row, set;
     real factor;
@@ -36,8 +36,8 @@ static int component(int dim, int i, int j)
     return -1;
 }
 
-/* Makes the terms of the bending modes: mode M of component i adds to the slope of u_i along each axis of M the product
- * of the coordinates along the other axes of M. */
+/* Lists the strain terms of the bending modes. Mode M (a bit set of axes) of displacement component i is the product of
+ * the coordinates along the axes of M: its slope along each of these axes is the product of the other coordinates. */
 static void bends_terms(struct mode_terms *t, int dim)
 {
     for (int M = 3; M < 1 << dim; M++)
@@ -61,7 +61,7 @@ static void modes_terms(struct mode_terms *t, int dim)
 
 /* ---- stiffness of one cell --------------------------------------------------------------------------------------- */
 
-/* Input for the stiffness of cells. */
+/* Parameters of the computation of stiffness matrices of partial cells. */
 struct cell_maker {
     const struct mesh *mesh;
     const struct particles *p;
@@ -101,8 +101,9 @@ static void point_constants(const struct cell_maker *c, int32_t i, real *D)
     }
 }
 
-/* Computes for each set of axes the sum over the points of D/corners times the signs of their coordinates along these
- * axes [Pa], by butterflies along one axis after the other. */
+/* Computes for each set of axes, a bit set, the sum over the points of cell I of D/corners times the signs of their
+ * coordinates along these axes [Pa], by butterflies along one axis after the other. D: matrix of stress by strain of a
+ * point. */
 static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX])
 {
     const int corners = 1 << c->dim, size = c->columns * c->columns;
@@ -121,7 +122,8 @@ static void cell_sums(const struct cell_maker *c, int64_t I, real sum[CORNERS_MA
             }
 }
 
-/* Returns an entry of the stiffness: force on mode `to` by mode `by` [Pa]. */
+/* Returns an entry of the stiffness matrix of a cell: the force on mode `to` by a unit amplitude of mode `by` [Pa].
+ * sum: from cell_sums. */
 static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_MAX][SYM_MAX * SYM_MAX],
                                   const struct mode_terms *to, const struct mode_terms *by)
 {
@@ -133,8 +135,9 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
     return value;
 }
 
-/* Computes the stiffness K of cell I in one lane of its group. D is symmetric up to round-off; K is bitwise
- * symmetric. */
+/* Computes the upper half of the stiffness matrix of partial cell I by modes. K: its first entry; further ones are
+ * LANES apart, since the matrices of LANES cells are interleaved. K is used as symmetric: D is symmetric up to
+ * round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
@@ -146,6 +149,7 @@ static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *
 
 /* ---- points of PD-MPM bonds -------------------------------------------------------------------------------------- */
 
+/* Frees the lists of points with PD-MPM bonds in partial cells. */
 static void ends_free(struct mesh *mesh)
 {
     memory_free(mesh->ends);
@@ -154,8 +158,9 @@ static void ends_free(struct mesh *mesh)
     mesh->ends = NULL, mesh->end = NULL, mesh->end_share = NULL;
 }
 
-/* Computes the contribution of each mode to the mean strain of the family of a point at a quarter point, share[modes]
- * [1]: by the part of the strain that the bonds of the point do not measure (local: of struct partial_stress). */
+/* Computes by how much each mode of a cell contributes to the mean strain of the family of a PD-MPM point at quarter
+ * point `place`, share [modes] [1]. local: part of the strain that the bonds of the point do not measure (L of struct
+ * partial_stress). */
 static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
@@ -174,7 +179,8 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
     return i >= 0 && partial_end(c->source->partial, i, c->dim) ? c->source->partial->index[i] : -1;
 }
 
-/* Appends the points of partial cell k with state-based PD-MPM bonds to mesh->end, after the first *n. */
+/* Appends the points with state-based PD-MPM bonds in partial cell k to the list mesh->end, from index *n on, which is
+ * advanced, with their shares in the modes of the cell. */
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
@@ -208,6 +214,8 @@ static void mesh_partial_ends_make(struct mesh *mesh, const struct cell_maker *c
 
 /* ---- all partial cells ------------------------------------------------------------------------------------------- */
 
+/* Appends cell I to the list of partial cells of the mesh, cells with missing points, partial stresses, several
+ * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
 void mesh_partial_add(struct mesh *mesh, int64_t I)
 {
     GROW("mesh.partial_cell", mesh->partial_cell, mesh->partial_cells + 1);
@@ -237,7 +245,7 @@ void mesh_partial_free(struct mesh *mesh)
     mesh->stiffness = NULL;
 }
 
-/* Returns the material of the point of cell I with the lowest trigger. */
+/* Returns the material of the points of cell I that has the lowest conversion stress. */
 static uint8_t partial_material(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
                                 int64_t I)
 {
@@ -250,6 +258,7 @@ static uint8_t partial_material(const struct mesh *mesh, const struct particles 
     return (uint8_t)least;
 }
 
+/* Returns the parameters of the computation of stiffness matrices. Release `whole` with memory_free. */
 static struct cell_maker maker_of(const struct mesh *mesh, const struct particles *p, const struct mesh_source *s)
 {
     const int dim = p->dim, n = symmetric_count(dim);
@@ -270,12 +279,15 @@ static real *lane_of(real *from, int64_t cell, int each)
     return from ? from + (cell / LANES * each) * LANES + cell % LANES : NULL;
 }
 
+/* Copies `each` numbers of one partial cell to another one, LANES apart; from NULL: sets them to 0; to NULL:
+ * nothing. */
 static void lane_copy(real *to, real *from, int each)
 {
     for (int k = 0; k < each && to; k++) to[k * LANES] = from ? from[k * LANES] : 0;
 }
 
-/* Fills the last group of cells with its first cell, which has no stiffness in these lanes. */
+/* Repeats the first cell of the last group of LANES partial cells until the group is full. The repeated cells have no
+ * stiffness and are not counted. */
 static void groups_fill(struct mesh *mesh)
 {
     const int64_t whole = mesh_groups(mesh) * LANES, partial_cells = mesh->partial_cells;
@@ -283,8 +295,8 @@ static void groups_fill(struct mesh *mesh)
     mesh->partial_cells = partial_cells;
 }
 
-/* Returns the index of each partial cell among the old ones, -1: its stiffness must be computed. The caller frees the
- * result. */
+/* Returns for each partial cell its index in the previous list, or -1 if its stiffness must be computed: it is new or
+ * marked in `dirty` (NULL: all are). The caller frees the result. */
 static int64_t *origins(const struct mesh *mesh, const struct mesh_partial *old, const uint8_t *dirty)
 {
     int64_t *from = NEW("mesh.from", mesh->partial_cells, int64_t);
@@ -307,14 +319,15 @@ static real *numbers_make(const char *label, const struct mesh *mesh, int64_t ea
     return numbers;
 }
 
+/* Returns true if `each` numbers per cell are bitwise equal in groups g and h of partial cells. */
 static bool numbers_alike(const real *of, int64_t g, int64_t h, int each)
 {
     const int64_t size = (int64_t)each * LANES;
     return arrays_equal(of + g * size, of + h * size, size, sizeof *of);
 }
 
-/* Finds groups of equal stiffness (mesh->alike). Cells that an edge of the body cuts in the same way follow each other,
- * so that each group is compared with the preceding one. */
+/* Stores for each group of LANES partial cells the first of the directly preceding groups with bitwise equal stiffness
+ * (mesh->alike), itself if there is none. Cells that an edge of the body cuts in the same way follow each other. */
 static void alike_find(struct mesh *mesh, int modes)
 {
     const int64_t groups = mesh_groups(mesh);
@@ -357,8 +370,8 @@ void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struc
     memory_free(old->stiffness);
 }
 
-/* Detaches the groups marked in `changed` from mesh->alike, and groups that refer to them: their stiffness may differ
- * now. */
+/* Makes the groups of partial cells marked in `changed`, and those that refer to them, use their own stiffness again
+ * (mesh->alike), since it may differ now. */
 static void alike_part(struct mesh *mesh, const uint8_t *changed)
 {
     for (int64_t g = mesh_groups(mesh) - 1; g >= 0; g--)

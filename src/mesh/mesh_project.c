@@ -10,7 +10,8 @@ enum { ITERATIONS_MOST = 500 };
 enum { ROW_NONE = -1, ROW_BESIDE = -2 };
 #define TOLERANCE 1e-15 /* tolerance of the residual [largest nodal momentum] */
 
-/* Data of a projection. node: marks of the unknown nodes, others are unchanged; NULL: all nodes are unknown. */
+/* Parameters of a projection from points to nodes, and the mass matrix. node: flags of the nodes whose values are
+ * computed, others do not change; NULL: all nodes with mass. */
 struct projection {
     const struct mesh *mesh;
     const struct particles *p;
@@ -31,6 +32,7 @@ static ALWAYS_INLINE real cell_sum(const struct projection *m, int64_t cell, int
     return sum;
 }
 
+/* Returns the number of nodes in the cells around a node, itself included. */
 static int nodes_around(int dim) { return dim == 1 ? 3 : dim == 2 ? 9 : 27; }
 
 /* Returns the index of corner k of a cell among the 3^dim nodes around a node that is corner c of the cell. */
@@ -41,7 +43,8 @@ static int node_around(int dim, int c, int k)
     return at;
 }
 
-/* Computes the sums of m_p N_I N_J over the points around node I, for the nodes J around it. */
+/* Computes row I of the consistent mass matrix, row [3^dim]: the sums of m_p N_I N_J over the points around node I, for
+ * the nodes J around it. */
 static void row_make(const struct projection *m, int64_t I, real *row)
 {
     const int dim = m->p->dim;
@@ -53,7 +56,8 @@ static void row_make(const struct projection *m, int64_t I, real *row)
     }
 }
 
-/* Returns the product of a row of the mass matrix with nodal values. from: value at the node of the row. */
+/* Returns the product of a row of the mass matrix with nodal values. from: address of the value at the node of the row;
+ * across, layer: distances between rows and layers of nodes in the array. */
 static ALWAYS_INLINE real row_product(const real *row, const real *from, int64_t across, int64_t layer, const int dim)
 {
     real sum = 0;
@@ -73,6 +77,8 @@ static ALWAYS_INLINE real plane_product(const real *from, int64_t row)
     return 0.375 * (line_product(from - row) + line_product(from + row)) + 1.25 * line_product(from);
 }
 
+/* Returns the product of a row of the mass matrix with nodal values if all points around the node exist and have mass
+ * 1. */
 static ALWAYS_INLINE real inner_product(const real *from, int64_t row, int64_t layer, const int dim)
 {
     if (dim == 1) return line_product(from);
@@ -86,7 +92,8 @@ static bool is_unknown(const struct projection *m, int64_t I)
     return m->mesh->inverse_mass[I] > 0 && (!m->node || m->node[I]);
 }
 
-/* Returns the sum of m_p N_I value_p over the points around node I, cell by cell; 0 if the node is not unknown. */
+/* Returns the sum of m_p N_I value_p over the points around node I, cell by cell; 0 if the value at the node is not
+ * computed. */
 static ALWAYS_INLINE real outer_sum(const struct projection *m, int64_t I, const real *value, const int dim)
 {
     real sum = 0;
@@ -146,6 +153,7 @@ static ALWAYS_INLINE void nodes_gather(const struct projection *m, const real *v
     }
 }
 
+/* Calls nodes_gather in the dimension of the particles. */
 static void gather(const struct projection *m, const real *value, const real *from, real *to)
 {
 #define CASE(D)                                                                                                        \
@@ -157,7 +165,8 @@ static void gather(const struct projection *m, const real *value, const real *fr
     }
 }
 
-/* Returns the mass of a point around node I if all its points exist and have equal masses, else 0 [kg]. */
+/* Returns the common mass of the points around node I [kg], or 0 if a point is missing, masses differ, a slit is near,
+ * or the value at the node is not computed. */
 static real mass_around(const struct projection *m, int64_t I)
 {
     const int dim = m->p->dim;
@@ -179,7 +188,8 @@ static void masses_find(struct projection *m)
     for (int64_t I = 0; I < m->mesh->grid.n; I++) m->mass[I] = mass_around(m, I);
 }
 
-/* Makes the rows of the mass matrix for unknown nodes that inner_product does not cover. */
+/* Computes the rows of the mass matrix for all computed nodes with missing or unequal points around them, for which
+ * inner_product is not valid. Nodes beside slits get no row. */
 static void mesh_project_rows_make(struct projection *m)
 {
     const int64_t n = m->mesh->grid.n, far = m->mesh->corner[(1 << m->p->dim) - 1];
@@ -210,6 +220,7 @@ static void product_block(const void *context, int64_t first, int64_t end, real 
     for (int64_t I = first; I < end && !q->weight; I++) sum[0] += q->a[I] * q->b[I];
 }
 
+/* Returns the sum of a b weight over n nodes; weight NULL: 1. */
 static real product(const real *a, const real *b, const real *weight, int64_t n)
 {
     real sum;
@@ -252,6 +263,7 @@ static void project(const struct projection *m, const real *value, real *x)
     memory_free(q);
 }
 
+/* Projects the values at points, by component, to the nodes. m: its arrays are allocated and freed here. */
 static void project_all(struct projection m, real *const *value, real *const *node)
 {
     masses_find(&m);

@@ -13,8 +13,9 @@
 /* largest number of pieces around a node: of 2^dim cells as many each */
 enum { PIECES_MOST = CORNERS_MAX * CORNERS_MAX };
 
-/* An extra node or cell under construction. Pieces around a node have bits 8 c + g: piece g of the cell of which the
- * node is corner c; an extra cell is piece `piece` of cell `base`. */
+/* An extra node or cell under construction, at the position of node or cell `base` of the grid. Of a node: the pieces
+ * of cells around it, one bit each (8 c + g: piece g of the cell of which the node is corner c). Of a cell: the number
+ * of its piece. open: as in struct mesh_slits. */
 struct extra {
     int64_t base;
     uint64_t pieces;
@@ -56,6 +57,7 @@ static bool positions_parted(const struct slit_maker *m, int32_t i, const real *
     return false;
 }
 
+/* Returns true if a slit or void separates the reference positions of particles i and j. */
 static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -64,7 +66,7 @@ static bool points_parted(const struct slit_maker *m, int32_t i, int32_t j)
     return positions_parted(m, i, a, b);
 }
 
-/* Marks the cells within two of cell I. */
+/* Marks the cells at most two cells away from cell I. */
 static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
 {
     enum { FAR = 2 };
@@ -77,7 +79,7 @@ static void void_mark(const struct grid *g, int64_t I, uint8_t *mark)
             }
 }
 
-/* Returns true if a slit or void is within two cells of node I. */
+/* Returns true if a slit, or a particle near a void, is within two cells of node I. */
 static bool slit_near(const struct slit_maker *m, int64_t I)
 {
     const struct grid *g = &m->mesh->grid;
@@ -89,7 +91,8 @@ static bool slit_near(const struct slit_maker *m, int64_t I)
     return false;
 }
 
-/* Divides the points of cell I into pieces; all but the first become extra cells. */
+/* Divides the points of cell I into pieces that slits separate from each other; adds an extra cell for each piece but
+ * the first. */
 static void cell_divide(struct slit_maker *m, int64_t I)
 {
     const int corners = 1 << m->p->dim;
@@ -112,28 +115,31 @@ static void cell_divide(struct slit_maker *m, int64_t I)
 
 /* ---- groups of pieces around a node ------------------------------------------------------------------------------ */
 
+/* Returns the cell that contains piece number `bit` around node I. */
 static int64_t cell_of_bit(const struct slit_maker *m, int64_t I, int bit)
 {
     return I - m->mesh->corner[bit / CORNERS_MAX];
 }
 
-/* Returns true if quarter points q and r of cells of which a node is corners c and k face each other across the common
- * face or edge of the cells. A node is a lower corner of the cell above it. */
+/* Returns true if quarter point q of one cell and quarter point r of another one are opposite each other across the
+ * face or edge that the cells share. c, k: numbers of the corner of both cells at which a common node is. */
 static bool quarter_points_face(int q, int r, int c, int k)
 {
     const int apart = c ^ k; /* directions in which the cells follow each other */
     return ((q ^ r) & ~apart) == 0 && (q & apart) == (c & apart) && (r & apart) == (k & apart);
 }
 
-/* Returns the point of piece `bit` around node I at quarter point q, or -1. */
+/* Returns the particle at quarter point q of a cell around node I if it belongs to piece `bit` around the node, else
+ * -1. */
 static int32_t piece_point(const struct slit_maker *m, int64_t I, int bit, int q)
 {
     const int64_t place = (cell_of_bit(m, I, bit) << m->p->dim) + q;
     return m->piece[place] == bit % CORNERS_MAX ? m->point[place] : -1;
 }
 
-/* Returns true if two pieces around node I are connected by points that face each other or, without such points, by
- * any. */
+/* Returns true if two pieces around node I are connected, i.e. no slit passes between a point of one and a point of the
+ * other. Tests points that are opposite each other across the boundary of the cells; only if there are none, all
+ * points. */
 static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int other)
 {
     const int corners = 1 << m->p->dim, c = one / CORNERS_MAX, k = other / CORNERS_MAX;
@@ -150,7 +156,8 @@ static bool pieces_joined(const struct slit_maker *m, int64_t I, int one, int ot
     return false;
 }
 
-/* Returns the pieces of `open` that are connected with the lowest of them, one bit each. */
+/* Returns the set of pieces around node I, one bit each, that are connected with the lowest piece in the set `open`,
+ * directly or through other pieces of it. */
 static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
 {
     uint64_t group = open & -open;
@@ -165,7 +172,7 @@ static uint64_t group_grow(const struct slit_maker *m, int64_t I, uint64_t open)
     return group;
 }
 
-/* Returns true if point i is separated from its image in a plane. */
+/* Returns true if a slit or void separates point i from its mirror image in a plane. */
 static bool image_parted(const struct slit_maker *m, int32_t i, const struct mirror_plane *plane)
 {
     real a[DIM_MAX], b[DIM_MAX];
@@ -175,8 +182,8 @@ static bool image_parted(const struct slit_maker *m, int32_t i, const struct mir
     return positions_parted(m, i, a, b);
 }
 
-/* Returns true if the pieces of a group around node I are connected with their images in a plane through the node: by
- * points that face the plane or, without such points, by any. */
+/* Returns true if a connected set of pieces around node I (`group`, one bit each) is connected with its mirror image in
+ * a plane through the node. Tests points beside the plane; only if there are none, all points. */
 static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, const struct mirror_plane *plane)
 {
     bool faced = false;
@@ -193,8 +200,8 @@ static bool image_joined(const struct slit_maker *m, int64_t I, uint64_t group, 
     return false;
 }
 
-/* Returns the axes of mirrors through node I, one bit each, beyond which slits separate a group of pieces from its
- * image. */
+/* Returns the axes of the mirror planes through node I, one bit each, at which slits separate a connected set of pieces
+ * (`group`, one bit each) from its image. */
 static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
 {
     const struct grid *g = &m->mesh->grid;
@@ -207,7 +214,8 @@ static uint8_t group_open(const struct slit_maker *m, int64_t I, uint64_t group)
     return open;
 }
 
-/* Divides the pieces around node I into groups; all but the first have an extra node. */
+/* Divides the pieces around node I into connected sets; adds an extra node for each set but the first, which keeps node
+ * I. */
 static void node_divide(struct slit_maker *m, int64_t I)
 {
     uint64_t open = 0;
@@ -227,7 +235,7 @@ static void node_divide(struct slit_maker *m, int64_t I)
     m->split[I] = m->node.n > before;
 }
 
-/* Finds the points of the cells near slits, and divides cells and nodes there. */
+/* Finds the quarter point of each particle, then divides the cells and nodes near slits and voids. */
 static void slits_divide(struct slit_maker *m)
 {
     const int64_t n = m->mesh->grid.n;
@@ -247,18 +255,19 @@ static void slits_divide(struct slit_maker *m)
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the number of extra nodes or cells in a row: not at its ends, beyond which whole vectors are read and
- * written. */
+/* Returns how many extra nodes or cells are stored in a row of nodes: LANES fewer than it has, since whole vectors are
+ * read and written beyond its ends. */
 static int64_t row_room(const struct grid *g) { return g->count[0] - LANES; }
 
-/* Returns the index of extra node or cell k. */
+/* Returns the index in the arrays of nodes and cells of the k-th extra node or cell. */
 static int64_t extra_index(const struct mesh *mesh, int64_t k)
 {
     const struct grid *g = &mesh->grid;
     return mesh->slits.first + k / row_room(g) * g->count[0] + k % row_room(g);
 }
 
-/* Returns the separate list of corners of cell I, allocated if necessary. at: cell of the grid at its position. */
+/* Returns the list of corners of cell I. A cell without a list of its own gets one, with the corners of grid cell
+ * `at`. */
 static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -271,14 +280,15 @@ static int32_t *corners_of(struct mesh *mesh, int64_t I, int64_t at)
     return s->corner + (int64_t)s->cell[I] * corners;
 }
 
-/* Returns the cell of piece g of cell I. */
+/* Returns the cell that piece g of grid cell I has become. */
 static int64_t piece_cell(const struct mesh *mesh, int64_t I, int g)
 {
     while (g-- > 0) I = mesh->slits.next[I];
     return I;
 }
 
-/* Sets the positions of the extra cells: chains from the cells that they are pieces of, and cells of their points. */
+/* Enters the extra cells in the tables: links them to the cells from which they were divided, with the corners of
+ * these, and stores the cell of each point of a divided cell. */
 static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -299,7 +309,7 @@ static void tables_cells(struct mesh *mesh, const struct slit_maker *m)
     }
 }
 
-/* Sets the positions of the extra nodes, and the cells of which they are corners. */
+/* Enters the extra nodes in the tables: their positions, and the cells of which they are corners. */
 static void tables_nodes(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -323,7 +333,8 @@ static int32_t *none_make(const char *label, int64_t n)
     return all;
 }
 
-/* Stores extra nodes and cells behind the box, which had s->first nodes. */
+/* Allocates and fills the tables of extra nodes and cells, which are numbered from s->first on, behind those of the
+ * box. */
 static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
 {
     struct mesh_slits *s = &mesh->slits;
@@ -344,7 +355,7 @@ static void slits_tables_make(struct mesh *mesh, const struct slit_maker *m)
     tables_nodes(mesh, m);
 }
 
-/* Extends the box of nodes by rows in the slowest direction for n extra nodes or cells. */
+/* Extends the box from..to [m] of a grid along its last axis until n extra nodes or cells fit behind it. */
 static status box_extend(struct grid *g, const real *from, const real *to, int64_t n)
 {
     const int last = g->dim - 1;
@@ -388,6 +399,8 @@ status mesh_slits_make(struct mesh *mesh, const struct particles *p, const struc
 
 /* ---- blocks and groups ------------------------------------------------------------------------------------------- */
 
+/* Records that a block of nodes has extra nodes or cells positioned in another block. extra, base: a node or cell of
+ * both. */
 static void link_add(struct mesh *mesh, int64_t extra, int64_t base)
 {
     struct mesh_slits *s = &mesh->slits;

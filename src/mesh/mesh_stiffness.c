@@ -45,6 +45,7 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
 
 /* ---- time step --------------------------------------------------------------------------------------------------- */
 
+/* Parameters of mesh_scaled_stiffness: stiffness of a cell, scaled by its masses, and its number of rows. */
 struct scaled_cell {
     const real *K;
     int n;
@@ -85,7 +86,8 @@ static unsigned mesh_stiffness_places_of(const struct mesh *mesh, int64_t I)
     return places;
 }
 
-/* Returns true if points of cell I leave a part of their stress to bonds: the cell is softer than without bonds. */
+/* Returns true if a point of cell I has a partial stress, i.e. leaves a part of its stress to bonds: the cell is then
+ * softer than without bonds. */
 static bool leaves_stress(const struct mesh *mesh, const struct partial_stress *partial, int64_t I)
 {
     if (!partial || !partial->index) return false;

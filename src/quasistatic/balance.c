@@ -98,11 +98,11 @@ static void account_start(struct account *a, const struct statics *s, const stru
     }
 }
 
-/* Adds the work of supports and of applied forces over the solution to that of the loads. The work is the mean of the
- * initial and final force times the displacement (trapezoidal rule), plus the work of loads beyond that mean along the
- * curved path of the solver (`bent`), unless contact changes the forces. before: initial positions of the particles
- * [dim][particles, m]. Frees the storage of *a. Returns the difference between the trapezoidal rule and the work with
- * either the initial or the final force, as an estimate of its uncertainty [J]. */
+/* Adds the work of supports and of applied forces over the solution to that of the loads: the mean of the initial and
+ * final force times the displacement (trapezoidal rule). Without contact (`touched` false), adds the work of loads
+ * beyond that mean along the curved path of the solver (`bent`). before: initial positions of the particles
+ * [dim][particles, m]. Frees the storage of *a. Returns an estimate of the error of the work [J], its difference from
+ * the work with the initial or the final force alone. */
 static real account_end(struct account *a, const struct statics *s, const struct particles *p, struct loads *loads,
                         bool touched, real *const *before)
 {
@@ -128,11 +128,11 @@ static real account_end(struct account *a, const struct statics *s, const struct
     return fabs(range[0]) + fabs(range[1]);
 }
 
-/* Corrects the losses of the solver since `lost` [J]. If points yield or faces come into contact, forces do not change
- * linearly over the increment, and the work of loads may differ from the trapezoidal rule by up to `range` [J]; a
- * difference within this range is moved from the losses to the work of loads. Only the remainder is lost energy. A gain
- * of energy beyond it shows that faces have passed through each other and that contact holds the body in a state that
- * the loads cannot have reached. in_contact: contact at the start or the end. Returns true in that case. */
+/* Corrects the energy that the solver has lost since its losses were `lost` [J]. If points yield or faces come into
+ * contact, forces do not change linearly over the increment, and the work of loads is known up to +-`range` [J] only: a
+ * difference within this range is moved from the losses to the work of loads. in_contact: contact at the start or the
+ * end. Returns true if energy was gained beyond this range in contact: faces have then passed through each other, into
+ * a state that the loads cannot have reached. */
 static bool losses_store(struct equilibrium *q, struct loads *loads, real lost, real range, bool in_contact,
                          bool yields)
 {
@@ -237,7 +237,8 @@ static status solve_whole(struct run *e, real t)
                       (long long)e->clock.step + 1, t);
 }
 
-/* Checks for an interruption before the solution, so that the checkpoint of the previous load step stays valid. */
+/* Finds the equilibrium at pseudo-time t [s] and stores the largest stretch ratio there. Returns INTERRUPTED, before
+ * the solution, if the user has stopped the run, so that the checkpoint of the previous load step stays valid. */
 status equilibrium_at(struct run *e, real t)
 {
     if (e->report->stop && *e->report->stop)

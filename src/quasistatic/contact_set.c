@@ -97,7 +97,9 @@ void statics_contact_begin(struct run *e, real t)
     q->reach = contact_list_reach(e->contact);
 }
 
-/* Computes the norm of the loads from the final contact forces, not from forces in intermediate states. */
+/* Updates contact at the end of a solution: searches for pairs if particles have moved far, else marks active contacts
+ * by their overlap. Recomputes the norm of the loads from the final contact forces, not from those of intermediate
+ * states. Returns true if no contact has changed, so that the equilibrium is valid. engine: the run. */
 bool statics_contact_settle(void *engine)
 {
     struct run *e = engine;

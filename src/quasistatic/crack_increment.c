@@ -84,9 +84,10 @@ static int64_t breaks_most(const struct scene *s, real front)
 
 /* ---- increments -------------------------------------------------------------------------------------------------- */
 
-/* Breaks the bonds of one more crack increment at the present pseudo-time, with an equilibrium after each group of
- * bonds, appends them to the list of the next increment, and stores its energies in *a. What SIF-driven fronts in space
- * leave of a body at its far side breaks in larger groups, since no load depends on its path. */
+/* Breaks the bonds of one crack increment at the present pseudo-time, with an equilibrium after each group of bonds,
+ * and appends them to the list of the next increment. Stores the energy cost of the bonds and the energy release in *a.
+ * In space, if fronts are SIF-driven, the part of the body that is left at its far side breaks in larger groups, since
+ * no load depends on its path. */
 static status increment_break_try(struct run *e, struct crack_increment *a)
 {
     struct statics *s = e->statics;
@@ -120,8 +121,8 @@ static bool pre_crack_unbroken(const struct tips *t, const struct statics *stati
     return any && statics->behind.cost == 0;
 }
 
-/* Determines the next crack increment under the present loads: by the SIF-driven tips if there are any, else, or if
- * bonds exceed their critical stretch elsewhere, by a trial in which bonds break. */
+/* Determines the next crack increment under the present loads: by the SIF-driven tips if there are any; without them,
+ * or if bonds elsewhere exceed their critical stretch, by a trial in which bonds break. */
 static status increment_find_now(struct run *e)
 {
     struct statics *s = e->statics;
@@ -176,9 +177,9 @@ static status increment_find_at_due(struct run *e)
     return found == OK ? equilibrium_at(e, from) : found;
 }
 
-/* Evaluates the increment again at the load at which it is due if anything is in contact: the energy release is then
- * not proportional to the square of the load size, as supports or rigid bodies move some distance before contact, or
- * crack faces close. */
+/* Determines the next crack increment and the load size at which it is due. If anything is in contact, the increment is
+ * evaluated again at that load size: the energy release is then not proportional to the square of the load size, as
+ * supports or rigid bodies move some distance before contact, or crack faces close. */
 status crack_increment_find(struct run *e)
 {
     TRY(increment_find_now(e));

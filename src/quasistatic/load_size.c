@@ -15,7 +15,8 @@ static real rigid_displacement2(const struct rigid_set *r, int n, real t)
     return sum;
 }
 
-/* Returns the norm of the applied forces only if supports and rigid bodies do not move. */
+/* Returns the load size at pseudo-time t [s]: the norm of the prescribed displacements of supports and rigid bodies
+ * [m], or, if these do not move, the norm of the applied forces [N]. */
 real statics_load_size(const struct run *e, real t)
 {
     real sum = 0, forces = 0;
@@ -53,6 +54,8 @@ real statics_time_of_size(const struct run *e, real size)
 
 /* ---- crack increments -------------------------------------------------------------------------------------------- */
 
+/* Returns the energy released since the start [J]: the fracture energy of broken bonds and the energy that solutions
+ * have lost. */
 real statics_energy_released(const struct statics *s, const struct bonds *b)
 {
     return bonds_fracture_energy(b) + s->balance.lost;

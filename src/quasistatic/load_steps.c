@@ -340,8 +340,9 @@ static void warn_at_end(struct run *e)
     warn_missed_bodies(&e->warnings, e->rigid->body, e->scene->rigids, e->statics->balance.largest);
 }
 
-/* Returns FAILED if loads on an unconstrained fragment are not balanced. Under energy control a severed body ends the
- * run instead: stores true in *apart, with a message. */
+/* Checks for fragments that nothing constrains although loads on them are not balanced, and returns FAILED if there is
+ * one. Under energy control after bonds have broken, the crack has severed the body instead: returns OK, stores true in
+ * *apart, and prints a message. */
 static status check_constrained(struct run *e, bool *apart)
 {
     const bool parts = e->scene->steps.control == CONTROL_ENERGY && e->diagnostics->bonds_broken > 0;

@@ -120,7 +120,8 @@ void sif_tip_choose_direction(const struct sif_cracks *l, const struct particles
     tip->heading[0] = c * a[0] - s * a[1], tip->heading[1] = s * a[0] + c * a[1];
 }
 
-/* Returns the tip with the largest growth, among those that have not ended if `on`; NULL: there is none. */
+/* Returns the tip that has grown most, the first of equal ones, or NULL. on: only tips that can still grow are
+ * considered. */
 static const struct sif_crack_tip *tip_longest(const struct sif_cracks *l, bool on)
 {
     const struct sif_crack_tip *first = NULL;

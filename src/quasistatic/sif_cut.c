@@ -54,9 +54,9 @@ static void segment_images(const struct sif_cracks *l, const struct sif_crack_ti
                     ON_SURFACE * l->plane.spacing);
 }
 
-/* Sets the cost of the bonds of the next segment (`held`) so that their sum is crack area times crack energy per area
- * [J]. Needed for state-based bonds, which have no energy of their own, and in space, where bonds at the sides of the
- * body have surface weights and some bonds at a pre-crack are already broken. */
+/* Replaces the energy costs of the bonds of the next segment (`held` of each record) such that their sum is crack area
+ * times crack energy per area [J]. Needed for state-based bonds, which have no energy of their own, and in space, where
+ * bonds at the sides of the body have surface weights and some bonds at a pre-crack are already broken. */
 static void segment_cost_set(const struct sif_cracks *l, const struct particles *p, const struct sif_crack_tip *tip,
                              struct break_list *list)
 {
@@ -149,8 +149,8 @@ static status list_break_try(struct run *e, const struct break_list *l, struct c
     return tried;
 }
 
-/* Stores the fictitious previous increment of the tip of a pre-crack that has not grown
- * (increment_extrapolate_previous), from its next increment, whose bonds are broken, and a trial of the one after it,
+/* Stores in tip->behind the fictitious previous increment of a tip at the end of a pre-crack, for its first increment
+ * (increment_extrapolate_previous): from this increment, whose bonds are broken already, and a trial of a second one
  * straight ahead. */
 static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
 {
@@ -169,7 +169,8 @@ static status behind_first_set(struct run *e, struct sif_crack_tip *tip)
     return tried;
 }
 
-/* Determines the energy release of the next increment of a tip in a trial. */
+/* Determines the energy release of the next increment of a tip by breaking its bonds in a trial, which is undone. For
+ * the first increment of the tip, also stores the fictitious previous one. */
 static status segment_try(struct run *e, struct sif_crack_tip *tip, const struct break_list *l)
 {
     struct memory_archive saved;
@@ -208,9 +209,10 @@ static void increment_choose(struct statics *s, struct break_list *list)
     s->due = balanced_load(&s->ahead, &s->behind);
 }
 
-/* Recomputes the energy release of tips that grow together: they release more at once than one after the other. The
- * release is divided among the tips in proportion to their own; the increments behind them were divided in this way,
- * too, except before the first increment. */
+/* Recomputes the energy release of the selected tips if there are several, by breaking their bonds together: they
+ * release more at once than one after the other. The sum is divided among the tips in proportion to their separate
+ * values. Updates the load size at which the increment is due, unless a tip makes its first increment: the values of
+ * previous increments were divided in this way, too, but the fictitious ones before the first were not. */
 static status increment_try_together(struct run *e)
 {
     struct statics *s = e->statics;

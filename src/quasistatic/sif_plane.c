@@ -77,7 +77,7 @@ static const char *front_find(const struct tips *t, struct sif_plane *plane)
     return found ? NULL : "no pre-crack ends in the body";
 }
 
-/* Stores the position of the middle of the first front along its direction. */
+/* Stores the coordinate, along the direction of the fronts, of the middle of the first front. */
 static void front_middle(const struct tips *t, struct sif_plane *plane)
 {
     for (int k = t->n - 1; k >= 0; k--)
@@ -100,7 +100,8 @@ static const char *mirrors_find(struct sif_plane *plane)
     return NULL;
 }
 
-/* Orients the segment such that its normal lies on the side of the normal of the polygon. */
+/* Computes the segment at[2] in which the plane cuts pre-crack c, oriented such that its normal is on the side of the
+ * normal of the polygon. Returns false if the pre-crack is not parallel to the fronts. */
 bool sif_plane_segment(const struct sif_plane *plane, const struct crack *c, real at[2][DIM_MAX])
 {
     real area[DIM_MAX], across[2], least = INFINITY, most = -INFINITY;

@@ -22,7 +22,7 @@ struct springs {
     int64_t *next; /* [n] next entry of each row to be stored; NULL in the first pass */
 };
 
-/* Counts or stores the block K as an entry of the matrix. */
+/* Adds the block K to the matrix at this row and column. In the first pass only counts it. */
 static void entry_add(struct springs *s, int64_t row, int64_t column, const real K[DIM_MAX][DIM_MAX])
 {
     const int dim = s->a->dim;
@@ -46,7 +46,7 @@ struct movers {
     real share[CORNERS_MAX];   /* [n] weights [1] */
 };
 
-/* Returns the nodes of particle i of the body. */
+/* Returns the unknowns that determine the displacement of particle i of the body, and their weights. */
 static struct movers movers_list(const struct springs *s, int64_t i)
 {
     struct movers m = {0};
@@ -61,14 +61,16 @@ static struct movers movers_list(const struct springs *s, int64_t i)
     return m;
 }
 
-/* Returns the nodes of particle or image i, and stores the signs of its components relative to theirs. */
+/* Returns the unknowns that determine the displacement of particle or image i. sign: 1 or -1 for each component; an
+ * image moves opposite to its source in some of them. */
 static struct movers movers_of_end(const struct springs *s, int64_t i, real sign[DIM_MAX])
 {
     image_signs(&s->e->part, &s->e->loads, i, sign);
     return movers_list(s, image_root(&s->e->part, s->e->loads.image, i));
 }
 
-/* Adds the stiffness of a bond of particle i to the rows of its nodes. */
+/* Adds the stiffness of a bond of particle i, as a spring along its reference direction, to the rows of the unknowns
+ * that determine the displacement of i. The row of the bond's other end adds the other half. */
 static void spring_add(struct springs *s, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &s->e->part;
@@ -145,8 +147,8 @@ static void cell_add(struct springs *s, int64_t I)
 
 /* ---- the matrix -------------------------------------------------------------------------------------------------- */
 
-/* Visits all bonds, cells and contacts. Rows of peridynamic particles are visited in parallel, as each one belongs to
- * one row of bonds; rows of mesh nodes in sequence. */
+/* Adds all bonds, cells and contacts to the matrix. Rows of peridynamic particles are filled in parallel, as each
+ * belongs to one row of bonds; rows of mesh nodes in sequence. */
 static void springs_visit(struct springs *s)
 {
     const struct bonds *b = &s->e->bonds;
@@ -263,6 +265,7 @@ static struct block_matrix *matrix_make(const struct run *e)
 
 /* ---- the preconditioner ------------------------------------------------------------------------------------------ */
 
+/* Frees the preconditioner of load steps, if there is one. */
 void statics_precondition_free(struct statics *s)
 {
     if (s->precondition) multigrid_free(s->precondition);
@@ -299,7 +302,8 @@ void statics_precondition(void *engine, const struct field *r, struct field *z)
     unconstrained_project(e->statics, z);
 }
 
-/* Tolerates bonds in the preconditioner that have broken since it was made. */
+/* Frees the preconditioner if the last solution took far more directions (`directions`) than the first one with it.
+ * Until then bonds may break without a new one. */
 void statics_precondition_check_cost(struct statics *s, int64_t directions)
 {
     if (!s->precondition) return;

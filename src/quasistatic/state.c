@@ -54,7 +54,8 @@ static status increment_archive(struct statics *s, struct bonds *b, struct archi
     return sif_archive(&s->sif, a);
 }
 
-/* Saves or restores what the solver has learnt about the body, its counters, and the last record of the history. */
+/* Saves or restores scales and noise level of the solver, its counters, whether its preconditioner is still valid, and
+ * the last record of the history. */
 static status search_archive(struct statics *s, struct run_clock *clock, struct archive *a)
 {
     struct equilibrium *q = &s->balance;

@@ -30,7 +30,7 @@ static real critical_stretch_least(const struct bond_limit *limit, const struct 
     return least * weakest;
 }
 
-/* Returns the larger one of `most` and the largest stretch ratio of row block g [1]. weakest: lower bound of the
+/* Returns the largest stretch ratio in row block g if it exceeds `most`, else `most` [1]. weakest: lower bound of the
  * critical stretches, by which blocks are skipped [1]. */
 static real row_block_stretch_ratio(const struct bonds *b, const struct particles *p, const struct bond_limit *limit,
                                     int64_t g, real weakest, real most)
@@ -152,7 +152,7 @@ static real break_list_add_above(struct break_list *l, const real *ratio, const 
     return added > 0 ? sum / (real)added : 1;
 }
 
-/* Breaks the bond of a record. Its row receives half of the energy of the bond. */
+/* Breaks the directed bond of a record; half of the energy of the bond becomes fracture energy of its row. */
 static void bond_record_break(struct bonds *b, struct particles *p, struct bond_limit limit,
                               const struct broken_bond *record)
 {
@@ -160,8 +160,10 @@ static void bond_record_break(struct bonds *b, struct particles *p, struct bond_
     bond_break_entry(b, p, &limit, record->row, record->entry);
 }
 
-/* Computes the cost of state-based bonds, which have no energy of their own, from the energy lost as they break: in
- * a linear body the energy at the critical stretch times the square of the stretch ratio. */
+/* Breaks the bonds whose stretch ratio is within `share` of the largest one, at most `most` pairs, and appends them to
+ * the list of the next increment. Adds their energy to *cost [J] and their area to *area. Returns the number of
+ * directed bonds. The cost of state-based bonds, which have no energy of their own, follows from the energy lost as
+ * they break: in a linear body the energy at the critical stretch times the square of the stretch ratio. */
 int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real *cost, real *area)
 {
     struct break_list *l = &e->statics->next;
@@ -188,8 +190,9 @@ int64_t bonds_break_overstretched(struct run *e, real share, int64_t most, real 
     return l->n - had;
 }
 
-/* Breaks all bonds at once, although the last ones reach their critical stretch only after the first have broken.
- * The cost of each bond is therefore the stored one (`held`), not its present energy. */
+/* Breaks all bonds of a list at once, although the last ones reach their critical stretch only after the first have
+ * broken. Each bond therefore costs the fracture energy stored in its record (`held`); the difference from its present
+ * energy is booked as lost. */
 void bonds_break_listed(struct run *e, const struct break_list *l)
 {
     real more = 0;

@@ -13,6 +13,9 @@
 
 /* ---- plastic state ----------------------------------------------------------------------------------------------- */
 
+/* Saves the plastic state of bonds and points to the archive if a->saving is set, else restores it from the archive.
+ * optional: set of the optional arrays of the particles, bits WITH_... Returns FAILED if an entry is missing or has
+ * another size. */
 status plastic_archive(struct bonds *b, struct particles *p, int optional, struct archive *a)
 {
     TRY(bonds_archive(b, p, a));

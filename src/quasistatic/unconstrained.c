@@ -82,7 +82,7 @@ static int32_t unknown_of(const struct search *s, int64_t i)
     return -1;
 }
 
-/* Joins the nodes of bonded particles. */
+/* Joins the components of all particles between which there is an intact bond. */
 static void bonded_join(const struct search *s, const struct bonds *bonds)
 {
     for (int64_t r = 0; r < bonds->rows; r++) {

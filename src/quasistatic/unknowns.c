@@ -83,7 +83,7 @@ static void supports_mark(struct statics *s, const struct loads *loads, const st
     }
 }
 
-/* Stores the present displacements of the nodes in the balance. */
+/* Stores the present displacements of all unknowns in s->balance.u. */
 static void displacements_read(struct statics *s, const struct particles *p, const struct mesh *mesh)
 {
     for (int d = 0; d < p->dim; d++)
@@ -130,6 +130,7 @@ void unknowns_free(struct statics *s)
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
+/* Stores the reference position of unknown k, a particle or a mesh node, in X[] [m]. */
 void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X)
 {
     const int32_t i = s->node[k];
@@ -170,6 +171,8 @@ void image_signs(const struct particles *p, const struct loads *loads, int64_t i
 
 /* ---- loads and supports ------------------------------------------------------------------------------------------ */
 
+/* Computes the applied forces at pseudo-time t [s] and stores them in s->applied, dim components for each particle of
+ * the body [N]. */
 void applied_forces_compute(struct statics *s, const struct particles *p, const struct loads *loads, real t)
 {
     for (int d = 0; d < p->dim; d++) {

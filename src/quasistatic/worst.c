@@ -17,8 +17,8 @@ enum { LOAD_TIMES = 64, LOAD_PARTICLES = 1024 }; /* load times, and particles of
 /* The two sorts of loads: prescribed displacements of supports and rigid bodies [m], applied forces [N]. */
 enum { DISPLACEMENTS, FORCES, SORTS };
 
-/* Computes the scalar product of the loads at load times t and u, for prescribed displacements [m^2] and for applied
- * forces [N^2]. */
+/* Computes the scalar products of the loads at load times t and u: product[DISPLACEMENTS] of the prescribed
+ * displacements [m^2] and product[FORCES] of the applied forces [N^2]. */
 static void products(const struct run *e, real t, real u, real *product)
 {
     const int dim = e->part.dim;
@@ -47,7 +47,8 @@ static void products(const struct run *e, real t, real u, real *product)
     }
 }
 
-/* Load times [s] at which the loads are largest, oppose these most, and are most perpendicular to them; NAN: never. */
+/* Load times [s] at which the loads are largest, at which they point most against the largest ones (back), and at which
+ * they are most perpendicular to them (beside); NAN: never. */
 struct worst {
     real largest, back, beside;
 };
@@ -57,14 +58,15 @@ struct found {
     real largest, back, beside;
 };
 
-/* Updates the time of the largest loads. own: product of the loads at t with themselves. */
+/* Replaces the time of the largest loads by t if those at t are larger. own: scalar product of the loads at t with
+ * themselves. */
 static void largest_update(real t, real own, struct worst *worst, struct found *found)
 {
     if (own > found->largest * (1 + 1e-9)) found->largest = own, worst->largest = t;
 }
 
-/* Updates the times of opposing and perpendicular loads. own: product of the loads at t with themselves. with: product
- * with the largest loads. */
+/* Replaces the times of the loads most opposed and most perpendicular to the largest ones by t if those at t are more
+ * so. own: scalar product of the loads at t with themselves; with: with the largest loads. */
 static void others_update(real t, real own, real with, struct worst *worst, struct found *found)
 {
     const real size = found->largest, back = -with, beside = own - square(with) / size;
@@ -72,7 +74,8 @@ static void others_update(real t, real own, real with, struct worst *worst, stru
     if (beside > real_max(found->beside, square(SIDEWAYS) * size)) found->beside = beside, worst->beside = t;
 }
 
-/* Lists load times that are evenly spread, and those of tables [s] (t NULL: none is stored). Returns their number. */
+/* Stores LOAD_TIMES evenly spread times up to `end` [s], and the times in the tables of the loads before it, in t; t
+ * NULL: they are only counted. Returns their number. */
 static int64_t load_times(const struct loads *loads, real end, real *t)
 {
     int64_t n = 0;

@@ -7,7 +7,7 @@
 
 /* ---- rotations --------------------------------------------------------------------------------------------------- */
 
-/* Computes to = A b, or to = A^T b if `back`. */
+/* Computes the product to = A b, or A^T b with `back`. */
 static void turn_vector(real A[DIM_MAX][DIM_MAX], const real *b, bool back, real *to)
 {
     for (int r = 0; r < DIM_MAX; r++) {
@@ -139,6 +139,8 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
 
 /* ---- surface ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the distance of point x [DIM_MAX] from the surface, negative inside [m]; normal: outward unit normal of the
+ * nearest surface point. */
 real rigid_distance(const struct rigid_body *r, const real *x, real *normal)
 {
     real arm[DIM_MAX] = {0}, X[DIM_MAX], own[DIM_MAX] = {0}, turn[DIM_MAX][DIM_MAX];
@@ -172,9 +174,9 @@ void rigid_velocity(const struct rigid_body *r, const real *x, real *v)
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
-/* Rotates the body by a step. The angular velocity in the middle of the step depends on the rotation there, which
- * depends on the angular velocity: a fixed-point iteration, whose third value is exact to round-off for any step that
- * contact allows. */
+/* Rotates the body by its rotation in a step dt [s]. The angular velocity in the middle of the step depends on the
+ * orientation there, and that on the angular velocity: a fixed-point iteration, whose third value is exact to round-off
+ * for any step that contact allows. */
 static void turn_on(struct rigid_body *r, real dt)
 {
     real middle[DIM_MAX][DIM_MAX], half[DIM_MAX];
@@ -236,7 +238,8 @@ void rigid_set_position(struct rigid_body *r, real t)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the work of the drive in the last step [J], with the mean of the old and the present force. */
+/* Returns the work that moves a driven body against the contact forces in the last step [J], with the mean of the
+ * previous and the present force; 0 for other bodies. */
 static real work_of_step(const struct rigid_body *r)
 {
     real work = 0;
@@ -278,7 +281,8 @@ real rigid_kick_energy(const struct rigid_body *r, real dt)
 
 /* ---- state ------------------------------------------------------------------------------------------------------- */
 
-/* The members from `x` on change in steps. */
+/* Saves or restores the state of rigid body `number`: the members of the struct from `x` on, which change from step to
+ * step. */
 status rigid_archive(struct rigid_body *r, int number, struct archive *a)
 {
     char name[64];

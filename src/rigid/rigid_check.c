@@ -10,7 +10,7 @@
 #define DEEP_MOST 0.6      /* allowed depth of the centre of a particle in a rigid body at the start [spacings] */
 #define INCREMENT_MOST 0.5 /* allowed motion in a step [spacings]: contact acts over a distance of one spacing */
 
-/* Returns REFUSED if particles are inside rigid body r. */
+/* Returns REFUSED if the centre of a particle is deeper than DEEP_MOST spacings inside rigid body r at the start. */
 static status check_room(const struct rigid_body *r, const struct scene *s, const struct particles *p)
 {
     real deepest = 0, normal[DIM_MAX], x[DIM_MAX] = {0};
@@ -69,7 +69,7 @@ status rigids_speed_check(const struct rigid_set *rigid, const struct scene *s, 
     return OK;
 }
 
-/* Returns true if a sampling point of r is more than half a spacing deep in `other`. */
+/* Returns true if two rigid bodies overlap: a sampling point of r is more than half a spacing deep inside `other`. */
 static bool have_met(const struct rigid_body *r, const struct rigid_body *other, real spacing)
 {
     real from[DIM_MAX], to[DIM_MAX], x[DIM_MAX] = {0}, normal[DIM_MAX];

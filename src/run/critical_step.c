@@ -69,9 +69,9 @@ real critical_step_of_bonds(struct bonds *b, struct particles *p, bond_force_fn 
 /* limit of the number of bonds of a block, for its cost: larger blocks get the size of the body */
 #define BLOCK_BONDS_MOST 1e7
 
-/* Computes the numbers of particles along the edges of a block of lattice: large enough for particles with full
- * families and, within a small cost, for long waves. longest: extent of the body [dim, m]. Returns the number of
- * particles. */
+/* Computes the numbers of particles along the edges of a lattice block whose largest frequency represents the body:
+ * large enough for particles with full families and, if that is cheap, for long waves. longest: extent of the body
+ * [dim, m]. Returns the number of particles of the block. */
 static int64_t edges_of(const struct family *f, const real *longest, int64_t edge[DIM_MAX])
 {
     static const int times[DIM_MAX + 1] = {0, 8, 2, 1};

@@ -29,12 +29,13 @@ static bool all_meshed(const uint8_t *flag, int64_t first, int64_t end)
     return all != 0;
 }
 
-/* Kinetic energy [J], momentum by component and sum of |m v| [kg m/s]. Sums of a piece are kept in registers. */
+/* Sums over particles or nodes: kinetic energy [J], momentum by component, and sum of |m v| [kg m/s]. */
 struct motion {
     real kinetic, momentum[DIM_MAX], size;
 };
 
-/* Adds the motion of entries first .. end - 1 to *to. meshed: flags are tested; all: also momentum and |m v|. */
+/* Adds the kinetic energy of entries first .. end - 1 and, with `all`, their momentum and |m v| to *to. meshed: entries
+ * with FLAG_MESHED are skipped. */
 static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                      const int dim, const bool meshed, const bool all)
 {
@@ -56,6 +57,8 @@ static ALWAYS_INLINE void add_motion(const struct movers *m, int64_t first, int6
     to->momentum[0] += p0, to->momentum[1] += p1, to->momentum[2] += p2;
 }
 
+/* Calls add_motion for a piece of entries, in their dimension. Skips it if the nodes of a mesh move all its
+ * particles. */
 static ALWAYS_INLINE void motion_piece(const struct movers *m, int64_t first, int64_t end, struct motion *to,
                                        const bool all)
 {
@@ -83,8 +86,8 @@ static bool none_has_mass(const real *mass, int64_t first, int64_t end)
     return most == 0;
 }
 
-/* Returns the motion of entries first .. end - 1. all: all sums; else the kinetic energy alone, without square
- * roots. */
+/* Returns the sums over entries first .. end - 1: with `all` kinetic energy, momentum and |m v|, else the kinetic
+ * energy alone, which needs no square roots. */
 static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t first, int64_t end, const bool all)
 {
     struct motion sum = {0};
@@ -96,6 +99,7 @@ static ALWAYS_INLINE struct motion motion_of(const struct movers *m, int64_t fir
     return sum;
 }
 
+/* Adds the kinetic energy of entries first .. end - 1 to sum[0], for reproducible_sums. context: a struct movers. */
 static void kinetic_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     sum[0] += motion_of(context, first, end, false).kinetic;
@@ -117,8 +121,8 @@ struct kick {
     real dt;
 };
 
-/* Returns sum plus 1/4 m (change of velocity)^2 of particles first .. end - 1 [J]. Driven particles do not contribute:
- * their motion is prescribed and their work is booked with it. */
+/* Returns `sum` plus the sum of 1/4 m dv^2 over particles first .. end - 1, dv being the change of velocity in the step
+ * [J]. Driven particles do not contribute: their motion is prescribed and their work is booked with it. */
 static real kick_piece(const struct kick *k, int64_t first, int64_t end, real sum)
 {
     const struct particles *p = k->p;
@@ -132,7 +136,8 @@ static real kick_piece(const struct kick *k, int64_t first, int64_t end, real su
     return sum;
 }
 
-/* Adds the excess of a block of particles to *sum; points of a mesh do not contribute. */
+/* Adds the sum of 1/4 m dv^2 over particles first .. end - 1 (kick_piece) to sum[0], for reproducible_sums. Points of a
+ * mesh do not contribute. */
 static void kick_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct kick *k = context;
@@ -161,6 +166,7 @@ static void momentum_block(const void *context, int64_t first, int64_t end, real
 
 /* ---- strain energy and plastic work of material points ----------------------------------------------------------- */
 
+/* Parameters of sums over the material points in `list`. */
 struct strain_sum {
     const struct particles *p;
     const struct material *m;
@@ -260,8 +266,9 @@ real particles_linear_momentum(const struct particles *p, const struct grid *con
     return sum[p->dim];
 }
 
-/* The states are recomputed at the present positions: a step moves particles after its forces, and the stress in a
- * rotating body would otherwise contain the rotation of a step. */
+/* Computes the stresses of peridynamic particles from their bonds. The states of state-based models are recomputed
+ * first at the present positions: a step moves particles after its forces, and the stress in a rotating body would
+ * otherwise contain the rotation of a step. */
 void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
                          const struct kernels *kernels)
 {

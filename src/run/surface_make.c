@@ -26,7 +26,7 @@ static int mirror_between(const struct loads *loads, const real *X, const real *
     return -1;
 }
 
-/* Returns the number of the body that a particle was made for, of those joined to its own, by their shapes. */
+/* Returns which of the bodies that are joined to `body` contains X by its shape; `body` itself if none does. */
 static int body_made_for(const struct scene *s, const real *X, int body)
 {
     for (int b = 0; b < s->bodies; b++)
@@ -36,7 +36,8 @@ static int body_made_for(const struct scene *s, const real *X, int body)
     return body;
 }
 
-/* Refuses a body whose mirror m is neither on a row of its lattice nor half a spacing from one. i: a particle of it. */
+/* Returns REFUSED, with a message, for a body whose mirror m is neither on a row of its lattice nor half a spacing from
+ * one. i: a particle of the body. */
 static status refuse_rows(const struct scene *s, const struct particles *p, int64_t i, const struct boundary *m)
 {
     real X[DIM_MAX];
@@ -50,7 +51,8 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
                       "xyz"[m->axis]);
 }
 
-/* Refuses two particles i < n and j whose distance is not a whole number of spacings along each axis. */
+/* Returns REFUSED, with a message, for two particles i < n and j whose distance is not a whole number of spacings along
+ * each axis. */
 static status refuse_apart(const struct scene *s, const struct particles *p, const struct loads *loads, int64_t i,
                            int64_t j)
 {

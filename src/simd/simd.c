@@ -25,7 +25,8 @@ static inline bool responses(unsigned leaf, unsigned bits)
     return __get_cpuid(leaf, &a, &b, &c, &d) && (c & bits) == bits;
 }
 
-/* Levels of x86-64 by their parts, since not every compiler knows their names, or all of the parts. */
+/* Returns true if the processor has all instructions of x86-64-v3. They are tested one by one, since not every compiler
+ * knows the names of the levels, or all instructions. */
 static inline bool runs_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") &&

@@ -23,15 +23,16 @@ enum { EVALUATIONS_MOST = 10 }; /* largest number of force evaluations of a line
 /* Largest rotation of bonds in a correction along a direction of negative stiffness. */
 #define TURN_MOST 0.1
 
-/* PUSH_LEFT: a line search ends once forces along the correction are below this share of their initial value.
- * WORK_CURVED: work is integrated by Simpson's rule if the residual after the correction is above this share of that
- * before. */
+/* Limits of a correction, relative to the values before it. PUSH_LEFT: a line search ends once forces along the
+ * correction are below this share. WORK_CURVED: if the residual is above this share, work is integrated by Simpson's
+ * rule. */
 #define PUSH_LEFT 0.8
 #define WORK_CURVED 0.01
 /* intervals of Simpson's rule for forces with kinks; with 2, a 24th of the work beyond a kink would be missed */
 enum { WORK_PARTS = 16 };
 
-/* Share of the residual that a correction leaves; the least is the accuracy of one-sided differences. */
+/* Largest and smallest share of the residual that the inner iteration of a correction may leave; the smallest is the
+ * accuracy of one-sided differences. */
 #define FORCING_MOST 0.1
 #define FORCING_LEAST 1e-4
 
@@ -40,7 +41,7 @@ enum { WORK_PARTS = 16 };
 
 /* ---- vectors ----------------------------------------------------------------------------------------------------- */
 
-/* Lists all vectors of q [FIELDS]. */
+/* Lists the addresses of all vectors of q in list [FIELDS]. */
 static void all_fields(struct equilibrium *q, struct field **list)
 {
     struct field *const fields[] = {&q->u, &q->f, &q->d, &q->q, &q->r, &q->z, &q->x, &q->at, &q->before, &q->grown};
@@ -83,13 +84,14 @@ static void combine(const struct equilibrium *q, struct field *to, real a, const
     }
 }
 
-/* Two vectors whose product is summed. */
+/* Parameters of dot_block and plain_block: two vectors whose scalar product is summed. */
 struct product {
     const struct equilibrium *q;
     const struct field *a, *b;
 };
 
-/* Adds products of free components to sum[0], of held ones to sum[1]. */
+/* Adds the products a b over free components to sum[0] and those over constrained (held) components to sum[1], for
+ * nodes first .. end - 1. */
 static void dot_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -119,7 +121,7 @@ static void forces_at(struct equilibrium *q, const struct field *u, struct field
     q->forces++;
 }
 
-/* Adds the product over all components; used if held components are 0 or count. */
+/* Adds the products a b over all components, free and constrained, to *sum, for nodes first .. end - 1. */
 static void plain_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct product *s = context;
@@ -132,6 +134,7 @@ static void plain_block(const void *context, int64_t first, int64_t end, real *s
     }
 }
 
+/* Returns the scalar product of a and b over all components, free and constrained. */
 static real dot_all(const struct equilibrium *q, const struct field *a, const struct field *b)
 {
     real sum;
@@ -139,21 +142,22 @@ static real dot_all(const struct equilibrium *q, const struct field *a, const st
     return sum;
 }
 
-/* Returns the width over which the largest component `most` of an increment [m] rotates bonds: that of the region of
- * moving nodes [m]. */
+/* Returns the length over which an increment rotates bonds [m]: the extent of the region of nodes that move about as
+ * much as the largest component `most` of the increment [m]. */
 static real turning_width(const struct equilibrium *q, const struct field *increment, real most)
 {
     return q->length * pow(real_max(1, dot_all(q, increment, increment) / square(most)), 1.0 / q->dim);
 }
 
-/* Returns the factor of an increment over which forces are differenced, limited by strain and by rotation. most: its
- * largest component [m]. */
+/* Returns the factor by which an increment is multiplied for a difference of forces: small enough that strains and
+ * rotations of bonds stay within DIFFERENCE_STRAIN and DIFFERENCE_TURN. most: its largest component [m]. */
 static real difference_step(const struct equilibrium *q, const struct field *increment, real most)
 {
     return real_min(DIFFERENCE_STRAIN / q->strain_ratio, DIFFERENCE_TURN * turning_width(q, increment, most)) / most;
 }
 
-/* Computes out = K in at u with forces f: the decrease of forces along `in`, over its length. */
+/* Computes the product of the tangent stiffness at u with the vector `in`, by a one-sided difference of forces: out =
+ * (f(u) - f(u + step in))/step. q->f must contain f(u). Overwrites q->at. */
 static void stiffness(struct equilibrium *q, const struct field *in, struct field *out)
 {
     const real most = solver_largest_component(in, q->dim, q->n);
@@ -166,15 +170,16 @@ static void stiffness(struct equilibrium *q, const struct field *in, struct fiel
         combine(q, out, 0, out, 0, out);
 }
 
-/* Stores the strain of a direction with curvature d . K d over its largest component, which sets the next
- * difference. */
+/* Stores the ratio of strain to largest component of direction d, from which the step of the next difference of forces
+ * follows. curvature: d . K d. */
 static void strain_note(struct equilibrium *q, const struct field *d, real curvature)
 {
     const real most = solver_largest_component(d, q->dim, q->n);
     if (curvature > 0 && most > 0) q->strain_ratio = sqrt(curvature / q->unit_energy) / most;
 }
 
-/* Computes residual, scale and worst from the forces on free and on held components. */
+/* Computes from the present forces the residual relative to the scale, the scale itself (norm of applied forces and
+ * reactions) and the node with the largest residual. */
 static void equilibrium_measure(struct equilibrium *q)
 {
     real sum[2], most = -1;
@@ -191,7 +196,8 @@ static void equilibrium_measure(struct equilibrium *q)
 
 /* ---- one correction ---------------------------------------------------------------------------------------------- */
 
-/* Computes the residual r = f - K x on free components, for the motion of supports and the initial guess x. */
+/* Computes the residual r = f - K x of the initial increment x, which contains the motion of supports; 0 on constrained
+ * components. */
 static void residual_of_guess(struct equilibrium *q)
 {
     if (solver_largest_component(&q->x, q->dim, q->n) == 0) {
@@ -205,8 +211,8 @@ static void residual_of_guess(struct equilibrium *q)
             if (is_held(q, i, d)) q->r.of[d][i] = 0;
 }
 
-/* Removes the guess of free components from x if the residual is smaller without it: a fragment that broke off and
- * rotated does not follow proportional loads. */
+/* Sets the free components of the initial increment x to 0 if the residual is smaller without them: a fragment that
+ * broke off and rotated does not follow proportional loads. */
 static void guess_check(struct equilibrium *q)
 {
     residual_of_guess(q);
@@ -219,13 +225,14 @@ static void guess_check(struct equilibrium *q)
     if (with < dot_free(q, &q->r, &q->r)) combine(q, &q->x, 1, &q->z, 0, &q->z);
 }
 
-/* Vectors and factor of advance_block. */
+/* Parameters of advance_block. */
 struct step {
     struct equilibrium *q;
     real scale;
 };
 
-/* Computes x += scale d and r -= scale K d on free components; adds r . r to *sum. */
+/* Computes x += scale d, and r -= scale K d on free components, for nodes first .. end - 1; K d is in q->q. Adds r . r
+ * to *sum. */
 static void advance_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct step *s = context;
@@ -281,16 +288,17 @@ static void correction(struct equilibrium *q, real wanted, bool prescribed)
 
 /* ---- its length -------------------------------------------------------------------------------------------------- */
 
-/* Computes the position z = u + share x and the forces q there. */
+/* Computes the displacement z = u + share x and the forces there, in q->q. */
 static void forces_along(struct equilibrium *q, real share)
 {
     combine(q, &q->z, 1, &q->u, share, &q->x);
     forces_at(q, &q->z, &q->q);
 }
 
-/* Returns the factor of the correction x at which forces along x have vanished; 1 for linear bodies. The energy
- * decreases up to that point: the factor is reduced while forces point back and increased while they push on. A
- * prescribed increment is made in full. Stores the position in z and its forces in q. */
+/* Returns the factor of the correction x at which the forces along x nearly vanish; 1 for linear bodies. The energy
+ * decreases up to that point: the factor is reduced if forces point against x and increased if they still point along
+ * it. prescribed: supports move, and the increment is made in full. left: residual before the correction [N]. Stores
+ * the displacement in z and the forces there in q->q. */
 static real line_search(struct equilibrium *q, real left, bool prescribed)
 {
     const real push = dot_free(q, &q->f, &q->x), most = solver_largest_component(&q->x, q->dim, q->n);
@@ -334,7 +342,8 @@ static real work_along(struct equilibrium *q, real share, real left)
     return (2 * even + share * sum) / (3 * parts);
 }
 
-/* Moves u by the part of x that leads towards equilibrium; returns the work of all forces along it [J]. */
+/* Adds the correction x, times the factor of the line search, to u and updates the forces. left: residual before it
+ * [N]; prescribed: supports move. Returns the work of all forces along the increment [J]. */
 static real advance(struct equilibrium *q, real left, bool prescribed)
 {
     if (q->laws) q->laws(q->context, false);
@@ -354,10 +363,10 @@ static real dot_held(const struct equilibrium *q, const struct field *increment)
     return sum[1];
 }
 
-/* The first correction took the growth of loads to be linear along it, and later corrections took it to be complete.
- * In fact the states form a curve: with the increment c s + d s^2 for the share s of the growth, loads do 1/6 of
- * `more` beyond the mean of both ends, and nothing is lost. more: growth of loads times the increments of later
- * corrections [J]. */
+/* Corrects work and losses for the path between two equilibria. The first correction assumed that loads grow linearly
+ * along it, later ones that they are complete. In fact the states form a curve: with the increment c s + d s^2 for the
+ * share s of the growth, loads do 1/6 of `more` beyond the mean of both ends, and nothing is lost. more: growth of
+ * loads times the increments of later corrections [J]. */
 static void loads_bend(struct equilibrium *q, real more)
 {
     q->bent = more / 6;
@@ -369,7 +378,8 @@ static bool is_balanced(const struct equilibrium *q)
     return q->residual <= q->tolerance || q->residual * q->scale <= q->noise;
 }
 
-/* Fixes the laws for the present state and recomputes the forces; returns true if the laws had not changed. */
+/* Updates the branches of the material laws and contacts for the present state (q->settle). Returns true if nothing has
+ * changed; else recomputes the forces and returns false. */
 static bool laws_settle(struct equilibrium *q)
 {
     if (!q->settle || q->settle(q->context)) return true;

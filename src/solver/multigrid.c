@@ -6,17 +6,18 @@
 #include "base/memory.h"
 #include "multigrid_parts.h"
 
-/* DENSE: unknowns below which a level is solved as a dense matrix. DEGREE, DEGREE_COARSE: relaxation steps before
- * and after the coarser levels, on the finest level, whose products take most of the time, and on others. RANGE:
- * largest over smallest eigenvalue that relaxation damps. */
+/* DENSE: number of unknowns below which a level is solved as a dense matrix. DEGREE, DEGREE_COARSE: steps of relaxation
+ * before and after the correction by coarser levels, on the finest level, whose products take most of the time, and on
+ * other levels. RANGE: largest over smallest eigenvalue that relaxation damps. */
 enum { DENSE = 700, DEGREE = 1, DEGREE_COARSE = 2 };
 #define RANGE 4.0
 
 /* ---- the finest level -------------------------------------------------------------------------------------------- */
 
-/* Rounding error of matrix entries in the row sum of a body in rigid motion, over the diagonal. */
+/* Largest sum of the blocks in a matrix row, over the diagonal, that is due to rounding: without supports the sum is
+ * 0. */
 #define ROUND_OFF 1e-6
-/* Stiffness of a node over the largest below which the node has none. */
+/* A node has no stiffness if its diagonal is below this share of the largest one. */
 #define STIFFNESS_LEAST 1e-12
 
 /* Replaces the diagonal of row i by minus the sum of the other entries if they differ by rounding only, so that a
@@ -103,7 +104,7 @@ static void level_vectors(struct level *l)
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = NEW("multigrid.vector", l->n * l->width, real);
 }
 
-/* Extracts the diagonal blocks and inverts them. */
+/* Copies the diagonal blocks of a coarse level from its matrix and inverts them. */
 static void coarse_diagonal(struct level *l)
 {
     const int size = l->width * l->width;

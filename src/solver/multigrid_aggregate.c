@@ -20,7 +20,8 @@ static float entry_norm(const struct level *l, int64_t q)
     return (float)sqrt(sum);
 }
 
-/* Returns the norms of the connections of free nodes [first[n]], 0 for other entries; the caller frees them. */
+/* Returns the strength of each matrix entry [first[n]]: its norm if it connects two free nodes strongly enough (WEAK),
+ * else 0. The caller frees it. */
 static float *strengths_make(const struct level *l)
 {
     float *strength = BARE("multigrid.strength", l->first[l->n], float), *most = NEW("multigrid.strength", l->n, float);
@@ -39,7 +40,7 @@ static float *strengths_make(const struct level *l)
     return strength;
 }
 
-/* Makes a new aggregate of node i and its neighbours without an aggregate. */
+/* Makes a new aggregate of node i and those of its strongly connected neighbours that belong to no aggregate. */
 static void aggregate_found(struct level *l, const float *strength, int64_t i)
 {
     const int32_t name = (int32_t)l->coarse++;
@@ -48,7 +49,7 @@ static void aggregate_found(struct level *l, const float *strength, int64_t i)
         if (strength[q] > 0 && l->aggregate[l->column[q]] < 0) l->aggregate[l->column[q]] = name;
 }
 
-/* Returns true if node i has neighbours and none of them belongs to an aggregate. */
+/* Returns true if node i has strongly connected neighbours and none of them belongs to an aggregate. */
 static bool neighbours_free(const struct level *l, const float *strength, int64_t i)
 {
     bool any = false;
@@ -60,7 +61,7 @@ static bool neighbours_free(const struct level *l, const float *strength, int64_
     return any;
 }
 
-/* Returns the aggregate to whose nodes node i is most strongly connected, -1 if none. */
+/* Returns the aggregate whose nodes have the largest sum of connection strengths with node i, or -1. */
 static int32_t aggregate_nearest(const struct level *l, const float *strength, int64_t i)
 {
     enum { CANDIDATES = 16 };
@@ -102,11 +103,13 @@ void level_aggregate(struct level *l)
 
 /* ---- rigid motions ----------------------------------------------------------------------------------------------- */
 
-/* A column is dropped if less than this share of it is left after orthogonalisation: aggregates in a line, or of one
- * node, have fewer motions. Round-off leaves 1e-16 times the size of the body over that of the aggregate. */
+/* Share of the length of a column that must be left after orthogonalisation, or the column is set to 0: aggregates in a
+ * line, or of one node, have fewer rigid motions. Round-off leaves 1e-16 times the size of the body over that of the
+ * aggregate. */
 #define DROPPED 1e-9
 
-/* Returns the product of columns a and c over the nodes in `member`. */
+/* Returns the scalar product of columns a and c of the matrix v (m columns, w rows per node) over the n nodes in
+ * `member`. */
 static real column_dot(const real *v, const int32_t *member, int64_t n, int w, int m, int a, int c)
 {
     real sum = 0;
@@ -118,7 +121,8 @@ static real column_dot(const real *v, const int32_t *member, int64_t n, int w, i
     return sum;
 }
 
-/* Makes the columns of an aggregate orthonormal in place (Gram-Schmidt, twice); r [m][m]: v = q r. */
+/* Makes the m columns of v over the n nodes of an aggregate orthonormal in place (Gram-Schmidt, twice) and stores the
+ * factors in r [m][m], such that the old v is the new v times r. */
 static void columns_orthonormal(real *v, const int32_t *member, int64_t n, int w, int m, real *r)
 {
     for (int c = 0; c < m; c++) {

@@ -11,8 +11,8 @@ static ALWAYS_INLINE four four_load(const float *from)
     return a;
 }
 
-/* Computes sum -= K x for row i of the finest level from differences of displacements, so that a body in rigid
- * motion has no forces, plus the part `rest` that is not from bonds. */
+/* Computes sum -= K x for row i of the finest level in 1D. The bonds act on differences of displacements, so that a
+ * body in rigid motion has no forces; l->rest is the stiffness that is not from bonds. */
 static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const real *x, real *sum)
 {
     real force = 0;
@@ -20,7 +20,8 @@ static ALWAYS_INLINE void row_single_1(const struct level *l, int64_t i, const r
     sum[0] -= force + l->rest[i] * x[i];
 }
 
-/* Returns the products of the four entries of block q with the displacement of its node relative to `own`. */
+/* Returns the products of the four entries of the 2 x 2 block q with the displacement of its column's node minus
+ * `own`. */
 static ALWAYS_INLINE four single_2(const struct level *l, int64_t q, pair own, const real *x)
 {
     const two u = __builtin_convertvector(pair_load(x + (int64_t)l->column[q] * 2) - own, two);
@@ -66,7 +67,8 @@ static ALWAYS_INLINE void row_single_3(const struct level *l, int64_t i, const r
         for (int c = 0; c < 3; c++) sum[a] -= (real)l->rest[(i * 3 + a) * 3 + c] * x[i * 3 + c];
 }
 
-/* Computes sum[0 .. w - 1] -= K x for row i. */
+/* Computes sum[0 .. w - 1] -= K x for row i, w being the unknowns per node. single: finest level, with entries in
+ * single precision. */
 static ALWAYS_INLINE void row_times(const struct level *l, int64_t i, const real *x, real *sum, const int w,
                                     const bool single)
 {
@@ -95,7 +97,7 @@ static ALWAYS_INLINE void row_residual(const struct level *l, int64_t i, const i
     for (int a = 0; a < w; a++) l->t[i * w + a] = sum[a];
 }
 
-/* Computes row i of level_relax. */
+/* Computes row i of a relaxation step (level_relax): d = keep d + step D^-1 (b - K x), y = x + d. zero: x is 0. */
 static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep, real step, bool zero, const int w,
                                     const bool single)
 {
@@ -110,7 +112,7 @@ static ALWAYS_INLINE void row_relax(const struct level *l, int64_t i, real keep,
     }
 }
 
-/* Computes row i of the load of the next level, up t. */
+/* Computes row i of the load of the next coarser level by restriction of the residual l->t (matrix l->up). */
 static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next, int64_t i, const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};
@@ -123,7 +125,7 @@ static ALWAYS_INLINE void row_restrict(const struct level *l, struct level *next
     for (int a = 0; a < m; a++) next->b[i * m + a] = sum[a];
 }
 
-/* Adds row i of down x of the next level to x. */
+/* Adds row i of the prolongation (matrix l->down) of the solution x of the next coarser level to x. */
 static ALWAYS_INLINE void row_prolong(struct level *l, const struct level *next, int64_t i, const int w, const int m)
 {
     real sum[WIDTH_MOST] = {0};

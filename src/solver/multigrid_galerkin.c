@@ -1,6 +1,6 @@
-/* The matrix of a coarser level, up x matrix x down. It is computed in slabs of rows, so that matrix x down is never
- * stored as a whole. In a slab each row of matrix x down has one writer, and then each row of the coarser matrix,
- * which adds rows of the slab in ascending order. */
+/* The matrix of a coarser level: restriction (`up`) x matrix x prolongation (`down`). It is computed in slabs of rows,
+ * so that matrix x down is never stored as a whole. In a slab each row of matrix x down has one writer, and then each
+ * row of the coarser matrix, which adds rows of the slab in ascending order. */
 #include <omp.h>
 #include <stdlib.h>
 
@@ -9,13 +9,14 @@
 
 enum { SLAB = 4096 };
 
-/* Column lists of all rows. */
+/* Pattern of a sparse matrix: the columns of row i are column[first[i]] .. column[first[i + 1] - 1]. */
 struct pattern {
     int64_t *first;
     int32_t *column;
 };
 
-/* For each thread a table [n] from a column to its position in a list, -1 if the list does not have it. */
+/* For each thread a table [n] by column: its position in the list of the present row, valid for columns of this row
+ * only; in product_row the last row in which the column occurred. */
 struct tables {
     int64_t n;
     int32_t *where;
@@ -24,7 +25,7 @@ struct tables {
 /* Returns the table of the calling thread. */
 static int32_t *table_own(const struct tables *t) { return t->where + omp_get_thread_num() * t->n; }
 
-/* The product matrix x down of a slab, and its pattern for all rows. */
+/* The product of matrix and prolongation for a slab of rows, with its pattern for all rows. */
 struct product {
     const struct level *l;
     struct level *next;
@@ -37,6 +38,7 @@ struct product {
 
 /* ---- patterns ---------------------------------------------------------------------------------------------------- */
 
+/* Compares two column numbers, for sorting. */
 static int compare_columns(const void *a, const void *b)
 {
     const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
@@ -99,7 +101,8 @@ static ALWAYS_INLINE void block_add(real *restrict out, const real *restrict a, 
     }
 }
 
-/* Computes row i of matrix x down. */
+/* Computes row i of the product of matrix and prolongation. w, m: unknowns per node of this and of the coarser
+ * level. */
 static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int w, const int m)
 {
     const struct level *l = p->l;
@@ -121,7 +124,8 @@ static ALWAYS_INLINE void slab_row(const struct product *p, int64_t i, const int
     }
 }
 
-/* Adds the rows of the slab to row c of the coarser matrix. */
+/* Adds the contributions of the rows in the slab to row c of the coarser matrix. w, m: unknowns per node of this and of
+ * the coarser level. */
 static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int w, const int m)
 {
     const struct transfer *up = &p->l->up;
@@ -152,7 +156,8 @@ static ALWAYS_INLINE void slab_add(const struct product *p, int64_t c, const int
         }                                                                                                              \
     } while (0)
 
-/* Computes the coarser matrix slab by slab, with the widths as literals. */
+/* Computes the coarser matrix slab by slab. The unknowns per node of both levels are literals in each case, for
+ * speed. */
 static void slab_product(const struct product *p)
 {
     const int kind = 10 * p->l->width + p->l->modes;
@@ -168,7 +173,7 @@ static void slab_product(const struct product *p)
         SLABS(6, 6);
 }
 
-/* Returns the largest number of entries in a slab. */
+/* Returns the number of blocks of the largest slab. */
 static int64_t slab_largest(const struct product *p)
 {
     int64_t most = 0;

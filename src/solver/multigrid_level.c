@@ -57,7 +57,8 @@ static bool entry_is_zero(const struct level *l, int64_t q)
     return true;
 }
 
-/* Lists the nodes connected to node i in list[0 .. n - 1] and marks them as seen; returns n. */
+/* Lists all nodes that are connected with node i, directly or through others, in list[0 .. n - 1] and sets seen[] for
+ * them. Returns n. */
 static int64_t piece_list(const struct level *l, int64_t i, uint8_t *seen, int32_t *list)
 {
     int64_t n = 0;
@@ -104,6 +105,7 @@ struct three_vectors {
     const real *a, *b, *c;
 };
 
+/* Adds the products a b to sum[0] and b c to sum[1] for entries first .. end - 1, for reproducible_sums. */
 static void three_vectors_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct three_vectors *v = context;
@@ -113,7 +115,7 @@ static void three_vectors_block(const void *context, int64_t first, int64_t end,
     }
 }
 
-/* Computes d = D^-1 t; sum[0] = x . t, sum[1] = t . d. */
+/* Computes d = D^-1 t, D being the diagonal blocks, and the scalar products sum[0] = x . t and sum[1] = t . d. */
 static void lanczos_scale(struct level *l, real *sum)
 {
     const int w = l->width;
@@ -127,7 +129,7 @@ static void lanczos_scale(struct level *l, real *sum)
     reproducible_sums(l->n * w, 2, three_vectors_block, &(struct three_vectors){l->x, l->t, l->d}, sum);
 }
 
-/* Computes y = -(d + a x + b y)/length and swaps x and y. */
+/* Makes the next Lanczos vector -(d + a x + b y)/length in y, and exchanges x and y, so that x is the newest one. */
 static void lanczos_turn(struct level *l, real a, real b, real length)
 {
 #pragma omp parallel for schedule(static)
@@ -136,8 +138,9 @@ static void lanczos_turn(struct level *l, real a, real b, real length)
     l->x = l->y, l->y = x;
 }
 
-/* Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x = x . t with
- * t = K x. */
+/* Estimates the largest eigenvalue of D^-1 K, with the diagonal blocks D, by the Lanczos method and stores it in
+ * l->largest. The Lanczos vectors x are orthonormal in the product with D, in which D^-1 K is symmetric: x . D D^-1 K x
+ * = x . t with t = K x. */
 void level_estimate_largest(struct level *l)
 {
     real a[LANCZOS], b[LANCZOS + 1] = {0}, sum[2];

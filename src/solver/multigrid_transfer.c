@@ -44,7 +44,8 @@ static void down_pattern(struct level *l)
 
 enum { BLOCK_MOST = WIDTH_MOST * WIDTH_MOST, AT_ONCE = 16 };
 
-/* Computes force[k][w][m] = K times the tentative motions of aggregate name[k], in row i. */
+/* Computes force[k][w][m], the product of matrix row i with the rigid motions (tentative prolongation) of aggregate
+ * name[k], for k < n. w, m: unknowns per node of this and of the coarser level. */
 static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const int32_t *name, int n, real *force,
                                       const int w, const int m)
 {
@@ -63,7 +64,7 @@ static ALWAYS_INLINE void down_forces(const struct level *l, int64_t i, const in
     }
 }
 
-/* Computes row i of the prolongation: the tentative motions minus a step of D^-1 K times them. */
+/* Computes row i of the smoothed prolongation: the rigid motions of the aggregates minus step D^-1 K times them. */
 static ALWAYS_INLINE void down_row(const struct level *l, int64_t i, real step, const int w, const int m)
 {
     const struct transfer *p = &l->down;

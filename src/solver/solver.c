@@ -21,9 +21,9 @@ real solver_largest_component(const struct field *v, int dim, int64_t n)
     return most;
 }
 
-/* Strain of the difference of forces. Bond forces follow from positions, whose last bit is a strain of eps |x|/dx,
- * 1e-14 in a body of 100 spacings: at a strain of 3e-6 that is 1e-8 of a force. The second-order error of central
- * differences is below 1e-10. */
+/* Strain of the motion over which the difference of forces is taken. Bond forces follow from positions, whose last bit
+ * is a strain of eps |x|/dx, 1e-14 in a body of 100 spacings: at a strain of 3e-6 that is 1e-8 of a force. The
+ * second-order error of central differences is below 1e-10. */
 #define TANGENT_STRAIN 3e-6
 
 void solver_tangent(const struct static_body *body, const struct field *in, struct field *out, real strain_ratio)
@@ -43,7 +43,7 @@ void solver_tangent(const struct static_body *body, const struct field *in, stru
     }
 }
 
-/* Forces of which solver_force_block sums squares. */
+/* Parameters of solver_force_block: particles, and their constrained components, one bit each. */
 struct constrained_forces {
     const struct particles *part;
     const uint8_t *held;

@@ -12,9 +12,10 @@
 
 /* ---- sums -------------------------------------------------------------------------------------------------------- */
 
+/* Returns true if a support or a plane of symmetry constrains component d of particle i. */
 static bool is_constrained(const struct solver *s, int64_t i, int d) { return s->held[i] >> d & 1; }
 
-/* Adds d . K d over free components. */
+/* Adds the weighted product d . K d over free components to sum[0]. K d is in s->q. */
 static void curvature_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -23,7 +24,7 @@ static void curvature_block(const void *context, int64_t first, int64_t end, rea
             if (!is_constrained(s, i, d)) sum[0] += s->weight[i] * s->d.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds u . K u. */
+/* Adds the weighted product u . K u over all components to sum[0]. K u is in s->q. */
 static void energy_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -31,7 +32,7 @@ static void energy_block(const void *context, int64_t first, int64_t end, real *
         for (int64_t i = first; i < end; i++) sum[0] += s->weight[i] * s->u.of[d][i] * s->q.of[d][i];
 }
 
-/* Adds r . r/Lambda to sum[0] and r . r to sum[1]. */
+/* Adds the weighted product r . r/Lambda to sum[0], and r . r without weights to sum[1]. */
 static void residual_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct solver *s = context;
@@ -54,7 +55,8 @@ static real unit_energy(const struct static_body *body)
 
 /* ---- parts of a step --------------------------------------------------------------------------------------------- */
 
-/* Computes part.f = b - K u. Reactions on constrained components are measured, then removed. */
+/* Computes the residual b - K u from the displacements, not by recurrence, into part.f. The reactions on constrained
+ * components are measured, then set to 0. */
 static void true_residual(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;
@@ -94,7 +96,7 @@ static void solver_cg_start(struct solver *s, const struct static_body *body)
     restart(s, p);
 }
 
-/* Computes u += alpha d and r -= alpha K d; returns r . r. */
+/* Computes u += alpha d and r -= alpha K d, and the next search direction d. Returns r . r. */
 static real solver_cg_advance(struct solver *s, real alpha)
 {
     real sum[2];

@@ -45,8 +45,9 @@ static void solver_scaled_stiffness(void *context, const real *x, real *y)
 
 #define MARGIN_OF_EIGENVALUE 1.02 /* the iteration converges from below */
 
-/* Computes Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci 2010), with the bonds as springs; multiplies
- * it by the largest eigenvalue if the model is stiffer than these springs. */
+/* Computes the diagonal Lambda that scales the unknowns, Lambda_i >= 1/4 sum |K_ij| for a unit step (Kilic & Madenci
+ * 2010), with the bonds as springs; multiplies it by the largest eigenvalue if the model is stiffer than these
+ * springs. */
 static void make_diagonal(struct solver *s, const struct static_body *body)
 {
     struct particles *p = body->part;

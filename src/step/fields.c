@@ -165,6 +165,8 @@ static uint8_t *point_levels_make(const struct reference_frame *frame, const str
 
 /* ---- a frame ----------------------------------------------------------------------------------------------------- */
 
+/* Computes the fields that particles do not store (strain, density, plastic work, refinement level) and stores pointers
+ * to them in *extra, from which the frame is written. asked: set of these fields, as bits ASK_... (output/output.h). */
 void frame_fields_compute(struct run *e, unsigned asked, struct frame_extra *extra)
 {
     extra->asked = asked, extra->material = e->scene->material, extra->space = e->scene->space;

@@ -24,7 +24,8 @@
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the nearest step after which all levels of coarse cells are at the same time. */
+/* Returns the step nearest to `step` after which all levels of coarse cells, whose time steps differ, are at the same
+ * time. */
 static int64_t common_step(const struct run_clock *clock, int64_t step)
 {
     return (step + clock->stride / 2) / clock->stride * clock->stride;
@@ -44,8 +45,9 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
     return s->frames < most ? s->frames : most;
 }
 
-/* Takes the step nearest to the time of the frame, or spreads frames evenly. A step writes at most one frame of the
- * body: frames closer together than a step are moved apart and keep their number. */
+/* Returns the step after which frame k of the body is written: the step nearest to its time or, if the scene gives no
+ * times, that of evenly spread frames. A step writes at most one frame: frames closer together than a step are moved
+ * apart and keep their number. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k)
 {
     const struct number_list *times = &s->times;
@@ -112,7 +114,8 @@ unsigned report_frames_due(const struct output *out, const struct scene *s, cons
     return due;
 }
 
-/* Returns the fields that the scene requests for frames of series k (bits ASK_...). */
+/* Returns the fields that are written to frames of series k (bits ASK_...): those of the series, else those of the
+ * scene. */
 static unsigned asked_of(const struct scene *scene, int k)
 {
     return k > 0 && scene->series[k - 1].fields ? scene->series[k - 1].fields : scene->fields;
@@ -165,7 +168,8 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
     return wall_clock() - report->began + 2 * report->checkpoint_seconds >= s->wall;
 }
 
-/* Warns of frames and profiles of a resumed run that are missing. FAILED if the frames cannot be read. */
+/* Warns of frames and profiles that a resumed run should have but are missing. Returns FAILED if the frames cannot be
+ * read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
     char text[PATH_NAME_ROOM + 200];
@@ -235,6 +239,8 @@ static void progress(struct run *e, bool last)
 
 /* ---- after a step ------------------------------------------------------------------------------------------------ */
 
+/* Returns the share of all particles that are still at rest, which time steps skip (data/active_set.h) [1]: peridynamic
+ * particles by the bonds b, material points by the mesh. */
 real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const struct particles *p)
 {
     real at_rest = inactive_share(&b->active) * (real)p->n_of[KIND_PD];

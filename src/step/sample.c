@@ -45,7 +45,7 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           [20] = {"mpm_share", ""},
                                                           {"rest_share", ""}};
 
-/* Returns the mean share of the body at rest over the steps since the last sample [1]; 0 if there was no step.
+/* Returns the mean share of the body that was at rest, over the steps since the last call [1]; 0 if there was no step.
  * Starts the next mean. */
 static real inactive_since_sample(const struct run_clock *clock, struct run_report *report)
 {
@@ -196,8 +196,8 @@ static void momentum_now(const struct particles *p, const struct reference_frame
     particles_linear_momentum(p, nodes, grids, momentum);
 }
 
-/* Interpolates the momentum of a sample linearly to its time t [s]. momentum: after the step on entry, at t on
- * return [dim, kg m/s]. */
+/* Replaces the momentum after the step by that at the time t [s] of a sample, by linear interpolation between the
+ * velocities before and after t [dim, kg m/s]. */
 static void momentum_at(const struct sampling *s, const struct velocity_time *now, real t, int dim, real *momentum)
 {
     const real share = (t - s->t_velocity) / (now->t - s->t_velocity);
@@ -275,8 +275,8 @@ static void keep_velocities(struct sampling *sampling, const struct particles *p
     }
 }
 
-/* Returns the mean of the kinetic energies before and after a step minus 1/2 m v_before . v_after [J]
- * (particles_kick_energy). The part of absorbing faces, whose dashpots act during the kick, is subtracted. */
+/* Returns the mean of the kinetic energies before and after the kick of a step minus 1/2 m v_before . v_after [J]. The
+ * part of absorbing faces, whose dashpots act during the kick, is subtracted. */
 static real kick_now(const struct run *e)
 {
     const bool grid = e->part.n_free > 0 || coupling_moves_by_grid(e->coupling_kind);
@@ -324,8 +324,8 @@ static bool velocity_jumps(const struct scene *s)
     return drives;
 }
 
-/* Returns false if the first step changes velocities not only by forces: with APIC, with points beside driven ones,
- * and with bodies in contact on the grid. */
+/* Returns true if the first step changes velocities by forces alone. Not so with APIC, with material points beside
+ * driven ones, and with bodies in contact on the grid. */
 static bool start_separable(const struct scene *s, const struct particles *p, const struct grid_method *grid)
 {
     return p->n_free == 0 || (s->transfer == TRANSFER_FLIP && !velocity_jumps(s) && grid->contact.touching == 0);
@@ -412,9 +412,9 @@ static void reactions_at_end(struct loads *l, const struct grid_method *grid, co
         reactions_add(l, &frame->levels.at[level].mesh.grid);
 }
 
-/* Returns the sum of v . f with the forces after the last step, which no motion follows [W]. No bond breaks, and the
- * accounts of the loads, except reactions, are restored. *held: work that walls of grids and meshes would do in that
- * step [J], which is not part of the power; work of driven particles is. */
+/* Returns the power v . f of the forces after the last step, which no motion follows [W]. No bond breaks, and the
+ * accounts of the loads, except reactions, are restored. *held: receives the work that walls of grids and meshes would
+ * do in that step [J]; it is no part of the power, while the work of driven particles is. */
 static real power_last(struct run *e, real *held)
 {
     struct memory_archive accounts;
@@ -441,8 +441,8 @@ static real power_last(struct run *e, real *held)
     return power - walls;
 }
 
-/* Uses 1/2 m v- . v+ as the kinetic energy, as in all samples; v+ is the velocity after a kick by the forces at the
- * end, which no motion follows. */
+/* Takes the sample after the last step and writes its line. As in all samples, the kinetic energy is 1/2 m v- . v+; v+
+ * is the velocity after a kick by the forces at the end, which no motion follows. */
 void sample_final(struct run *e)
 {
     real held = 0;

@@ -62,8 +62,8 @@ static void say_damped(real share, struct warnings *to)
     warnings_add_and_print(to, text);
 }
 
-/* Writes to text that the first bonds broke in a collision faster than fronts are resolved; returns false if that is
- * not so. */
+/* Writes to text a warning that the first bonds broke in a collision at a speed at which the numerical fronts
+ * oscillate. Returns false, without text, if no such collision was expected or no bond broke. */
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t room)
 {
     const struct shock shock = fastest_collision_expected(s);

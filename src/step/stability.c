@@ -49,7 +49,8 @@ void stability_make(struct stability *s, const struct particles *p)
 
 /* ---- loads ------------------------------------------------------------------------------------------------------- */
 
-/* Computes the largest and the mean |factor| of a function of time from `from` to `to` [s]. */
+/* Computes largest value and mean of the absolute value of a time function between `from` and `to` [s], from MOMENTS
+ * samples. */
 static void factors(const struct time_function *f, real from, real to, real *most, real *mean)
 {
     *most = *mean = 0;
@@ -80,8 +81,8 @@ static real load_speed(const struct run_clock *clock, const struct particles *p,
     return mean * (clock->t - from) * sqrt(fast2);
 }
 
-/* Returns true if initial energy and work of the loads (given [J]) are at least LOAD_SHARE_LEAST times the kinetic
- * energy. */
+/* Returns true if the energy at the start plus the work of the loads (`given` [J]) is at least LOAD_SHARE_LEAST times
+ * the kinetic energy, so that no instability is needed to explain the motion. */
 static bool loads_explain_motion(const struct particles *p, const struct reference_frame *frame, real given)
 {
     const real kinetic = particles_kinetic_energy(p) + frame_kinetic_energy(frame);
@@ -98,8 +99,8 @@ static real start_strain(const struct scene *s)
     return most;
 }
 
-/* Writes to text which load or initial state explains the motion; returns false if none does. steps: in which the
- * squared speed grew tenfold last. */
+/* Writes to text which load or initial state explains the motion. steps: number of steps in which the square of the
+ * speed last grew tenfold. Returns false, without text, if none explains it. */
 static bool load_explanation(const struct run *e, real steps, char *text, size_t room)
 {
     static const char *const unit[] = {"m/s", "Pa", "N/m^3", "", "", "Pa"};
@@ -156,7 +157,7 @@ static int say_step(const struct scene *s, const struct run_clock *clock, char *
                     clock->dt_critical);
 }
 
-/* Returns true if a mirror holds tangential motion. */
+/* Returns true if a mirror of the scene also prevents tangential motion on its plane. */
 static bool holds_images(const struct scene *s)
 {
     for (int b = 0; b < s->boundaries; b++)
@@ -252,6 +253,8 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
 
 /* ---- divergence and inversion ------------------------------------------------------------------------------------ */
 
+/* Checks whether a particle moves faster than the fastest wave, or has a position or velocity that is not finite.
+ * peridynamic: check the peridynamic particles too; meshed: check the material points of a mesh too. */
 status divergence_check(const struct run *e, bool peridynamic, bool meshed)
 {
     char remedy[REMEDY_LENGTH];
@@ -330,8 +333,9 @@ bool energy_is_round_off(const struct diagnostics *w, real mass, real wave_speed
     return w->energy_scale < ENERGY_OF_ROUND_OFF * 0.5 * mass * square(wave_speed);
 }
 
-/* The fracture energy is negative if bonds released more than they had stored. State-based models can do so: when a
- * bond breaks, the dilatation of the particle changes, and its other bonds may store more. */
+/* Returns the energy that breaking bonds released beyond what they had stored [J], i.e. a negative fracture energy.
+ * State-based models can do so: when a bond breaks, the dilatation of the particle changes, and its other bonds may
+ * store more. */
 real energy_released(const struct diagnostics *w) { return real_max(0, -w->now.energy.fracture); }
 
 /* Returns true if the body has more energy than a stable run can gain. The first steps are left out, in which half a
@@ -349,7 +353,8 @@ static bool swings(const struct run_clock *clock, const struct energy *energy)
     return clock->dt > clock->dt_critical && energy->kinetic < KINETIC_LEAST * energy->strain;
 }
 
-/* Returns FAILED with step, time and the fastest particle; what: completes "a body ...". */
+/* Returns FAILED with a message that names step, time and the fastest particle. what: completes the words "a body ...";
+ * remedy: advice at the end. */
 static status unstable(const struct particles *p, const struct run_clock *clock, const char *what, const char *remedy)
 {
     const int64_t i = fastest_particle(p);
@@ -392,8 +397,9 @@ static bool say_stretched(const struct particles *p, const struct material *mate
     return false;
 }
 
-/* Covers unstable runs in which no particle is faster than waves: a body that breaks all its bonds, or one whose
- * velocities change sign in every step. Bodies whose energy is round-off are left out. */
+/* Returns FAILED if the energy shows that the run is unstable, although no particle is faster than waves: a body that
+ * breaks all its bonds, or one whose velocities change sign in every step. Bodies whose energy is round-off are not
+ * tested. */
 status energy_check(struct run *e)
 {
     if (e->stability->lost)

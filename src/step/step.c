@@ -26,7 +26,8 @@ struct step {
     int64_t broken, converted; /* directed bonds broken, particles converted in this step */
 };
 
-/* Sets the quantities of a step. */
+/* Returns the quantities that the phases of the next step share: times, damping factors, length of the kick of
+ * velocities. */
 static struct step step_begin(struct run *e)
 {
     const real dt = e->clock.dt, decay = e->scene->damping * dt, share = damping_factor(decay);

@@ -57,7 +57,8 @@ static void put_probes(struct json *j, const struct probes *s, const struct obse
     json_close(j, '}');
 }
 
-/* Writes the half-widths of the figures above, if a study of this scene exists. */
+/* Writes the half-widths of the uncertainty of figures as object `uncertainty`, if a study of this scene has found
+ * them. */
 static void put_error_bars(struct json *j, const struct run_report *r)
 {
     if (r->bars == 0) return;

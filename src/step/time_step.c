@@ -115,9 +115,10 @@ static real critical_of_lattices(const struct bond_source *all, const struct par
 /* Number of particles up to which the whole body is iterated: an iteration takes about 30 rounds of a few steps each */
 enum { ITERATED_MOST = 15000 };
 
-/* Returns the critical step of bonds [s]. A small or irregular peridynamic body is iterated as a whole. Else a block
- * of its lattice is iterated, and the result is multiplied by the ratio of the row-sum estimates of body and block,
- * which is below 1 for scattered particles, corrected surfaces and heavy neighbours. */
+/* Returns the critical step of bonds [s]. For a small or irregular peridynamic body the largest frequency of the whole
+ * body is found by iteration. Else that of a block of its lattice is, and the result is multiplied by the ratio of the
+ * row-sum estimates of body and block, which is below 1 for scattered particles, corrected surfaces and heavy
+ * neighbours. */
 static real critical_of_bonds(struct run *e)
 {
     const struct scene *s = e->scene;
@@ -152,11 +153,11 @@ static status make_steps(const struct scene *s, struct run_clock *clock, real dt
     return OK;
 }
 
-/* Returns the largest share of the contact's critical step [1]. Contact begins and ends within steps, which changes
- * the energy by up to k/2 times the square of the motion in a step. Measured change per collision: bars of 50
- * particles in a plane 0.3 % at 0.8 and 0.1 % at 0.5; bars of 100 particles in a line, whose faces meet in one step,
- * 1 % at 0.8 and 0.1 % at 0.35. Crack faces of one body meet gently: 0.7. If safety is above 1, contact within a
- * body does not limit the step. */
+/* Returns the largest admissible ratio of the time step to the critical step of contact [1]. Contact begins and ends
+ * within steps, which changes the energy by up to k/2 times the square of the motion in a step. Measured change per
+ * collision: bars of 50 particles in a plane 0.3 % at 0.8 and 0.1 % at 0.5; bars of 100 particles in a line, whose
+ * faces meet in one step, 1 % at 0.8 and 0.1 % at 0.35. Crack faces of one body approach slowly: 0.7. If safety is
+ * above 1, contact within a body does not limit the step. */
 static real contact_safety(const struct scene *s)
 {
     if (!scene_bodies_meet(s)) return s->safety > 1 ? INFINITY : 0.7;
@@ -186,8 +187,9 @@ static real lightest_share(const struct scene *s, const struct particles *p)
     return least;
 }
 
-/* Takes the smallest limit of all methods of the scene, whichever particles exist at the start, since particles
- * convert. */
+/* Computes the critical time step and the time step of a run, with the number of steps. The limits of all methods of
+ * the scene count, whichever particles exist at the start, since particles convert. Returns REFUSED if the prescribed
+ * step is too large for coarse cells, or steps are too many. */
 status time_step_make(struct run *e)
 {
     const struct scene *s = e->scene;

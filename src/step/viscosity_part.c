@@ -25,15 +25,16 @@ static bool viscosity_made(struct viscosity *v, const struct scene *s, int64_t n
     return true;
 }
 
-/* Returns q/(rho c^2) [1]. crossing: time h/c in which a wave crosses the resolved length [s]; rate: of compression
- * [1/s]. */
+/* Returns the viscous pressure over rho c^2 [1]. linear, quadratic: coefficients of the material [1]; crossing: time
+ * h/c in which a wave crosses the resolved length [s]; rate: of compression [1/s]. */
 static real viscous_strain(real linear, real quadratic, real crossing, real rate)
 {
     const real x = crossing * rate;
     return (linear + quadratic * x) * x;
 }
 
-/* Returns q of a material [Pa], 0 in expansion. h: resolved length [m]; rate: relative rate of volume growth [1/s]. */
+/* Returns the viscous pressure of a material [Pa], 0 in expansion. h: resolved length [m]; rate: growth of the volume
+ * over the volume [1/s]. */
 static real viscous_pressure(const struct material *m, real h, real rate)
 {
     if (!(rate < 0)) return 0;
@@ -65,8 +66,8 @@ static void bond_push(const struct material *material, const struct particles *p
     for (int d = 0; d < p->dim; d++) f[d] -= stiffness * bond->w * strain * span[d] / length;
 }
 
-/* Adds the viscous forces of bonds to particles, and the energy that they dissipated since the previous step. half:
- * half_step [s]. */
+/* Adds the viscous forces of bonds to the forces on particles, and the energy that they dissipated since the previous
+ * step to v->taken. half: half of the step, 0 in the first one [s]. */
 static void bonds_push(struct viscosity *v, const struct bonds *b, struct particles *p, real half)
 {
 #pragma omp parallel for schedule(static)
@@ -86,7 +87,8 @@ static void bonds_push(struct viscosity *v, const struct bonds *b, struct partic
 
 /* ---- points on the grid ------------------------------------------------------------------------------------------ */
 
-/* Computes q of points on the grid, and the energy dissipated in the growth of their volumes over dt. */
+/* Computes the viscous pressure of the points on the grid, and adds the energy dissipated by the change of their
+ * volumes over dt to v->taken. */
 static void points_pressure(struct viscosity *v, const struct particles *p, const struct partial_stress *partial,
                             real dt)
 {
@@ -103,7 +105,8 @@ static void points_pressure(struct viscosity *v, const struct particles *p, cons
     v->taken += reproducible_sum(p->n, taken_by, v->work);
 }
 
-/* Returns the half step by which mean forces of two steps do work [s]; 0 in the first step. */
+/* Returns half of the time step [s], for which the forces of two successive steps do work, or 0 in the first step,
+ * which has no previous one. */
 static real half_step(const struct run_clock *clock) { return clock->step > 0 ? 0.5 * clock->dt : 0; }
 
 void viscosity_add_forces(struct run *e)
