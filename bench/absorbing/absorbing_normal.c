@@ -38,7 +38,8 @@ static int normal_scene(char *text, size_t room, const struct absorbing_method *
                     zeros[dim], zeros[dim], width * ABSORBING_SPACING, NORMAL_VELOCITY, mirrors[dim]);
 }
 
-/* Runs a strip of `length` spacings. v: receives the velocities along x at the end, [particles], allocated. */
+/* Runs a strip of `length` spacings with a pulse of `width` spacings. *v: velocities along x at the end [particles],
+ * allocated. Updates the largest errors in *figure. */
 static status normal_run(const struct absorbing_method *m, int dim, int width, int length, real **v,
                          struct absorbing_pulse *figure)
 {

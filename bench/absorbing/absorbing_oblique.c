@@ -21,8 +21,8 @@ struct oblique {
     double k, wave, from, radius, station, frequency, until;
 };
 
-/* Computes the initial velocity of a P wave, the gradient of g(x) cos(k y), or of an S wave, the curl of g(x) sin(k y),
- * with a wave packet g. */
+/* Computes the initial velocity v at X of a wave packet g(x): for a P wave the gradient of g(x) cos(k y), for an S
+ * wave the curl of g(x) sin(k y). */
 static void packet(const void *context, const real *X, real *v)
 {
     const struct oblique *o = context;
@@ -34,7 +34,8 @@ static void packet(const void *context, const real *X, real *v)
     v[1] = scale * (o->shear ? -slope : -o->k * g) * sin(o->k * X[1]);
 }
 
-/* Rounds the distance of the mirrors to whole spacings and derives the wave from it. */
+/* Returns the strip and the wave packet for an angle of incidence and an approximate wavelength [spacings]. The
+ * distance of the mirrors is rounded to whole spacings, and the wavelength follows from it. */
 static struct oblique oblique_of(bool shear, double angle, double wavelength)
 {
     const double h = ABSORBING_SPACING, speed = shear ? ABSORBING_SPEED / sqrt(3) : ABSORBING_SPEED;
@@ -52,8 +53,8 @@ static struct oblique oblique_of(bool shear, double angle, double wavelength)
     return o;
 }
 
-/* Runs a strip `along` spacings long and computes the Fourier amplitudes of U and V at the station. sum: by frequency,
- * for U and V [m]. */
+/* Runs a strip that is `along` spacings long and computes the Fourier amplitudes of the displacement at the station,
+ * at the frequency of the wave: sum[0] of the component across the face, sum[1] of the one along it [m]. */
 static status oblique_run(const struct oblique *o, const struct absorbing_method *m, int along, double complex *sum)
 {
     struct run e;

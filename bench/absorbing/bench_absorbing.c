@@ -36,6 +36,7 @@ static void normal_row(const struct absorbing_method *m, int dim, struct bench_t
 
 /* ---- oblique incidence ------------------------------------------------------------------------------------------- */
 
+/* Measures the reflection of one wave, prints it with the theory, and adds a row to the table. */
 static void oblique_row(const struct absorbing_method *m, bool shear, int degrees, double wavelength,
                         struct bench_table *rows)
 {

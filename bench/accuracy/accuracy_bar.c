@@ -36,8 +36,9 @@ static void accuracy_bar_make_scene(const struct accuracy_point *p, struct accur
 /* Returns the root mean square over 1.6 m of amplitude * exp(-(x/r)^2), r = 0.1 m; used for velocity and stress. */
 static double pulse_rms(double amplitude) { return amplitude * sqrt(0.1 * sqrt(0.5 * M_PI) / 1.6); }
 
-/* Computes the error in the energy norm: stress and velocity carry equal energies. At a front the mean square does not
- * converge with a fixed order, so that there the mean of the absolute error is used. */
+/* Computes the relative errors of stress (part[0]) and velocity (part[1]), and their mean *error. The smooth pulse
+ * uses root mean squares, the step mean absolute errors, because the mean square does not converge with a fixed order
+ * at a front. */
 static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const double impedance = 100; /* rho c [Pa s/m] */
@@ -53,7 +54,8 @@ static status accuracy_bar_measure(const struct accuracy_point *p, struct run *e
     return OK;
 }
 
-/* Leaves out `uniform` methods: on a line each distance has one shell of bonds, and uniform weights change nothing. */
+/* Returns false for `uniform` methods: on a line there is one bond per distance, so that uniform weights change
+ * nothing. */
 static bool accuracy_bar_applies(const struct accuracy_point *p) { return !strstr(p->method->name, "uniform"); }
 
 const struct accuracy_problem accuracy_bar = {

@@ -76,6 +76,7 @@ static double legendre(int degree, double x)
     return now;
 }
 
+/* Computes the velocity v of the mode at position X, as a sum of products of Legendre polynomials. */
 static void mode_at(const void *context, const real *X, real *v)
 {
     const struct mode *m = context;
@@ -102,8 +103,8 @@ static double part_in_mode(const struct mode *m, const struct run *e)
     return sum;
 }
 
-/* Runs in pieces of 1/300 of the duration up to the second zero, which is interpolated linearly between the last
- * two. */
+/* Runs in pieces of 1/300 of the duration until the motion in the mode is zero for the second time, which is at three
+ * quarters of a period; this time is interpolated linearly. Stores the frequency in `measured`. */
 static status accuracy_beam_run(const struct accuracy_point *p, struct run *e)
 {
     const struct mode *m = mode_of(p);

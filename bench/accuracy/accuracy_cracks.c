@@ -70,7 +70,8 @@ static void accuracy_cracks_make_scene(const struct accuracy_point *p, struct ac
         bench_override(&s->set, "pd.normalisation", "local");
 }
 
-/* Computes the errors of both factors relative to the magnitude of the exact pair. */
+/* Computes the errors of K_I and K_II, both relative to the magnitude of the exact pair, in part[0] and part[1];
+ * *error is the magnitude of these two. */
 static status accuracy_cracks_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     static const char *const factor[2] = {"K_I", "K_II"};

@@ -13,6 +13,8 @@
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
+/* Writes the label of a point: method, resolution, and horizon and time step unless they are usual. text: capacity
+ * `size` [byte]. */
 void accuracy_label(const struct accuracy_point *p, char *text, size_t size)
 {
     char more[48] = "", *end = more;
@@ -27,15 +29,16 @@ static bool same_but_case(const struct accuracy_point *a, const struct accuracy_
            a->horizon == b->horizon && a->step == b->step;
 }
 
-/* Returns the dot of a result. A part of the error that is exactly 0 is drawn at 1e-9 on the logarithmic axis. */
+/* Returns the dot at which a result is drawn: its time on one thread and its error, or one part of it. A part that is
+ * exactly 0 becomes 1e-9, for the logarithmic axis. */
 static struct accuracy_dot dot_of(const struct accuracy_result *r, int part)
 {
     const double error = part < 0 ? r->error : fmax(fabs(r->part[part]), 1e-9);
     return (struct accuracy_dot){r->seconds[0], r->stable ? error : NAN};
 }
 
-/* Computes the worst error and the longest time of all cases. Returns false if a case is unknown or does not apply to
- * the method. */
+/* Computes the largest error and the longest time of a method over all cases of a problem. Returns false if a case
+ * has not been run or does not apply to the method. */
 static bool worst_dot(const struct accuracy_plan *plan, const struct accuracy_point *p, int part,
                       struct accuracy_dot *worst)
 {
@@ -141,8 +144,8 @@ static bool has_group(const struct panel *q, int g)
 
 /* ---- content of a panel ------------------------------------------------------------------------------------------ */
 
-/* Sends the runs that are not on the front, and unstable ones at the upper edge, as a data block that is never
- * empty. */
+/* Sends the runs that are not on the Pareto front as a data block, and unstable runs at the upper edge as another
+ * one. gnuplot refuses empty blocks, so each ends with a point without position. */
 static void put_others(FILE *to, const struct panel *q)
 {
     for (int unstable = 0; unstable < 2; unstable++) {
@@ -155,8 +158,8 @@ static void put_others(FILE *to, const struct panel *q)
     }
 }
 
-/* Sends the front as a line, and its points by families with labels: from the most accurate point upwards, those that
- * do not overlap. */
+/* Sends the Pareto front of a panel: as a line, and by families as points with labels. Points get labels from the
+ * most accurate one upwards, as far as these do not overlap. */
 static void put_front(FILE *to, const struct panel *q)
 {
     const double line = 0.052 * log(q->most / q->least);

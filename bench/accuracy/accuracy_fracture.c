@@ -81,8 +81,9 @@ static double time_of(const struct tips *t, double length)
     return NAN;
 }
 
-/* Returns the angle of the crack path, away from the middle plane of the plate, from the damaged particles of both
- * cracks in a ring around their starting points [rad]. */
+/* Returns the angle of the crack path, positive away from the middle plane of the plate [rad], from the damaged
+ * particles of both cracks at a distance radius +- width from the ends of the pre-cracks [m]; NAN if there are
+ * none. */
 static double angle_at(const struct run *e, double radius, double width)
 {
     const struct tips *t = &e->fracture->tips;
@@ -119,8 +120,8 @@ struct fracture accuracy_fracture_of(const struct accuracy_point *p, const struc
 /* Returns the relative error of a value; -1 (100 %) if the crack did not grow so far. */
 static double accuracy_fracture_off(double value, double wanted) { return isfinite(value) ? value / wanted - 1 : -1; }
 
-/* Computes the error: distance of the path from the reference path over the distance from its start; start time; speed;
- * length. */
+/* Computes the errors relative to the reference: part[0] of path and length, part[1] of the start time, part[2] of
+ * the speed; *error is their root mean square. */
 static status accuracy_fracture_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct fracture f = accuracy_fracture_of(p, e), *wanted = &fracture_reference[p->at][FRACTURE_QUARTER];
@@ -134,7 +135,8 @@ static status accuracy_fracture_measure(const struct accuracy_point *p, struct r
     return OK;
 }
 
-/* Restricts methods that do not converge to the reference, or take the longest, to coarse resolutions. */
+/* Returns false for resolutions that a method is not run at: methods that do not converge to the reference, or take
+ * the longest, run at coarse ones only. */
 static bool accuracy_fracture_applies(const struct accuracy_point *p)
 {
     if (p->resolution <= 100) return true;
@@ -185,6 +187,7 @@ const struct accuracy_problem accuracy_fracture = {
 
 /* ---- the reference ----------------------------------------------------------------------------------------------- */
 
+/* Runs a point and prints its results as an entry of the table of references. */
 static status print_reference(const struct accuracy_point *p)
 {
     struct accuracy_scene from;

@@ -19,7 +19,8 @@ static const struct manufactured *accuracy_manufactured_motion_of(const struct a
     return p->problem->dim == 2 ? &square_motion : &cube_motion;
 }
 
-/* Writes the scene. The run ends at 0.4 T, when displacement, velocity and strain are all large. */
+/* Writes the scene with the body force of the manufactured solution. The run ends at 0.4 of the period T, when
+ * displacement, velocity and strain are all large. */
 static void accuracy_manufactured_make_scene(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     static const char plane[] =
@@ -42,8 +43,8 @@ static void accuracy_manufactured_make_scene(const struct accuracy_point *p, str
     bench_override(&s->set, "particles.spacing", "1/%d", p->resolution);
 }
 
-/* Adds the squared stress of `strain` and its squared error to *all and *off, with the stiffness of the material; shear
- * components count twice in the sum over the tensor. */
+/* Adds the squared difference between the stress of particle i and stiffness times strain to *off, and the square of
+ * the latter to *all. Shear components count twice, as in the sum over a tensor. */
 static void add_stress(const struct particles *p, int64_t i, const real *stiffness, const real *strain, double *off,
                        double *all)
 {

@@ -89,8 +89,8 @@ const char *accuracy_solver(const struct accuracy_point *p)
     return accuracy_is_reference(p) ? "explicit" : p->method->family & ACCURACY_PD ? "cg" : "relaxation";
 }
 
-/* Returns false for flip, with which relaxation converges too slowly, and for couplings pm and pmg, whose linear shapes
- * have no apic. */
+/* Returns true if a method can be used with relaxation. With the transfer flip it converges too slowly, and couplings
+ * pm and pmg have linear shapes, for which there is no apic. */
 bool accuracy_relaxes(const struct accuracy_point *p)
 {
     return !sets(p->method, "mpm.transfer", "flip") && !sets(p->method, "coupling", "pm") &&

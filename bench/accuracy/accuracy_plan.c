@@ -20,6 +20,7 @@ int accuracy_cases(const struct accuracy_problem *problem)
 
 /* ---- scenes ------------------------------------------------------------------------------------------------------ */
 
+/* Composes the scene of a point: that of the problem, with the keys of the method, the horizon and the time step. */
 void accuracy_scene_make(const struct accuracy_point *p, struct accuracy_scene *s)
 {
     memset(s, 0, sizeof *s);
@@ -59,6 +60,7 @@ static status read_settings(struct accuracy_entry *entry, const char *machine)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
+/* Adds a point to the plan, unless the problem does not apply to it. quick: it is run with --quick, too. */
 static status add_point(struct accuracy_plan *plan, struct accuracy_point p, bool quick)
 {
     if (p.problem->applies && !p.problem->applies(&p)) return OK;
@@ -67,7 +69,8 @@ static status add_point(struct accuracy_plan *plan, struct accuracy_point p, boo
     return read_settings(&plan->entry[plan->n++], plan->machine.model);
 }
 
-/* Adds the further horizons and time steps of a point: the first horizon at every resolution, others (`all`) at one. */
+/* Adds points with other horizons and other time steps than point p. all: adds every variation, else only the first
+ * horizon and the time steps of the problem. */
 static status add_variations(struct accuracy_plan *plan, struct accuracy_point p, bool all, bool quick)
 {
     const struct accuracy_problem *q = p.problem;

@@ -58,6 +58,7 @@ static void take_line(struct accuracy_result *r, const char *line, size_t key)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
+/* Writes a comma and a number; no number if it is not finite. */
 static void accuracy_store_put_number(FILE *to, double value)
 {
     if (isfinite(value)) fprintf(to, "%.9g", value);
@@ -130,7 +131,8 @@ status accuracy_store_write(const struct accuracy_plan *plan)
     return s;
 }
 
-/* Rewrites the remaining lines of the file without an incomplete last one. */
+/* Reads the known results of all points of the plan from the file, and writes the file again with the lines that
+ * belong to a point only. */
 status accuracy_store_read(struct accuracy_plan *plan)
 {
     char *text, key[256];

@@ -46,7 +46,8 @@ static void accuracy_sudden_make_scene(const struct accuracy_point *p, struct ac
     bench_override(&s->set, "particles.spacing", "20/%d mm", p->resolution);
 }
 
-/* Runs in pieces: the last step of each is a sample, at which all levels of coarse cells are at the same time. */
+/* Runs up to each time of comparison in turn and stores the stress-intensity factor over the exact one. The last step
+ * of each piece is a sample, at which all levels of cells are at one time. */
 static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
 {
     const struct crack_medium m = crack_medium_of(&e->scene->material[0], e->scene->space);
@@ -63,7 +64,8 @@ static status accuracy_sudden_run(const struct accuracy_point *p, struct run *e)
     return OK;
 }
 
-/* Computes the mean error and the scatter around the mean. */
+/* Computes the mean relative error of the stress-intensity factor over all times (part[0]) and its scatter (part[1]);
+ * *error is the magnitude of both. */
 static status accuracy_sudden_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     (void)p, (void)e;

@@ -12,6 +12,7 @@
 
 /* ---- selection of lines ------------------------------------------------------------------------------------------ */
 
+/* Returns true if a point has a known, stable result with error and time. */
 static bool is_usable(const struct accuracy_entry *e)
 {
     return e->result.known && e->result.stable && isfinite(e->result.error) && isfinite(e->result.seconds[0]);

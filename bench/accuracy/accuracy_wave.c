@@ -54,7 +54,8 @@ static void accuracy_wave_make_scene(const struct accuracy_point *p, struct accu
 
 /* ---- errors ------------------------------------------------------------------------------------------------------ */
 
-/* Sums over the particles in the window that compare the computed wave with the exact wave shifted by `ahead`. */
+/* Sums over the particles in the window: of the exact velocity squared, of the product of exact and computed
+ * velocity, and of their squared difference. The exact wave may be shifted along its direction. */
 struct match {
     double exact2, product, off2;
 };
@@ -86,7 +87,8 @@ static double correlation(const struct wave_pulse *w, const struct particles *p,
     return m.product / sqrt(m.exact2);
 }
 
-/* Returns the shift with the largest correlation, by golden-section search: within two radii there is one maximum. */
+/* Returns the distance by which the computed wave is ahead of the exact one [m]: the shift of the exact wave with the
+ * largest correlation, by golden-section search. gone: distance that the exact wave has travelled. */
 static double best_shift(const struct wave_pulse *w, const struct particles *p, double gone)
 {
     const double golden = 0.6180339887498949;
@@ -103,8 +105,9 @@ static double best_shift(const struct wave_pulse *w, const struct particles *p, 
     return 0.5 * (low + high) - gone;
 }
 
-/* Computes the error. A shift by `phase` radii causes a root-mean-square error |phase|, as does a relative error of the
- * amplitude of the same size. */
+/* Computes the root-mean-square error of the velocity, relative to the wave, in *error. Splits it into part[0], the
+ * distance by which the wave is ahead in units of the packet's radius, and part[1], the relative error of its
+ * amplitude. */
 static status accuracy_wave_measure(const struct accuracy_point *p, struct run *e, double *error, double *part)
 {
     const struct wave_pulse w = pulse_of(p);

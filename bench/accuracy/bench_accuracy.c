@@ -11,6 +11,7 @@
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
+/* Returns a quantity of a probe after a run; NAN if there is none. */
 double accuracy_figure(const struct run *e, const char *probe, const char *quantity)
 {
     struct bench_figure figure = {probe, quantity, NAN};
@@ -31,8 +32,8 @@ static double processor_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Runs a point on team + 1 threads and keeps the shortest loop time; measures the error if it is unknown. A run that
- * stops as unstable is also a result. */
+/* Runs a point on team + 1 threads and keeps the shortest loop time of all its runs. Measures the error if it is not
+ * known yet. A run that stops as unstable is a result, too. */
 static status accuracy_run_once(struct accuracy_entry *entry, int team)
 {
     struct run e;
@@ -55,8 +56,8 @@ static status accuracy_run_once(struct accuracy_entry *entry, int team)
     return ran == FAILED ? OK : ran;
 }
 
-/* Measures a point. The error does not depend on the number of threads and is measured once; bars are too short for two
- * threads. */
+/* Runs a point on one thread and, unless it is a bar, on two threads, as often as its duration allows. The error is
+ * measured once, since it does not depend on the number of threads. */
 static status run_point(struct accuracy_entry *entry)
 {
     struct accuracy_result *r = &entry->result;
@@ -76,8 +77,8 @@ static status run_point(struct accuracy_entry *entry)
 
 /* ---- all points -------------------------------------------------------------------------------------------------- */
 
-/* Returns the predicted work of a point relative to others of its problem, about in seconds: 100 ns per particle and
- * step, more for long horizons; set-up; repetitions. */
+/* Returns the predicted time of a point, relative to other points of its problem, about in seconds: 100 ns per
+ * particle and step, more for long horizons, plus set-up, times the number of repetitions. */
 static double work_of(const struct accuracy_point *p)
 {
     const int dim = p->problem->dim;
@@ -98,7 +99,8 @@ static int accuracy_number_of(const struct accuracy_problem *q)
     return k;
 }
 
-/* Predicts the remaining time: measured rates for problems with results, tabulated durations for others [s]. */
+/* Returns the predicted time of the remaining points [s], from the measured rate for problems with results and from
+ * tabulated durations for others. */
 static double seconds_left(const struct progress *g, bool quick)
 {
     double left = 0;

@@ -60,7 +60,8 @@ static status bench_mark(const char *word, bool *asked)
                       word);
 }
 
-/* One bench; with `readme` its figures go to bench/results, too. */
+/* Runs one bench. With `readme` its output and tables are also written to bench/results. FAILED or REFUSED if the
+ * bench is. */
 static status bench_call(const struct bench *b, bool quick, bool readme)
 {
     struct bench_results r;

@@ -9,6 +9,7 @@
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* Starts the run of a job as a separate process. */
 static status job_start(struct bench_job *job, struct bench_child *child, int threads)
 {
     return bench_child_start(child, job->path, bench_overrides_ready(&job->overrides), job->overrides.n, threads);
@@ -47,6 +48,7 @@ double bench_summary_figure(const char *folder, const char *key)
 
 /* ---- goals ------------------------------------------------------------------------------------------------------- */
 
+/* Adds a goal: the measured value, the required one and a name in the form of printf. */
 void bench_ask(struct bench_goals *t, const char *unit, double measured, double asked, const char *name, ...)
 {
     va_list more;

@@ -15,6 +15,7 @@
 
 /* ---- tables ------------------------------------------------------------------------------------------------------ */
 
+/* Initialises an empty table with the columns in `header`. */
 void bench_table_make(struct bench_table *t, const char *name, const char *header)
 {
     *t = (struct bench_table){.name = name, .header = header, .columns = 1};
@@ -192,6 +193,7 @@ status bench_write(const char *name, const struct bench_table *table, int tables
 
 /* ---- pictures ---------------------------------------------------------------------------------------------------- */
 
+/* Draws results/bench/NAME.png and .svg with the commands that `draw` sends to gnuplot. */
 status bench_draw(const char *name, int width, int height, void (*draw)(FILE *to, const void *context),
                   const void *context)
 {

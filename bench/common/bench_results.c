@@ -101,6 +101,7 @@ status bench_results_table(const char *file, const char *text)
 
 /* ---- standard output --------------------------------------------------------------------------------------------- */
 
+/* Starts to collect what is printed and the tables that are written. REFUSED outside a source tree. */
 status bench_results_begin(struct bench_results *r, const char *name, bool quick)
 {
     if (!path_exists("bench"))

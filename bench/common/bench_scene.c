@@ -96,6 +96,7 @@ void bench_engine_start(struct run *e, bench_field *field, const void *context)
 
 /* ---- results of a run -------------------------------------------------------------------------------------------- */
 
+/* Appends an override, whose value is composed as by printf. */
 void bench_override(struct bench_overrides *o, const char *key, const char *value, ...)
 {
     va_list more;

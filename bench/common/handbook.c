@@ -5,35 +5,38 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Compact tension: ASTM E399-20, A4.5: K = P f / (B W^1/2); returns f at x = a/W. */
+/* Returns f(x) of a compact-tension specimen, x = a/W, from ASTM E399-20, A4.5: K = P f/(B W^1/2). */
 static double compact_tension(double x)
 {
     return (2 + x) * (0.886 + 4.64 * x - 13.32 * x * x + 14.72 * x * x * x - 5.6 * x * x * x * x) / pow(1 - x, 1.5);
 }
 
-/* Three-point bend, span 4 W: ASTM E399-20, A3.5: K = P S f / (B W^3/2); returns f at x = a/W. */
+/* Returns f(x) of a three-point bend specimen with span S = 4 W, x = a/W, from ASTM E399-20, A3.5: K = P S f/(B
+ * W^3/2). */
 static double three_point_bend(double x)
 {
     return 3 * sqrt(x) * (1.99 - x * (1 - x) * (2.15 - 3.93 * x + 2.7 * x * x)) / (2 * (1 + 2 * x) * pow(1 - x, 1.5));
 }
 
-/* Edge crack in tension: K = stress (pi a)^1/2 F; returns F at x = a/W, accurate to 0.5 % (Tada, Paris & Irwin 2000,
- * 2.10; in pure bending 2.13). */
+/* Returns F(x) of an edge crack in tension, x = a/W: K = stress (pi a)^1/2 F, accurate to 0.5 % (Tada, Paris & Irwin
+ * 2000, 2.10). */
 static double edge_tension(double x)
 {
     const double t = 0.5 * pi * x;
     return sqrt(tan(t) / t) * (0.752 + 2.02 * x + 0.37 * pow(1 - sin(t), 3)) / cos(t);
 }
 
+/* Returns F(x) of an edge crack in pure bending, x = a/W: K = stress (pi a)^1/2 F (Tada, Paris & Irwin 2000,
+ * 2.13). */
 static double edge_bending(double x)
 {
     const double t = 0.5 * pi * x;
     return sqrt(tan(t) / t) * (0.923 + 0.199 * pow(1 - sin(t), 4)) / cos(t);
 }
 
-/* Edge crack between grips that do not rotate: K = force/(B W) (pi a)^1/2 F; returns F. The moment of the grips cancels
- * the rotation caused by the crack; both rotations follow from the energy of the crack (Castigliano): bending stress
- * over tension = -6 pi J_tb / (H/W + 6 pi J_bb), J_ij the integral of x F_i F_j dx. slenderness: H/W. */
+/* Returns F(x) of an edge crack between grips that do not rotate, x = a/W: K = force/(B W) (pi a)^1/2 F. The grips
+ * exert a moment that cancels the rotation caused by the crack; both rotations follow from the energy of the crack
+ * (Castigliano). slenderness: H/W. */
 static double edge_in_grips(double x, double slenderness)
 {
     enum { PARTS = 400 };

@@ -3,7 +3,8 @@
 
 #include <math.h>
 
-/* Returns sin(k x_a) prod cos(k x_b), or its derivative along axis `slope` over k (slope < 0: the function itself). */
+/* Returns the shape of component a of the manufactured motion at X: sin(k x_a) times cos(k x_b) of all other axes b;
+ * or, if slope >= 0, its derivative along that axis divided by k. */
 static real mode(const struct manufactured *m, const real *X, int a, int slope)
 {
     const real k = 2 * M_PI / m->length;
@@ -18,8 +19,8 @@ static real mode(const struct manufactured *m, const real *X, int a, int slope)
     return product;
 }
 
-/* Computes the factors of the mode of component a in the body force: steady part, and part proportional to sin^2(pi
- * t/T) [N/m^3]. */
+/* Computes the amplitudes of component a of the body force that the manufactured motion requires [N/m^3]: of its
+ * constant part (*steady), and of its part proportional to sin^2(pi t/T) (*beat). */
 static void manufactured_forces(const struct manufactured *m, int a, real *steady, real *beat)
 {
     const real k = 2 * M_PI / m->length, inertia = m->density * m->share[a] * square(M_PI / m->period);
@@ -50,8 +51,9 @@ struct manufactured_values manufactured_at(const struct manufactured *m, const r
     return v;
 }
 
-/* Writes plane waves: a product of one sine and cosines is the mean of 2^(dim - 1) sines of plane waves, with the sign
- * of component a of their direction. */
+/* Writes one plane wave of the body force as a boundary of a scene. A product of a sine and cosines is the mean of
+ * 2^(dim - 1) such waves. sign: direction of the wave, +-1 per axis. beats: the part proportional to sin^2(pi t/T),
+ * else the constant part. */
 static void put_wave(FILE *to, const struct manufactured *m, const int *sign, bool beats)
 {
     const int waves = 1 << (m->dim - 1);

@@ -47,6 +47,7 @@ bool contact_case_holds(const struct contact_case *c, const double *figure)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Prints the figures of a case, and whether they are in the required range. */
 static void contact_print(const struct contact_case *c, const double *figure)
 {
     const bool holds = contact_case_holds(c, figure);

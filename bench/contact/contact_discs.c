@@ -8,7 +8,8 @@
 #include "step/stability.h"
 #include "step/checks.h"
 
-/* Runs to the end. normal: receives the line of centres at the closest approach; the line rotates during contact. */
+/* Runs the collision of two discs to the end. normal[2]: direction between their centres when they are nearest to
+ * each other, since it rotates during contact. */
 static status discs_run(struct run *e, double *normal)
 {
     double least = INFINITY;

@@ -46,6 +46,8 @@ static status block_run(const struct contact_case *c, bool cut, struct block_for
     return ran;
 }
 
+/* Compares a cut block in compression with the intact one. Returns in figure[0] and figure[1] the ratios of their
+ * normal and tangential forces, in figure[2] the overlap of the faces. */
 status contact_block(const struct contact_case *c, double *figure)
 {
     struct block_force whole, cut;
@@ -59,9 +61,9 @@ status contact_block(const struct contact_case *c, double *figure)
 
 /* ---- Hertz ------------------------------------------------------------------------------------------------------- */
 
-/* A ball of radius given[0] spacings hits a fixed plane at given[1] wave speeds. Hertz: force F = 4/3 E* sqrt(R) d^1.5
- * with E* = E/(1 - nu^2) for a rigid plane; duration 2.87 (m^2/(R E*^2 v))^0.2. The exponent is measured while the
- * force grows from a tenth of its largest value to the largest. */
+/* Runs a ball of radius given[0] spacings that hits a fixed plane at given[1] wave speeds. Returns in figure[0..3]:
+ * the exponent of the force over the approach, fitted from a tenth of the largest force on; the duration over that of
+ * Hertz, 2.87 (m^2/(R E*^2 v))^0.2 with E* = E/(1 - nu^2); the velocity afterwards over v; the energy error. */
 status contact_hertz_space(const struct contact_case *c, double *figure)
 {
     struct run e;

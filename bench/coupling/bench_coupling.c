@@ -65,7 +65,8 @@ static status measure_pulses(struct bar_table *t, bool quick)
 
 enum { PLACES = 4 };
 
-/* Runs with a grid of cells of two spacings, shifted relative to the particles. */
+/* Runs all couplings with several positions of the interface in its cell, by shifting a grid with cells of two
+ * spacings. */
 static status measure_places(struct bar_table *t, bool quick)
 {
     for (int variant = 0; variant <= VARIANT_HANDSHAKE; variant++)
@@ -79,7 +80,8 @@ static status measure_places(struct bar_table *t, bool quick)
     return OK;
 }
 
-/* Runs with one point per cell, and with APIC; the interface is damped with FLIP only. */
+/* Runs all couplings with one particle per cell, and with the transfer APIC. The coupling without damping is left out
+ * with APIC, since only FLIP damps the interface. */
 static status measure_variants(struct bar_table *t, bool quick)
 {
     static const struct {
@@ -158,6 +160,7 @@ static void print_variants(const struct bar_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Adds the cells of a result to a row of a table. */
 static void fill_result(struct bench_table *rows, const struct pulse_result *r)
 {
     bench_number(rows, r->reflected);
@@ -199,6 +202,7 @@ static status coupling_write_tables(const struct coupling_figures *all)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Runs all parts of the bench and prints their results. REFUSED if the scene files are missing. */
 static status coupling_measure_all(struct coupling_figures *all, bool quick)
 {
     if (!bench_scene_exists(COUPLING_BAR) || !bench_scene_exists(COUPLING_PLATE))

@@ -46,6 +46,7 @@ static void set_logarithmic(FILE *to)
 
 /* ---- the bar ----------------------------------------------------------------------------------------------------- */
 
+/* Draws the reflection in the bar over the width of the pulse, a line for each coupling. */
 static void draw_pulses(FILE *to, const struct bar_table *t)
 {
     for (int variant = 0; variant < VARIANTS; variant++) {
@@ -112,7 +113,8 @@ static void draw_plane(FILE *to, const struct plane_table *t)
 
 /* ---- bars -------------------------------------------------------------------------------------------------------- */
 
-/* Sends the bar number `member` of `members` in a group: filled up to `largest`, with a line at `on_node`. */
+/* Sends the data of bar number `member` of `members` in a group: its position, its height `largest`, and the height
+ * of a line across it, `on_node`. */
 static void put_bar(FILE *to, int group, int member, int members, double on_node, double largest)
 {
     fprintf(to, "%.4f %.6g %.6g\n", group + 0.8 * (member - 0.5 * (members - 1)) / members, largest, on_node);
@@ -162,7 +164,8 @@ static void draw_places(FILE *to, const struct bar_table *t)
     plot_bars(to, "place", 3, colour, title);
 }
 
-/* Draws the largest nodal force over all loads. */
+/* Draws bars of the largest nodal force of the patch test, for each shape of the interface and each coupling, over
+ * all loads. */
 static void draw_patch(FILE *to, const struct patch_table *t)
 {
     static const char *const shape[] = {"flat", "45 degrees", "circle, r = 8 D", "square, 6 x 6 D"};

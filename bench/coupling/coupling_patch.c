@@ -114,6 +114,7 @@ status patch_measure(struct patch_table *t, bool quick)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if two rows belong to one printed line: they differ in their load only. */
 static bool coupling_patch_same_line(const struct patch_row *a, const struct patch_row *b)
 {
     return !strcmp(a->shape, b->shape) && !strcmp(a->coupling, b->coupling) && !strcmp(a->weights, b->weights) &&

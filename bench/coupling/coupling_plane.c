@@ -34,7 +34,8 @@ static struct strip strip_of(int interface, double width)
                           at - 2.75 * width,      0.4};
 }
 
-/* Creates a run. row.variant < 0: only material points. */
+/* Creates the run of a strip with the settings of a row. A negative row->variant means material points only, without
+ * interface. */
 static status strip_make(struct run *e, struct scene *scene, const struct strip *s, const struct plane_row *row)
 {
     struct bench_overrides o = {0};
@@ -62,8 +63,8 @@ struct plain {
     real *v[2], energy_change;
 };
 
-/* Runs the strip without interface. Particles are created and sorted before any is peridynamic, so that all runs have
- * the same numbering. */
+/* Runs the strip without interface and stores its final velocities and energy change in b. All runs number the
+ * particles alike, so that they can be compared one by one. Release b with plain_free. */
 static status plain_make(struct plain *b, const struct strip *s, struct plane_row row)
 {
     struct run e;
@@ -93,8 +94,9 @@ static double beyond(const struct strip *s, const struct particles *p, int64_t i
     return (1e3 * p->X[0][i] - s->at) * s->normal[0] + 1e3 * p->X[1][i] * s->normal[1];
 }
 
-/* Returns the largest mean velocity difference over whole blocks of particles away from the interface [m/s]. Motion of
- * single particles is not resolved by the grid; a mean over two cells continues as a wave. */
+/* Returns the largest mean velocity difference from the run without interface, over square blocks of particles away
+ * from the interface [m/s]. A mean over two cells can travel as a wave, while the grid does not resolve single
+ * particles. */
 static double largest_block(const struct strip *s, const struct particles *p, const struct plain *b)
 {
     const int64_t columns = (int64_t)s->length / BLOCK + 1, n = columns * ((int64_t)s->height / BLOCK + 1);
@@ -112,8 +114,9 @@ static double largest_block(const struct strip *s, const struct particles *p, co
     return largest;
 }
 
-/* Compares velocities with the run without interface. Near the interface only particles that the pulse has passed are
- * compared, because inside the pulse the two sides differ by their dispersion. */
+/* Computes the reflected and transmitted velocity and the energy change of a run from its difference to the run
+ * without interface. Near the interface only particles behind the pulse count, because inside the pulse the two sides
+ * differ by their dispersion. */
 static void coupling_plane_compare(struct plane_row *r, const struct strip *s, const struct run *e,
                                    const struct plain *b)
 {

@@ -61,10 +61,10 @@ static status make(struct run *e, struct scene *s, const struct result *x, int v
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the share of peridynamic particles. */
 static double pd_share(const struct run *e) { return (double)e->part.n_of[KIND_PD] / (double)e->part.n; }
 
-/* Runs the loop in SAMPLES pieces and records the share of peridynamic particles after each. Excluded from the time:
- * the work at the end of each piece that brings derived data up to date. */
+/* Runs the loop in SAMPLES pieces and records the time and the share of peridynamic particles after each of them. */
 static status run_pieces(struct run_times *r, struct run *e)
 {
     r->share[0] = pd_share(e);
@@ -75,7 +75,8 @@ static status run_pieces(struct run_times *r, struct run *e)
     return OK;
 }
 
-/* Stores the time of each part of a loop, from the timers of the sections. */
+/* Stores the time spent on bonds, material points, conversion and samples in one repetition, from the timers of the
+ * sections of a step. */
 static void parts_keep(struct run_times *r, const double *spent, int repetition)
 {
     r->part[PART_BONDS][repetition] = spent[TIMER_BONDS];
@@ -112,7 +113,8 @@ static status run_shares(struct result *x, int variant)
 
 /* ---- results of a scene ------------------------------------------------------------------------------------------ */
 
-/* Compares the longest crack of full peridynamics with the corresponding crack of an adaptive run. */
+/* Compares the end of the longest crack of full peridynamics with the nearest corresponding crack of an adaptive run:
+ * stores the differences of start time, position and angle; NAN without a crack. */
 static void compare_tips(struct result *x, int variant, int dim)
 {
     const struct crack_ends *pd = &x->run[0].ends, *adaptive = &x->run[variant].ends;
@@ -172,6 +174,7 @@ static status scene_measure(struct result *x, int repetitions)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Prints the header of the printed table. */
 static void efficiency_print_header(int repetitions)
 {
     printf("  same spacing, same time step, %d samples a run; loop time, %s; no files\n", SAMPLES,
@@ -181,8 +184,8 @@ static void efficiency_print_header(int repetitions)
            "angles", "starts", "PD share", "rest_share", "aim", "in the way");
 }
 
-/* Describes the largest part of the loop of an adaptive run that misses its aim, with its time over that of
- * peridynamics. text: capacity `room` [byte]. */
+/* Describes the part of the loop that takes most time in an adaptive run, with its time over that of peridynamics.
+ * Returns text, or "" if the run meets its aim. text: capacity `room` [byte]. */
 static const char *variant_obstacle(const struct result *x, int variant, char *text, size_t room)
 {
     int most = 0;
@@ -209,7 +212,7 @@ static void print_variant(const struct result *x, int variant)
     fflush(stdout);
 }
 
-/* Returns the share of peridynamic particles recorded nearest to time t. */
+/* Returns the share of peridynamic particles in the sample nearest to time t [s]. */
 static double share_at(const struct run_times *r, double t)
 {
     int best = 0;
@@ -385,6 +388,7 @@ static void efficiency_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Measures all scenes that exist and prints a line for each adaptive variant. */
 static status efficiency_measure_all(struct efficiency *all, bool quick)
 {
     const int repetitions = quick ? 1 : REPETITIONS;

@@ -48,6 +48,7 @@ static double factor_of(int run, int runs) { return 1 + STEP_RANGE * (2.0 * run 
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* Runs a scene with one method and time step dt [s] and stores the ends of its cracks. */
 static status sensitivity_run_once(struct scatter *x, int method, double dt, struct crack_ends *ends)
 {
     struct scene s;
@@ -60,8 +61,8 @@ static status sensitivity_run_once(struct scatter *x, int method, double dt, str
     return ran;
 }
 
-/* Runs all time steps. Each run observes the crack that starts nearest to the start of the longest crack of the first
- * run. */
+/* Runs both methods with all time steps and stores start, position and angle of one crack per run: the one that
+ * starts nearest to the start of the longest crack of the first run. dt: mean time step [s]. */
 static status sensitivity_run_all(struct scatter *x, double dt)
 {
     struct crack_ends *ends = NEW("bench.ends", 2, struct crack_ends);
@@ -86,6 +87,7 @@ static status sensitivity_run_all(struct scatter *x, double dt)
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Computes the means of start, angle and position over n runs, and the root-mean-square deviations from them. */
 static void spread_find(struct spread *s, const struct end *end, int n)
 {
     double start = 0, angle = 0, place = 0;
@@ -186,6 +188,7 @@ static void sensitivity_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Runs a scene with all time steps and both methods and evaluates the scatter. */
 static status sensitivity_measure(struct scatter *x, bool quick)
 {
     double dt;

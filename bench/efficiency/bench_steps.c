@@ -69,7 +69,8 @@ static status stepped_take(struct bench_child *child, double *figure)
     return s;
 }
 
-/* Runs as many simulations in parallel as there are cores. */
+/* Runs one method with several time steps around a share of the critical one, as many runs in parallel as there are
+ * cores, and stores means and deviations of their results. */
 static status stepped_run(const struct breaking_method *w, double share, int runs, struct stepped *to)
 {
     double figure[RUNS_MOST][FIGURES];
@@ -151,6 +152,7 @@ static status stepped_method(struct bench_table *t, const struct breaking_method
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Runs all scenes, models, methods and rules, and adds their results to the table. */
 static status stepped_all(struct bench_table *t, bool quick)
 {
     int done = 0;

@@ -105,6 +105,7 @@ void efficiency_tic(FILE *to, const struct scene_case *scene)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
+/* Stores the crack tips of a run and the start of its first crack. */
 void crack_ends_keep(struct crack_ends *c, const struct run *e)
 {
     const struct tip *longest = tips_longest(&e->fracture->tips);

@@ -14,6 +14,7 @@
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Returns true if a range is required for the result. */
 static bool experiment_is_asked(const struct experiment_row *r) { return !isnan(r->low); }
 
 static bool experiment_is_held(const struct experiment_row *r) { return r->value >= r->low && r->value <= r->high; }
@@ -74,6 +75,7 @@ void experiment_curve_add(struct experiment_curve *c, double x, double y, double
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Writes the results and the curves as tables. */
 static status experiments_write(const struct experiments *x)
 {
     struct bench_table t[2];
@@ -106,6 +108,7 @@ static status experiments_write(const struct experiments *x)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Releases all results, curves and paths. */
 static void experiments_free(struct experiments *x)
 {
     for (int k = 0; k < x->paths; k++)

@@ -16,8 +16,8 @@
 #define NOTCH_END 19.0  /* [mm] */
 enum { BEAM_BISECTIONS = 6, BEAM_STEPS = 3 };
 
-/* Determines whether a crack grows from the lower side near the middle of the beam. gamma: position of the notch;
- * safety: fraction of the critical time step. */
+/* Runs the notched beam and sets *middle to true if a crack grows from its lower side near the middle. gamma:
+ * position of the notch; safety: fraction of the critical time step; spacing: [mm]. */
 static status beam_middle(double gamma, double safety, double spacing, bool *middle)
 {
     struct run e;
@@ -100,8 +100,8 @@ status experiments_beam(struct experiments *x)
 #define DISC_TOUGHNESS 20.0 /* energy release rate G_c [J/m^2] */
 #define DISC_CLOSED "2 P/(pi D t)"
 
-/* Returns the stress across the middle over 2 P/(pi D t), averaged from 0.7 of the time of the first break to that
- * time. */
+/* Returns the horizontal stress in the middle of the disc over 2 P/(pi D t), with load P, diameter D and thickness t:
+ * mean from 0.7 of the time of the first break to that time. NAN if the results cannot be read. */
 static double disc_stress(const char *folder, double spacing)
 {
     struct history h;
@@ -120,7 +120,8 @@ static double disc_stress(const char *folder, double spacing)
     return n > 0 ? sum / n : NAN;
 }
 
-/* Returns the largest load over pi D t/2 times E s_c, with s_c = sqrt(4 pi G_c/(9 E delta)). */
+/* Returns the largest load over pi D t/2 times the strength E s_c of bonds, with s_c = sqrt(4 pi G_c/(9 E delta)).
+ * NAN if the results cannot be read. */
 static double disc_strength(const char *folder, double spacing)
 {
     struct history h;

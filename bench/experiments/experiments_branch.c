@@ -57,7 +57,8 @@ static struct branch_column *columns_of(const struct frame *f, double spacing, i
     return column;
 }
 
-/* Returns true if the columns from k on have two or more branches over BRANCH_LASTS. */
+/* Returns true if the crack has branched from column k on: over the length BRANCH_LASTS, the share BRANCH_SHARE of
+ * the columns has two or more branches. */
 static bool branches_from(const struct branch_column *c, int columns, int k, double spacing)
 {
     const int stretch = (int)(BRANCH_LASTS / spacing);
@@ -67,7 +68,8 @@ static bool branches_from(const struct branch_column *c, int columns, int k, dou
     return held >= BRANCH_SHARE * stretch;
 }
 
-/* Returns the slope of the distance of the outermost branches, by least squares. */
+/* Returns the slope by which the distance between the outermost branches grows along x, by least squares over columns
+ * first..end-1; NAN for fewer than six columns with two branches. */
 static double opening_slope(const struct branch_column *c, int first, int end, double spacing)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -97,6 +99,7 @@ struct branching branching_find(const struct frame *f, double spacing)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
+/* Reads the last frame of a run. Release with frame_free. */
 status experiment_last_frame(struct frame *f, const char *folder)
 {
     int n;

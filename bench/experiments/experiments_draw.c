@@ -76,6 +76,7 @@ enum { PATHS_WIDE = 4 }; /* panels in a row */
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
+/* Draws the crack paths of every study in a panel of its own, coloured by spacing. */
 static void experiments_draw_paths(FILE *to, const void *context)
 {
     const struct experiments *x = context;

@@ -89,7 +89,8 @@ static double strip_speed(const char *folder, double spacing)
     return v / strip_medium().rayleigh;
 }
 
-/* Returns the energy of broken bonds over the new area and G_c; thickness 1 mm. */
+/* Returns the energy of broken bonds per new crack area, over G_c, while the crack is straight; NAN without such a
+ * time. */
 static double strip_taken(const char *folder, double spacing)
 {
     struct strip_window w;
@@ -122,6 +123,7 @@ static double strip_flux(const char *folder, double spacing)
 
 /* ---- all loads --------------------------------------------------------------------------------------------------- */
 
+/* Returns the value of a figure of a variant and stores its deviation; NAN if there is none. */
 static double strip_value(const struct experiments *x, const char *variant, const char *figure, double *deviation)
 {
     for (int k = x->n; k-- > 0;)

@@ -31,6 +31,7 @@ int experiment_mean(const double *value, int n, double *mean, double *deviation,
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the value of a figure in run k of a study; NAN if the run has failed or does not have the figure. */
 static double figure_of_run(const struct convergence_study *s, int k, const struct experiment_figure *f)
 {
     double value = NAN;
@@ -44,7 +45,8 @@ static double figure_of_run(const struct convergence_study *s, int k, const stru
     return f->scale * value;
 }
 
-/* Computes the means of the three levels separately: runs without a value (a crack that does not branch) are left
+/* Computes the mean and scatter of a figure at each level of spacing: of the finest level into the row, of the next
+ * two into row->coarse. Runs without a value, such as the branching angle of a crack that does not branch, are left
  * out. */
 static void levels_take(struct experiment_row *row, const struct convergence_study *s, const double *value)
 {
@@ -90,6 +92,7 @@ static void figure_take(struct experiments *x, const struct experiment_case *c, 
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
+/* Appends a point of a crack path [m] of a run at a level of spacing. */
 static void path_add(struct experiment_paths *p, double at_x, double at_y, int level)
 {
     GROW("bench.path", p->x, p->n + 1);
@@ -117,6 +120,7 @@ static void paths_take(struct experiments *x, const struct experiment_case *c, c
 
 /* ---- a study ----------------------------------------------------------------------------------------------------- */
 
+/* Makes the convergence study of a case and adds its results. */
 status experiment_study(struct experiments *x, const struct experiment_case *c)
 {
     struct convergence_study s;

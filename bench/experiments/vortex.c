@@ -7,9 +7,11 @@
 
 /* ---- motion ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the factor on the rotation at time t [1]: sin^2, from 0 to 1 over the period. */
 static double vortex_growth(const struct vortex *v, double t) { return square(sin(M_PI * t / (2 * v->period))); }
 
-/* Returns alpha and stores alpha'/R in *slope. */
+/* Returns the rotation angle alpha at position X and time t [rad], and stores its derivative along the radius R
+ * divided by R in *slope. */
 static double vortex_angle(const struct vortex *v, const double *X, double t, double *slope)
 {
     const double rest = 1 - X[0] * X[0] - X[1] * X[1], grown = v->turn * vortex_growth(v, t);
@@ -36,6 +38,8 @@ void vortex_gradient(const struct vortex *v, const double *X, double t, double F
 
 /* ---- constitutive laws ------------------------------------------------------------------------------------------- */
 
+/* Fills the bonds of a lattice with uniform weights and a given reach [spacings], scaled to the bulk modulus of the
+ * plane. */
 void vortex_bonds(struct vortex *v, double reach)
 {
     double sum = 0;
@@ -86,7 +90,8 @@ void vortex_stress(const struct vortex *v, double F[2][2], double P[2][2])
 
 /* ---- force ------------------------------------------------------------------------------------------------------- */
 
-/* Adds dP_ab/dX_b for one b. */
+/* Adds the derivative of the stress P_ab along axis b to sum[a] for both a, by fourth-order central differences at
+ * X. */
 static void divergence_add(const struct vortex *v, const double *X, double t, int b, double *sum)
 {
     static const double place[] = {-2, -1, 1, 2}, share[] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};

@@ -100,6 +100,7 @@ static void ground_free(struct ground *g)
 
 /* ---- timing ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the run on whose bonds a kernel is timed. */
 static struct run *bonds_of(const struct job *j, struct ground *g)
 {
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
@@ -201,8 +202,8 @@ static void time_all(struct kernel_bench *b, int repetitions)
 
 /* ---- bytes ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the mean number of bytes of a column of bonds as the kernels read it (bond_column.h); stencils remain in
- * cache. */
+/* Returns the mean number of bytes that the kernels read per column of a row block of bonds (bond_column.h). Columns
+ * of stencils count 0, since they remain in cache. */
 static double column_bytes(const struct bonds *b)
 {
     double sum = 0;
@@ -215,7 +216,8 @@ static double column_bytes(const struct bonds *b)
     return sum / (double)b->columns;
 }
 
-/* Returns the bytes per particle near a face: its pairs twice, forces, energy; position. */
+/* Returns the number of bytes that contact moves per particle near a face: its list of pairs twice, forces, energy
+ * and positions. */
 static double contact_bytes(const struct run *e)
 {
     const struct contact *c = e->contact;
@@ -274,7 +276,8 @@ static double job_bytes(const struct job *j, struct ground *g)
     }
 }
 
-/* Computes the lower limits of the times: the larger of those for memory and for arithmetic. */
+/* Computes the lower limit of the time per particle of each kernel: bytes over memory bandwidth, or for bonds the
+ * time of the arithmetic if that is longer. */
 static void find_limits(struct kernel_bench *b)
 {
     for (int k = 0; k < b->jobs; k++) {
@@ -288,6 +291,7 @@ static void find_limits(struct kernel_bench *b)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Times all kernels and targets, computes the limits, and prints and writes the results. */
 static status kernels_run(struct kernel_bench *b, bool quick)
 {
     TRY(bench_targets_memory(&b->targets));

@@ -35,7 +35,8 @@ struct scale_bench {
 
 /* ---- memory ------------------------------------------------------------------------------------------------------ */
 
-/* Resets the high-water mark of the process's memory and returns the current use [byte]; NAN if the system cannot. */
+/* Resets the high-water mark of the memory of this process and returns its current memory [byte]; NAN if the system
+ * does not allow this. */
 static double memory_from_here(void)
 {
 #ifdef __GLIBC__
@@ -56,8 +57,8 @@ static bool machine_holds(const struct bench_block *block, double particles)
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
-/* Times the frames of a run that writes one every FRAME_EVERY steps: the time of its output section. The first frame
- * allocates the copy that the others reuse and is left out. */
+/* Runs a block that writes a frame every FRAME_EVERY steps, and stores the time for which each frame stops the loop
+ * and the size of a frame per particle. */
 static status time_frames(struct size_result *r, const struct bench_block *block, double particles)
 {
     struct scene s;
@@ -85,8 +86,8 @@ static double output_share(const struct size_result *r) { return r->frame / (FRA
 
 /* ---- one size ---------------------------------------------------------------------------------------------------- */
 
-/* Times steps of a block. visits: particles times steps in each of PIECES pieces, the fastest of which counts. FAILED
- * if the run fails. */
+/* Measures set-up time, time per step and memory of a block of about `particles` particles. Steps are timed in PIECES
+ * pieces, of which the fastest counts. visits: particles times steps of a piece. */
 static status time_size(struct size_result *r, const struct bench_block *block, double particles, double visits)
 {
     struct scene s;
@@ -215,6 +216,7 @@ static void scale_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Measures a block at all sizes that the memory of the machine allows. quick: small sizes. */
 static status measure_block(struct scale_bench *b, int which, int sizes, bool quick)
 {
     const struct bench_block *block = &bench_blocks[which];

@@ -13,6 +13,7 @@ static const char *const job_name[JOB_KINDS] = {
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Prints the measured limits of the machine. */
 static void print_limits(const struct limits *l)
 {
     printf("  limits of this machine, one thread\n");

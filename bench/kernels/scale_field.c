@@ -78,6 +78,8 @@ static status field_scene_write(const struct field_bench *b, bool part)
 
 /* ---- one run ----------------------------------------------------------------------------------------------------- */
 
+/* Reads size, memory, times and the curve of K from the results of a run. later: time by which its wave is shifted
+ * [s]; processor: processor time that it received [s]. */
 static status field_read(struct field_row *r, const char *folder, double later, double processor)
 {
     struct history h = {0};
@@ -136,7 +138,8 @@ static double intensity_at(const struct field_row *r, double t)
     return r->K[k - 1] + (r->K[k] - r->K[k - 1]) * (t - r->t[k - 1]) / (r->t[k] - r->t[k - 1]);
 }
 
-/* Returns the largest difference at the samples of `direct` that a run covers, over the largest K. */
+/* Returns the largest difference of K between a run and a direct run, over the largest K of the direct run. Compares
+ * at the samples of the direct run that are within the time of the other. */
 static double field_off(const struct field_row *r, const struct field_row *direct)
 {
     double most = 0;
@@ -257,6 +260,7 @@ static void field_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Makes all runs and prints a row for each, with its differences from the direct runs. */
 static status field_measure(struct field_bench *b)
 {
     printf("  spacing %g mm, half plate of %.0f by %.0f spacings; pulse of %.0f spacings, its front %.0f; %d samples; "

@@ -197,6 +197,7 @@ static void growth_fit_make(struct growth_fit *f, const struct growth_row *row, 
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Prints the header of the printed table. */
 static void growth_print_header(void)
 {
     printf("  each run a process on one thread; largest cells 2 mm, time step %g us per mm of spacing, driven strip of "
@@ -298,6 +299,8 @@ static void growth_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Measures all series, prints a row for each spacing, and fits the exponents. finest: includes the finest
+ * spacings. */
 static status growth_measure(struct growth_bench *b, bool quick, bool finest)
 {
     bool any = false;

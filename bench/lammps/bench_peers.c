@@ -228,6 +228,7 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
 
 /* ---- both runs --------------------------------------------------------------------------------------------------- */
 
+/* Runs LAMMPS on the script in the folder and waits for it. FAILED if it cannot be started or fails. */
 static status spawn_peer(void)
 {
     char *argv[] = {"lmp", "-in", FOLDER "/in.lammps", "-log", FOLDER "/log.lammps", "-screen", "none", NULL};
@@ -336,6 +337,7 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 
+/* Prints sizes, times and differences of a case. */
 static void print_result(const struct peer_case *c, const struct peer_result *r)
 {
     printf("  %-15s %s %8.5f %9.0f %10.0f %6.0f", c->name, c->law, c->reach, r->particles, r->bonds, r->cut);

@@ -48,6 +48,7 @@ static double speed_of(const struct edge_row *r) { return r->steps * r->side * r
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* Prints the result of a run, beside the cost stated in the paper if there is any. */
 static void sif_edge_print_row(const struct edge_row *r)
 {
     const int paper = paper_of(r->model), side = paper_side(r->side);
@@ -77,7 +78,8 @@ static status sif_edge_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Sets the rings of the probes as in Table 1 [spacings], as far as they fit into the plate. */
+/* Adds probes with rings of 30, 50 and 70 spacings as in Table 1 of the paper, unless the largest ring does not fit
+ * into the plate. side: particles along an edge. */
 static void override_probes(struct bench_overrides *o, int side)
 {
     if (paper_radius[EDGE_RINGS - 1] * width / side > 0.4 * width) return;
@@ -131,6 +133,7 @@ static void print_rings(const struct edge_table *t)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Fills a table with all runs. */
 static void fill(struct bench_table *rows, const struct edge_table *t)
 {
     bench_table_make(rows, "",
@@ -241,6 +244,7 @@ static status sif_edge_write_tables(const struct edge_table *t)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Adds the goals for the runs with at least 100 particles along an edge. */
 static void sif_edge_ask(struct bench_goals *asked, const struct edge_table *t)
 {
     for (int k = 0; k < t->n; k++) {

@@ -22,8 +22,8 @@ struct reaction_table {
     struct reaction_row row[RELEASES];
 };
 
-/* Returns the value at index `at` of the parabola that fits the equidistant points within `reach` best (Savitzky &
- * Golay 1964). */
+/* Returns the value at point `at` of the parabola that is fitted to the equidistant points within `reach` of it
+ * (Savitzky & Golay 1964). */
 static double smooth_at(const struct reaction_row *r, int at, int reach)
 {
     double s[5] = {0}, b[3] = {0};
@@ -134,6 +134,7 @@ static const struct path_row path_row[PATHS] = {
     {.name = "0.5 mm", .key = "particles.spacing", .value = "0.5 mm"},
 };
 
+/* Returns the root mean square of K_II/K_I while the crack grows, after its first 2 mm. */
 static double modes_ratio(const struct history *h)
 {
     const int length = history_find_column(h, "growth.length"), speed = history_find_column(h, "growth.speed");

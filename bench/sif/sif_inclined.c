@@ -58,7 +58,8 @@ static status sif_inclined_take_row(void *row, const char *folder)
     return OK;
 }
 
-/* Adds the results at the upper and lower tip, at (10, 5) mm +- 3 (sin, cos) mm. */
+/* Runs the inclined crack of a case, of half length 3 mm around (10, 5) mm, with variant v and a probe at its upper
+ * tip, and appends the result to the table. quick: coarse spacing. */
 static status inclined_add(struct inclined_table *t, const struct inclined_case *c, int v, bool quick)
 {
     const double phi = c->angle * 3.14159265358979 / 180, x = 3 * sin(phi), y = 3 * cos(phi);
@@ -77,6 +78,7 @@ static status inclined_add(struct inclined_table *t, const struct inclined_case 
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Draws the deviations of K_I and K_II over the angle of the crack, with those of the paper. */
 static void sif_inclined_draw(FILE *to, const void *context)
 {
     const struct inclined_table *t = context;

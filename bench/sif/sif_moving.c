@@ -92,6 +92,8 @@ struct moving_table {
 
 /* ---- the closed form --------------------------------------------------------------------------------------------- */
 
+/* Computes the material constants and the speed factors k(v) of the closed form. FAILED or REFUSED if the scene
+ * cannot be read. */
 static status closed_form(struct moving_table *t)
 {
     struct scene s = {0};
@@ -110,8 +112,8 @@ static double sif_moving_at_rest(const struct moving_table *t, double time)
 
 /* ---- ripple ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the root-mean-square deviation from the parabola that fits n points best over their mean; by orthogonal
- * polynomials of the points. */
+/* Returns the ripple of n points y(x): the root-mean-square deviation from the parabola fitted to them, over their
+ * mean. */
 static double ripple_of(const double *x, const double *y, int n)
 {
     double basis[3][SAMPLES + 2], rest[SAMPLES + 2], mean = 0, square_sum = 0;
@@ -133,6 +135,7 @@ static double ripple_of(const double *x, const double *y, int n)
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* Reads K_I over time from the history of a run: from the probe and from the sum over the disc. */
 static status read_curves(struct moving_row *r, const char *folder)
 {
     struct history h = {0};
@@ -199,6 +202,7 @@ static status sif_moving_run_all(struct moving_table *t, bool quick)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Fills a table with the curves of all runs and the exact values. */
 static void fill_curves(struct bench_table *rows, const struct moving_table *t)
 {
     bench_table_make(rows, "curves", "name,time,K_I,K_I_disc,K_I_exact,K_I_printed");
@@ -264,8 +268,8 @@ static void put_curves(FILE *to, const struct moving_table *t, int groups)
 
 static bool release_methods(int groups) { return groups == LENGTH || groups == EXPONENT; }
 
-/* Returns true if a run is drawn in a column: if release methods are compared, both panels show all runs; else gradual
- * release is above, immediate release below. */
+/* Returns true if a case is drawn in a column of the picture. If release methods are compared, both columns show all
+ * cases; else column 2 has those with immediate release, column 1 the others. */
 static bool is_shown(const struct moving_case *c, int groups, int column)
 {
     return (c->groups & groups) && (release_methods(groups) || is_sudden(c) == (column == 2));
@@ -324,6 +328,7 @@ static status draw_groups(const struct moving_table *t)
 
 /* ---- targets ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the largest relative deviation of K from the exact value. */
 static double farthest(const struct moving_row *r) { return fmax(r->high - 1, 1 - r->low); }
 
 /* Adds the goals. Those for moving cracks apply to spacings of 0.25 mm and less. Bonds that are released over a whole

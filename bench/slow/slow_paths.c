@@ -18,8 +18,8 @@ struct path_row {
     double found, expected, apart; /* angles found and expected, and their difference [degree] */
 };
 
-/* Finds the next line from *from on in which the farthest crack tip has moved and stores its position [m]. Returns
- * false if there is none. */
+/* Finds the next line, from line *from on, in which the farthest crack tip has moved from place[], and stores its new
+ * position there [m]. Returns false if there is none. */
 static bool path_next(const struct history *h, int64_t *from, double place[2])
 {
     const int x = history_find_column(h, "path_x"), y = history_find_column(h, "path_y");
@@ -40,8 +40,8 @@ static void path_start(const struct history *h, double place[2])
     place[1] = history_at(h, 1, history_find_column(h, "path_y"));
 }
 
-/* Evaluates a kink. In a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long,
- * within 1 %. */
+/* Reads the first kink of an inclined crack and compares its angle with the direction of the largest hoop stress. In
+ * a wide plate K_II/K_I is tan(angle); in this plate, five times as wide as the crack is long, within 1 %. */
 static status kink_take(void *row, const char *folder)
 {
     struct path_row *r = row;
@@ -98,8 +98,8 @@ static status kinks(struct bench_table *t, struct bench_goals *asked, bool quick
 
 /* ---- eccentric notch of a beam ----------------------------------------------------------------------------------- */
 
-/* Evaluates the chords from the initial tip, which is beside a column of particles on the notch, up to the length of
- * the finite-element results, and keeps the largest difference of their angles. */
+/* Reads the path of a crack in a beam and keeps the largest difference between the angle of its chord and the
+ * finite-element results, up to the length of these results. The chord begins at the initial tip. */
 static status bend_take(void *row, const char *folder)
 {
     struct path_row *r = row;

@@ -82,13 +82,14 @@ struct slow_table {
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
+/* Returns the crack length up to which loads are compared [m]; INFINITY for double cantilevers. */
 static double longest_crack(const struct slow_case *c)
 {
     return c->specimen.kind == DOUBLE_CANTILEVER ? INFINITY : long_crack * c->specimen.width;
 }
 
-/* Returns the load over that of a double cantilever with the same opening (reference load and opening at a crack length
- * follow from each other). */
+/* Returns the load over the reference load of a double cantilever with the same opening. Reference load and opening
+ * follow from each other through the crack length. */
 static double cantilever_at_opening(const struct specimen *s, double load, double opening)
 {
     const double unit = specimen_load(s, 0) * 0.673 * s->width; /* load times (a + 0.673 h) */
@@ -96,8 +97,8 @@ static double cantilever_at_opening(const struct specimen *s, double load, doubl
     return load / (unit / sqrt(squared));
 }
 
-/* Returns the distance of the load from the end of a cantilever: its first column of particles is half a spacing from
- * the end [m]. */
+/* Returns the distance of the load from the end of the specimen [m]: half a spacing for a double cantilever, which is
+ * loaded on its first column of particles, 0 for others. */
 static double load_offset(const struct slow_row *r)
 {
     return r->of->specimen.kind == DOUBLE_CANTILEVER ? 0.5 * r->of->spacing / r->fine : 0;
@@ -171,6 +172,7 @@ static status slow_add(struct slow_table *t, int of, int model, double fine)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Writes the results of all runs as a table. */
 static status slow_rows_write(const struct slow_table *t)
 {
     struct bench_table rows;
@@ -226,6 +228,7 @@ static void slow_curves_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Adds the goals for a run: its errors are within 3 %. */
 static void slow_ask(struct bench_goals *asked, const struct slow_row *r)
 {
     const char *name = r->of->name, *model = slow_model[r->model];

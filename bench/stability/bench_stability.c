@@ -21,7 +21,8 @@ static bool outside(const struct stability_row *r)
     return !(share >= STABILITY_LEAST && share <= STABILITY_MOST);
 }
 
-/* Prints a case. Cases that meet the prediction are progress, on standard error; stability.csv has all. */
+/* Prints the result of a case: on standard output if it differs from the prediction, on standard error if not, as
+ * progress only. */
 static void stability_print_row(const struct stability_row *r)
 {
     static const char *const run[] = {"", "stays", "grows"};
@@ -70,6 +71,7 @@ static status stability_measure(void *context, const struct stability_case *c)
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Fills a table with all cases, their limits and the outcome of their runs. */
 static void stability_put_table(struct bench_table *t, const struct stability_map *map)
 {
     static const char *const run[] = {"", "stays", "grows"};

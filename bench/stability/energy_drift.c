@@ -44,7 +44,8 @@ static void energy_drift_put(struct bench_table *t, const struct drift_case *l, 
     bench_text(t, r->why[0] ? r->why : "-");
 }
 
-/* Prints a case. Cases that keep their energy are progress, on standard error; the table has all. */
+/* Prints the result of a case: on standard output if it fails, on standard error if it holds or was refused, as
+ * progress only. */
 static void print(const struct drift_case *l, const struct lasting *r, const char *label)
 {
     FILE *to = r->refused || drift_holds(l, r) ? stderr : stdout;

@@ -58,6 +58,7 @@ static const enum stability_region region[] = {HALF, SQUARE, DISC, CORNER, NOTCH
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
 
+/* Passes on the cases of bodies with one method: bonds and cells with all laws and models. */
 static status bodies(struct taker *t)
 {
     const struct stability_case plate = {.dim = 2, .edge = 14, .method = "pd"},
@@ -82,7 +83,8 @@ static status bodies(struct taker *t)
     return OK;
 }
 
-/* Reference frame: every law with every shape of the region, handshake coupling with every other one. */
+/* Passes on the cases of the reference frame: every law with every shape of the region, every second one with the
+ * handshake coupling. */
 static status energy_drift_cases_reference(struct taker *t)
 {
     for (int l = 0; l < LAWS; l++)

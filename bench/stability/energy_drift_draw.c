@@ -34,14 +34,16 @@ static bool of_group(const struct bench_table *t, int64_t row, int g)
     return !strcmp(energy_drift_draw_text_of(t, row, GROUP), drift_group_name[g]);
 }
 
-/* Returns the decades of a rate above the least one, with its sign. */
+/* Returns a growth rate on a logarithmic scale: the number of decades above LEAST_RATE, with the sign of the rate.
+ * Rates that are not finite become the largest one. */
 static double decades(double rate)
 {
     if (!isfinite(rate)) return log10(MOST_RATE / LEAST_RATE);
     return copysign(log10(fmin(MOST_RATE, fmax(fabs(rate), LEAST_RATE)) / LEAST_RATE), rate);
 }
 
-/* Sends the cases of a group side by side: successful, failed and stopped ones as separate blocks. */
+/* Sends the cases of group g as data blocks, one each for cases that hold, fail and have stopped. at: position of the
+ * first case; returns the position of the next group. */
 static int put_group(FILE *to, const struct bench_table *t, int g, int at)
 {
     static const char *const verdict[] = {"holds", "fails", "stopped"};

@@ -52,7 +52,8 @@ static int turns_of(int dim) { return dim * (dim - 1) / 2; }
 /* Returns the axes of the plane of rotation t = 0, 1, 2: xy, yz, zx. */
 static void turn_axes(int t, int *a, int *b) { *a = t, *b = (t + 1) % DIM_MAX; }
 
-/* Computes the sums of m (x - x0) x v about the axes and of m |x - x0| |v|; x0 is the centre of mass. */
+/* Computes the angular momentum about `centre`, L[DIM_MAX], one entry per plane of rotation (turn_axes), and the sum
+ * of m |x - centre| |v| as its scale. */
 static void angular_momentum(const struct run *e, const real *centre, real *L, real *size)
 {
     for (int t = 0; t < DIM_MAX; t++) L[t] = 0;
@@ -83,8 +84,8 @@ static void centre_of(const struct run *e, real *centre)
     for (int d = 0; d < e->part.dim; d++) centre[d] /= mass;
 }
 
-/* Removes the mean rotation about each axis: a rotating body has another energy with small-strain laws. Exact for
- * bodies with the symmetry of those used here. */
+/* Removes the mean rotation of a body about `centre` from the velocities, because small-strain laws change the energy
+ * of rotating bodies. Exact only for bodies with the symmetry of those in this bench. */
 static void stop_turning(struct run *e, const real *centre)
 {
     real L[DIM_MAX], size, inertia[DIM_MAX] = {0};
@@ -152,9 +153,8 @@ static void earlier_take(struct earlier *b, const struct run *e)
     }
 }
 
-/* Returns 1/2 m v_before . v_after, and stores 1/2 m v_after^2 in *after. The first is the part of the energy that
- * leap-frog integration conserves together with the energy of positions. The energy balance uses it for bonds and
- * cells, but for material points the mean of both squares, which is larger, by a quarter if the motion is noise. */
+/* Returns the sum of 1/2 m v_before . v_after over a step, and stores the sum of 1/2 m v_after^2 in *after. Leap-frog
+ * integration conserves the first one together with the energy of positions. */
 static real kinetic_between(const struct earlier *b, const struct run *e, real *after)
 {
     real sum = 0;
@@ -207,7 +207,8 @@ static void course_add(struct course *c, const struct run *e, const struct earli
     c->work[c->n++] = now->external_work;
 }
 
-/* Returns the slope of the logarithm of the energy over the second half of the samples, by least squares [1/step]. */
+/* Returns the growth rate of the energy per step: slope of its logarithm over the second half of the samples, by
+ * least squares; NAN for too few samples. */
 static double rate_of(const struct course *c, const double *energy)
 {
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -236,8 +237,8 @@ static void judge(const struct course *c, struct lasting *to)
     to->rate = rate_of(c, to->loudest > LASTING_LOUDEST ? c->plain : c->energy);
 }
 
-/* Returns true if angular momentum must be conserved: supports would take it up, and small-strain laws do not describe
- * rotations. */
+/* Returns true if angular momentum must be conserved: the body has no boundary conditions, is not one-dimensional,
+ * and has no cells with a small-strain law, which do not describe rotations. */
 static bool energy_drift_run_is_free(const struct run *e)
 {
     return e->scene->boundaries == 0 && e->part.dim > 1 && !(e->frame->mesh.points > 0 && e->scene->small_strain);

@@ -14,7 +14,9 @@
 #define WIDTH 32e-3
 #define SPEED 0.1
 
-/* Measures transverse motion and energy error. given: initial end of the bonds [mm]; 40: the interface is flat. */
+/* Runs the wave past the corner. Returns in to[0] the largest transverse velocity over the velocity of the wave,
+ * INFINITY if no particle is converted in an adaptive run, in to[1] the energy error and in to[2] the momentum error.
+ * r->given: end of the initial bonds along y [mm]; at 40 the interface is flat. */
 static status corner(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -35,7 +35,8 @@ static void limits_invariance_put_box(FILE *to, const struct twin *t, double x0,
 enum { PLATE_X = 38, PLATE_Y = 26 };
 static bool in_hole(double x, double y) { return hypot(x - 9, y - 5) <= 3.3; }
 
-/* Writes the particles as a list. Permuted: every 383rd of 988 in turn, an order unrelated to positions. */
+/* Writes the particles of the plate as a list, without those in the hole; for t->listed = 2 in a permuted order that
+ * is unrelated to positions. */
 static void put_list(FILE *to, const struct twin *t)
 {
     const double mm = 1e-3 * t->scale;
@@ -177,7 +178,8 @@ static const struct twin plate[] = {{.scale = 1},
                                     {.scale = 1, .listed = 2}};
 enum { ITSELF, LARGER, MIRRORED, TURNED, ALL_OF_IT, LISTED, SHUFFLED };
 
-/* Measures the difference of a transformation. given: index of the transformation. */
+/* Returns in *to the difference between the results of the plate and of a transformed plate. r->given: index of the
+ * transformation. */
 static status twins(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[ITSELF], &plate[(int)r->given], r, to);
@@ -200,7 +202,8 @@ static const struct limits_row twin[] = {TWINS("pd"), TWINS("mpm"), TWINS("adapt
 const struct limits_scene limits_twins = {
     "twins of a plate", NULL, {{"difference before bonds break", 1e-10}}, ROWS(twin), twins};
 
-/* Measures the difference for a permuted list: particles are sorted by position, so that results are bitwise equal. */
+/* Returns in *to the difference of results between a list of particles and its permutation. Particles are sorted by
+ * position, so that it must be exactly 0. */
 static status renumbered(const struct limits_row *r, double *to)
 {
     return limits_invariance_compare(&plate[LISTED], &plate[SHUFFLED], r, to);

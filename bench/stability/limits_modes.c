@@ -10,7 +10,8 @@ struct matrix {
     real *at;
 };
 
-/* Computes the matrix column by column from finite differences of forces; the asymmetry is their error, 1e-7. */
+/* Returns the stiffness matrix of a body, divided by the square roots of the masses, from finite differences of the
+ * forces, column by column, and made symmetric. The caller frees m.at. */
 static struct matrix matrix_of(struct run *e)
 {
     struct bond_body body = bond_body_make(&e->bonds, &e->part, e->kernels.bond_force, NULL, e->scene->spacing);
@@ -48,7 +49,8 @@ static int64_t limits_modes_below(const struct matrix *m, real x)
     return count;
 }
 
-/* Returns the eigenvalue with `lower` ones below it, by bisection below `high`, with relative error 1e-4. */
+/* Returns the eigenvalue of the matrix that has exactly `lower` smaller ones, by bisection between 0 and `high`, with
+ * relative error 1e-4. */
 static real eigenvalue(const struct matrix *m, int64_t lower, real high)
 {
     real low = 0;
@@ -90,6 +92,7 @@ static status square_make(struct run *e, struct scene *s, const struct limits_ro
 
 /* ---- zero-energy modes ------------------------------------------------------------------------------------------- */
 
+/* Returns in *to the number of zero-energy modes of a free square beyond its rigid motions. */
 static status modes(const struct limits_row *r, double *to)
 {
     struct run e;

@@ -12,7 +12,8 @@
 
 /* ---- uniform stress in an extended body -------------------------------------------------------------------------- */
 
-/* Sets points with unit stress to positions extended by lambda and shifted by `shift` cells. */
+/* Gives material points unit stress and moves them to positions of a body extended by the factor lambda and shifted
+ * by `shift` [m]. */
 static void stretch(struct particles *p, double lambda, double shift)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -22,8 +23,8 @@ static void stretch(struct particles *p, double lambda, double shift)
     }
 }
 
-/* Measures the largest force on an inner node over stress and cross section, for the worst of 64 positions of the
- * points in their cells. */
+/* Returns in *to the largest force on an inner node of a uniformly stressed bar, extended by the factor r->given,
+ * over stress and cross section. It should be 0; the worst of 64 positions of the points in their cells counts. */
 static status crossing(const struct limits_row *r, double *to)
 {
     const double lambda = r->given;
@@ -86,8 +87,9 @@ const struct limits_scene limits_crossing = {"uniform stress, stretched",
 
 /* ---- homogeneous extension --------------------------------------------------------------------------------------- */
 
-/* Measures the largest stress error in the middle, which waves from the ends do not reach, for v = a X until a given
- * strain after 100 D/c. Exact: stress rates add up to E ln lambda; the strain of the reference frame is lambda - 1. */
+/* Runs a bar that expands with v = a X to the strain r->given, and returns in *to the largest relative error of the
+ * stress in its middle, which waves from the ends do not reach. Exact is E ln(lambda), or E (lambda - 1) in the
+ * reference frame. */
 static status homologous(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -126,8 +128,8 @@ const struct limits_scene limits_homologous = {
 
 /* ---- modes invisible to the grid --------------------------------------------------------------------------------- */
 
-/* Measures the share of the energy that remains after some steps, for two points per cell at h/4 and 3h/4 with
- * velocities +-v: the node velocities vanish. */
+/* Runs a bar with two points per cell and alternating velocities, so that all node velocities are 0, for r->given
+ * steps. Returns in *to the share of the kinetic energy that remains. */
 static status null_mode(const struct limits_row *r, double *to)
 {
     struct run e;
@@ -141,7 +143,8 @@ static status null_mode(const struct limits_row *r, double *to)
     return ran;
 }
 
-/* Rows. given: number of steps. The energy that APIC leaves is at the ends of the body. */
+/* Rows of the mode with zero node velocities; given: number of steps. What remains with APIC is at the ends of the
+ * body. */
 static const struct limits_row null_modes[] = {
     {.method = "flip",
      .set = {"mpm.transfer", "flip"},
@@ -158,8 +161,8 @@ const struct limits_scene limits_null_mode = {"null mode +-v",
 
 /* ---- positions in the cells -------------------------------------------------------------------------------------- */
 
-/* Measures the largest stress over rho c v after 300 s, c = 1 m/s, in a body in rigid translation, with points on faces
- * of cells or beside them, where nodes beyond the edge have a mass of 1e-9 or less. */
+/* Runs a body in rigid translation for 300 s, with points on faces of cells or close to them, and returns in *to the
+ * largest spurious stress over rho c v. r->given: shift of the grid, which sets the position of the points. */
 static status on_faces(const struct limits_row *r, double *to)
 {
     struct run e;

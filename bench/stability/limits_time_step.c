@@ -46,7 +46,8 @@ static const struct stability_case beyond[] = {
     {.dim = 2, .method = "mpm", .frame = "reference"},
 };
 
-/* Measures the number of steps until the run stops. given: index of the case. */
+/* Runs a case with 1.2 times its stable time step and returns in *to the number of steps until the run stops.
+ * r->given: index of the case. */
 static status caught(const struct limits_row *r, double *to)
 {
     return stability_caught(&beyond[(int)r->given], 1.2, to);

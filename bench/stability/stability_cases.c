@@ -22,6 +22,7 @@ static const char *const transfer[] = {"flip", "apic"};
 
 /* ---- peridynamics ------------------------------------------------------------------------------------------------ */
 
+/* Passes on the peridynamic cases with all horizons, by dimension and model. */
 static status horizons(const struct taker *t)
 {
     static const double horizon[] = {3.015, 1, 2.015, 1.5, 4.015, 5.015, 6.015};
@@ -57,8 +58,8 @@ static status variants(const struct taker *t)
     return OK;
 }
 
-/* Adds cases with published limits: complete families in large lattices, moduli of the continuum, no surface
- * correction. */
+/* Passes on cases with published stability limits: large lattices of complete families, with the moduli of the
+ * continuum and without surface correction. */
 static status stability_cases_published(const struct taker *t)
 {
     static const struct stability_case row[] = {
@@ -81,7 +82,8 @@ static status stability_cases_published(const struct taker *t)
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
-/* Sets the published limit of the linearised step in one dimension. */
+/* Sets the range of the published stability limit of a case, if there is one: in one dimension for whole numbers of
+ * points per cell. */
 static void quote(struct stability_case *c)
 {
     static const struct {
@@ -98,8 +100,8 @@ static void quote(struct stability_case *c)
             c->quoted_low = sheet[k].low[(int)c->cell - 1], c->quoted_high = sheet[k].high[(int)c->cell - 1];
 }
 
-/* Returns the number of offsets: in eighths of a cell or, for three and six points per cell, twelfths, so that points
- * coincide with nodes, the worst position for linear shapes. */
+/* Returns the number of offsets of the grid that are tried: multiples of an eighth of a cell, or of a twelfth for
+ * three and six points per cell, so that points coincide with nodes, the worst position for linear shapes. */
 static int offsets_of(const struct taker *t, double cell, int dim)
 {
     const bool thirds = cell == 3 || cell == 1.5 || cell == 6;
@@ -142,6 +144,7 @@ static status stability_cases_points(const struct taker *t)
 
 /* ---- coupled bodies ---------------------------------------------------------------------------------------------- */
 
+/* Passes on the adaptive cases: all couplings, transfers and cell sizes. */
 static status coupled(const struct taker *t)
 {
     static const char *const couplings[] = {"partial stress", "handshake", "pm", "pg", "pmg", "pgg"};
@@ -194,8 +197,8 @@ static status coupled(const struct taker *t)
                                                            .note = "surface correction"});
 }
 
-/* Adds cases of the reference frame: borders inside cells, and scattered material points and peridynamic particles as
- * conversion may leave them. */
+/* Passes on cases of the reference frame: borders of the peridynamic region inside cells, and scattered peridynamic
+ * particles and material points, as conversion can leave them. */
 static status stability_cases_reference(const struct taker *t)
 {
     static const struct stability_case row[] = {

@@ -92,6 +92,7 @@ static void draw_points(FILE *to, const struct stability_map *map, const char *t
 
 /* ---- every case -------------------------------------------------------------------------------------------------- */
 
+/* Draws the automatic and the critical time step of every case, over its observed limit. */
 static void draw_shares(FILE *to, const struct stability_map *map)
 {
     int at = 0;

@@ -38,14 +38,15 @@ static void stability_limit_shake(struct run *e, double speed, double drift)
     }
 }
 
-/* Returns the kinetic energy relative to the translation [J]. */
+/* Returns the kinetic energy that exceeds the one of the uniform translation with velocity `drift` [J]. */
 static double motion(const struct run *e, double drift)
 {
     return particles_kinetic_energy(&e->part) + mesh_kinetic(&e->frame->mesh) -
            0.5 * e->mass * e->part.dim * drift * drift;
 }
 
-/* Creates the run of a case, so long that its only sample is at the first step. */
+/* Creates the run of a case with the time step dt [s], or with the automatic one if dt is 0. It is so long that only
+ * its first step is a sample. */
 static status limit_block_make(struct run *e, struct scene *s, const struct stability_case *c, double dt)
 {
     struct bench_overrides o = {0};
@@ -79,8 +80,9 @@ status stability_stays(const struct stability_case *c, double dt, struct stabili
 
 /* ---- limits ------------------------------------------------------------------------------------------------------ */
 
-/* Finds the limit by bisection between a bounded and an unbounded step, starting from the critical step that Cleave
- * predicts. */
+/* Finds the critical time step of a case by bisection between a step for which the motion stays bounded and one for
+ * which it grows. critical: the step that Cleave predicts [s]; steps: length of each trial. REFUSED if there is no
+ * limit near the prediction. */
 static status limit_of(const struct stability_case *c, double critical, int steps, double *limit)
 {
     const struct stability_shake quietly = {QUIET, 0, steps};
@@ -100,7 +102,8 @@ static status limit_of(const struct stability_case *c, double critical, int step
     return OK;
 }
 
-/* Returns the time step sqrt(2 rho/sum c V/xi) of the stiffest row (Silling & Askari 2005). */
+/* Returns the critical time step of the stiffest row of bonds, sqrt(2 rho/sum(c V/xi)) (Silling & Askari 2005)
+ * [s]. */
 static double silling_step(const struct run *e)
 {
     const struct bonds *b = &e->bonds;

@@ -152,6 +152,7 @@ static void put_region(FILE *to, const struct stability_case *c, double edge)
 
 /* ---- supports ---------------------------------------------------------------------------------------------------- */
 
+/* Writes the boundary conditions of a case; nothing for a free body. */
 static void put_support(FILE *to, const struct stability_case *c, double edge)
 {
     static const char *const text[] = {
@@ -227,6 +228,7 @@ void stability_text(const struct stability_case *c, char *text, size_t size)
 
 /* ---- label ------------------------------------------------------------------------------------------------------- */
 
+/* Writes a label that describes the case. text: capacity `size` [byte]. */
 void stability_label(const struct stability_case *c, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");

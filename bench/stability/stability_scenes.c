@@ -14,7 +14,8 @@
 enum { SCENE, METHOD, QUANTITY, THRESHOLD, MEASURED, VERDICT, REMEDY, COLUMNS };
 static const char header[] = "scene,method,quantity,threshold,measured,verdict,remedy";
 
-/* Adds a row for each quantity: a failing one has a remedy, others have none. */
+/* Measures all quantities of a scene with one method, prints them, and adds a row for each to the table; quantities
+ * beyond their threshold are listed with a remedy. */
 static status stability_scenes_take(struct bench_table *t, const struct limits_scene *s, const struct limits_row *r)
 {
     double figure[FAILING_FIGURES];
@@ -76,7 +77,7 @@ static bool fails(const struct bench_table *t, int64_t row)
     return !strcmp(stability_scenes_text_of(t, row, VERDICT), "fails");
 }
 
-/* Returns true if this row is the first of a scene. */
+/* Returns true if a row of the table is the first one of its scene. */
 static bool begins(const struct bench_table *t, int64_t row)
 {
     return row == 0 || strcmp(stability_scenes_text_of(t, row, SCENE), stability_scenes_text_of(t, row - 1, SCENE));
@@ -90,8 +91,8 @@ static double share(const struct bench_table *t, int64_t row)
     return threshold > 0 ? fmax(LEAST, measured / threshold) : LEAST;
 }
 
-/* Returns the number of lines: one for each scene with its number of met thresholds, and one for each failing
- * quantity. */
+/* Returns the number of lines of the picture: one for each scene, and one for each quantity that exceeds its
+ * threshold. */
 static int lines_of(const struct bench_table *t)
 {
     int n = 0;

@@ -22,6 +22,7 @@ struct pilot_tally {
 
 /* ---- one scene --------------------------------------------------------------------------------------------------- */
 
+/* Writes a scene with `method: auto` that requests its figure to within a relative error `within`. */
 static status pilot_scene_write(const char *path, const struct pilot_scene *k, double within)
 {
     char text[TEXT_ROOM];
@@ -33,7 +34,8 @@ static status pilot_scene_write(const char *path, const struct pilot_scene *k, d
     return file_write_whole(path, text, (size_t)length);
 }
 
-/* Makes the chosen run as a study with one case, and reads the figure. */
+/* Runs the scene with the choices of the pilot runs, as a study with a single case in `folder`, and reads a figure
+ * from its summary into *value. */
 static status chosen_run(const struct pilot *p, const char *scene, const char *folder, double *value,
                          const char *figure)
 {
@@ -54,7 +56,8 @@ static const char *chosen_value(const struct pilot *p, const char *key)
     return "";
 }
 
-/* Makes the runs of a scene and prints a line. A refused scene is counted, with the reason. */
+/* Makes the pilot runs and the chosen run of a scene, prints a line with its error, and counts the outcome. within:
+ * requested accuracy. */
 static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene *k, double within, const char *folder)
 {
     const struct path scene = path_join(folder, "scene.yaml.in"), into = path_join(folder, "run");
@@ -90,6 +93,7 @@ static void pilot_scene_measure(struct pilot_tally *t, const struct pilot_scene 
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Tests whether `method: auto` reaches the requested accuracy in all scenes. */
 status bench_pilot(bool quick)
 {
     static const double asked[] = {0.05, 0.02, 0.01};

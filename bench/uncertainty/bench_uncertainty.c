@@ -78,9 +78,10 @@ static status study_of(struct known_rows *rows, const struct known_scene *k, con
 
 /* ---- results ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the difference between the finest mean and the exact value. */
 static double true_error(const struct known_row *r) { return fabs(r->c.level[0].mean - r->exact); }
 
-/* Returns the share of the rows whose interval of a nominal probability contains the exact value. */
+/* Returns the share of the rows whose interval with a nominal probability contains the exact value. */
 static double covered(const struct known_rows *rows, double nominal)
 {
     int held = 0;
@@ -171,6 +172,7 @@ static void uncertainty_draw(FILE *to, const void *context)
 
 /* ---- whole bench ------------------------------------------------------------------------------------------------- */
 
+/* Makes the studies of a scene with all variants and spacings and prints their rows. */
 static status known_scene_measure(struct known_rows *rows, const struct known_scene *k, const char *folder, bool quick)
 {
     for (int v = 0; v < KNOWN_VARIANTS_MOST && k->variant[v][0]; v++)

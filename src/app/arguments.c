@@ -18,7 +18,7 @@ status arguments_add_override(struct run_arguments *a, const char *text)
     return OK;
 }
 
-/* Reads a whole number. Returns false unless the text is a number from least to most. */
+/* Reads a whole number from least to most into *count. Returns false for any other text. */
 static bool count_read(int *count, const char *text, int least, int most)
 {
     char *end;

@@ -132,7 +132,8 @@ static void say_time_step(const struct run *e)
                e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, (long long)e->clock.steps, e->scene->duration);
 }
 
-/* Prints the basis of the estimated run time. */
+/* Prints how the run time was extrapolated, from the first steps and from a run with larger particles, and the time
+ * if all particles were peridynamic. */
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
@@ -165,7 +166,7 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);
 }
 
-/* Prints the range of the random factors on the strength of a material. */
+/* Prints the smallest and largest random factor on the strength of a material over its particles. */
 static void say_scatter(const struct particles *p, int material)
 {
     real least = INFINITY, most = 0;

@@ -38,8 +38,8 @@ static real horizon_of(const struct scene *s) { return s->horizon * s->spacing; 
 
 /* ---- parts that are not resolved --------------------------------------------------------------------------------- */
 
-/* Returns the edge of a box along d, with its mirror images at planes of symmetry [m]; INFINITY if it is between two
- * of them. */
+/* Returns the edge length of a box along axis d, doubled if one of its ends is at a plane of symmetry [m]; INFINITY
+ * if both ends are. */
 static real mirrored_edge(const struct scene *scene, const struct bond_source *source, const struct solid *a, int d)
 {
     const real near = ON_MIRROR * scene->spacing;
@@ -82,7 +82,7 @@ int layer_stiffness_error(const struct scene *s, enum surface_rule surface, doub
     return off[s->dim > 2];
 }
 
-/* Writes the error of the stiffness of a part of some layers of particles. */
+/* Writes a line with the largest error of the stiffness of a part that is `layers` particles thick. */
 static void advise_thin(const struct scene *s, double layers, FILE *out)
 {
     if (layers < 1.5) {
@@ -98,8 +98,8 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
-/* Writes a line for parts of bodies thinner than FEATURE horizons. Subtracted solids cut bonds and cells, however
- * thin they are. */
+/* Writes a line for each body with a part thinner than FEATURE horizons, where most particles have incomplete
+ * families. Not for bodies of material points only, and not in 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -117,7 +117,8 @@ static void advise_features(const struct run *e, FILE *out)
     }
 }
 
-/* Returns true if an end of a pre-crack is a tip, with material of the body ahead of it. */
+/* Returns true if an end of a pre-crack is a crack tip inside the material, not at a face of the body. end: position
+ * of the end [m]. */
 static bool is_tip(const struct fracture_state *fracture, const real *end)
 {
     const struct tips *t = &fracture->tips;
@@ -238,7 +239,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
             shock.speed, shock.share);
 }
 
-/* Writes a line for coarse cells of the scene in which its loads act. */
+/* Writes a line if the number of levels that the scene gives makes cells too coarse for its loads or its thin
+ * parts. */
 static void advise_levels(const struct run *e, FILE *out)
 {
     const struct levels_choice c = frame_levels_choice(e->frame, &e->part, e->scene, e->clock.dt_critical);
@@ -252,8 +254,9 @@ static int body_of(const struct scene *scene, const struct particles *part, int3
     return scene->body[part->body[i]].joined;
 }
 
-/* Returns the number of pairs of a body's particles near the end of a crack, within their horizon, that the crack
- * cuts if it is longer by 1e-7 of its length and does not cut if it is shorter by as much. */
+/* Counts the bonds near one end (0 or 1) of a crack that the crack cuts if it is longer by 1e-7 of its length, but
+ * not if it is shorter by as much. Considers pairs of particles of one body within the horizon. found[room]: work
+ * array for the particles near the end. */
 static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, int32_t *found, int room)
 {
     const struct particles *p = &e->part;
@@ -278,7 +281,7 @@ static int64_t tied_bonds(const struct run *e, const struct crack *c, int end, i
     return tied;
 }
 
-/* Adds a hint for each pre-crack whose ends are exactly on bonds. */
+/* Adds a hint for each pre-crack that ends exactly on bonds, so that rounding decides whether they are cut. */
 static void hint_ties(const struct run *e, struct warnings *to)
 {
     enum { ROOM = 1024 };
@@ -307,8 +310,8 @@ static void advise_formulas(const struct run *e, FILE *out)
     }
 }
 
-/* Extends the range low..high of displacements along d by the displacements of particles that a support drives, at
- * time t [m]. */
+/* Extends the range *least..*most of displacements along axis d [m] by the displacements that support l prescribes at
+ * time t. Does nothing for other loads, for rotating supports, and if the displacement is not known. */
 static void pulled_span(const struct load *l, const struct particles *p, int d, real t, real *least, real *most)
 {
     if (l->boundary->kind != BOUNDARY_VELOCITY || !(l->boundary->components & 1 << d) || l->boundary->rotates) return;
@@ -320,8 +323,8 @@ static void pulled_span(const struct load *l, const struct particles *p, int d, 
     }
 }
 
-/* Writes a line for unintended separation: points of the current frame that are pulled more than a cell apart have
- * no common nodes. */
+/* Writes a line if supports stretch the body so far that neighbouring material points no longer share grid nodes, so
+ * that the body would separate without fracture. Applies to points in the current frame. */
 static void advise_separation(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
@@ -359,8 +362,9 @@ static void hint_model(const struct scene *s, struct warnings *to)
                  s->model == MODEL_OSPD ? "ospd" : "mospd");
 }
 
-/* Returns the largest stress that the speeds and tractions of boundaries and initial states can cause [Pa]; INFINITY
- * if it is unknown: with body forces, tables in time, or waves that add up. */
+/* Returns an estimate of the largest stress in a run [Pa], from the range of the initial and prescribed velocities,
+ * the tractions and the strains of initial states. Returns INFINITY if no estimate is possible: for body forces,
+ * tables in time, formulas, rotating supports, or runs so long that reflected waves add up. */
 static real stress_reached(const struct run *e)
 {
     const struct scene *s = e->scene;

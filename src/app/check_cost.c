@@ -69,7 +69,7 @@ static status time_steps(struct run *e, struct quartiles *step)
     return OK;
 }
 
-/* Returns the median time of one evaluation of bond forces [s]. */
+/* Returns the processor time of one evaluation of the bond forces [s], the median of several. */
 static double time_force(struct run *e)
 {
     double spent[PERIODS_MOST], all = 0;
@@ -99,8 +99,8 @@ static double time_contact(struct run *e)
 
 /* ---- other scenes ------------------------------------------------------------------------------------------------ */
 
-/* Creates scene and engine with one more override (key NULL: none); the caller releases both, also on failure. rest:
- * keep inactive parts. */
+/* Reads the scene again with one additional override (none if key is NULL) and creates its engine. rest: whether
+ * inactive parts of the body may be skipped, as in the scene. The caller releases s and e, also on failure. */
 static status make_other(struct scene *s, struct run *e, const struct run_arguments *a, const char *key,
                          const char *value, bool rest)
 {
@@ -114,7 +114,7 @@ static status make_other(struct scene *s, struct run *e, const struct run_argume
     return engine_make(e, s, NULL);
 }
 
-/* Returns the processor time of all steps [s]; NAN if they fail or take far longer than expected. */
+/* Runs all steps and returns their processor time [s]; NAN if a step fails or the time exceeds a limit. */
 static double all_steps(struct run *e)
 {
     const double start = thread_cpu_clock(), began = wall_clock();
@@ -129,8 +129,9 @@ static double all_steps(struct run *e)
     return engine_run_baseline(e) == OK ? thread_cpu_clock() - start : NAN;
 }
 
-/* Returns the time of all steps of another scene [s]: measured if `whole`, else extrapolated from the first steps;
- * NAN if unknown. found: receives the warnings of its steps; NULL: ignored. */
+/* Runs the scene with one additional override (none if key is NULL) and returns the processor time of all its steps
+ * [s]: measured over the whole run if `whole`, else extrapolated from the first steps; NAN if a step fails. found:
+ * receives the warnings of the run; may be NULL. */
 static double try_other(const struct run_arguments *a, const char *key, const char *value, bool whole,
                         struct warnings *found)
 {
@@ -150,8 +151,9 @@ static double try_other(const struct run_arguments *a, const char *key, const ch
     return seconds;
 }
 
-/* Returns the time of all steps over the time expected from the first ones, measured in an equal scene with larger
- * particles [1]; NAN if unknown. first: expected time of this scene [s]. */
+/* Returns the factor by which the time of a whole run differs from the time extrapolated from its first steps [1],
+ * measured in the same scene with larger particles; NAN if unknown. Stores the factor on the spacing in c->coarser
+ * and the result in c->growth. first: extrapolated time of this scene [s]. */
 static double growth_of(struct cost *c, const struct scene *s, const struct run_arguments *a, double first)
 {
     char value[32];
@@ -187,7 +189,9 @@ static const struct {
 } range[] = {[COST_TRIED] = {1.3, 1.5}, [COST_SCALED] = {1.6, 1.6}, [COST_FIRST] = {2, 1.5}};
 #define SPREAD_MOST 1.5 /* of what is measured on a busy machine */
 
-/* Sets the time and the basis of the whole run. */
+/* Estimates the time of the whole run, with set-up and output, and its lower and upper bounds: c->run, least and most
+ * [s]. Stores in c->basis whether the run was measured, scaled or extrapolated. Warnings of a measured run replace
+ * those in c->found. */
 static void cost_run(struct cost *c, const struct run_clock *clock, const struct scene *scene,
                      const struct run_arguments *a)
 {
@@ -211,7 +215,8 @@ static void cost_run(struct cost *c, const struct run_clock *clock, const struct
     c->most = c->run * range[c->basis].above * fmin(c->spread, SPREAD_MOST);
 }
 
-/* Returns the time of a step per particle with all particles peridynamic and larger [s]; NAN if unknown. */
+/* Returns the time of one step per particle [s] in the scene with all particles peridynamic and another spacing [m];
+ * NAN if unknown. */
 static double step_peridynamic(const struct run_arguments *a, double spacing)
 {
     struct scene s = {0};
@@ -232,8 +237,9 @@ static double step_peridynamic(const struct run_arguments *a, double spacing)
     return seconds;
 }
 
-/* Sets the time of a run with all particles peridynamic from its first steps, or from those of larger particles if
- * there are too many bonds. */
+/* Estimates the time of an adaptive run if all particles were peridynamic, c->all_peridynamic [s], from first steps
+ * of such a run, or of one with larger particles if there are too many bonds. It also becomes the upper bound c->most
+ * if the estimate of the run is only an extrapolation. */
 static void cost_peridynamic(struct cost *c, const struct run *e, const struct run_arguments *a)
 {
     const struct scene *s = e->scene;
@@ -248,7 +254,8 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
     if (c->basis == COST_FIRST) c->most = c->all_peridynamic > 0 ? fmax(c->most, c->all_peridynamic) : INFINITY;
 }
 
-/* Returns the memory of output, which trial steps do not use [byte]. */
+/* Returns an estimate of the memory that writing output needs [byte]; trial steps write nothing and do not show
+ * it. */
 static double output_bytes(const struct particles *part, const struct scene *scene)
 {
     return OUTPUT_BYTES + (double)part->n * (FRAME_BYTES + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));

@@ -18,8 +18,8 @@ bool piece_contains(const struct piece *p, const real *X, real tolerance)
            (p->material == ANY_MATERIAL || scene_material_at(p->scene, b, X, b->material) == p->material);
 }
 
-/* Returns true if points of a piece can be within a distance of X. Returns false for the remainder of a body outside
- * its parts of other materials. */
+/* Returns true if X is inside the piece or within a distance of its surface. Always returns false for the piece that
+ * consists of what remains of a body outside its parts of other materials. */
 static bool piece_near(const struct piece *p, const real *X, real distance)
 {
     const struct scene_body *b = &p->scene->body[p->body];
@@ -69,8 +69,8 @@ static void cell_middle(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < c->dim; d++) X[d] = c->first[d] + (real)at[d] * c->spacing;
 }
 
-/* Returns true if a face seems to cross a cell: its neighbours are filled and the cell is not, or vice versa; or
- * there are no neighbours, and the shape is near. */
+/* Returns true if a face of the body seems to cross a cell: some neighbours are filled by particles and the cell is
+ * not, or vice versa; or neither are filled and the shape is near. */
 static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cell)
 {
     int64_t at[DIM_MAX];
@@ -92,7 +92,8 @@ static bool is_crossed(const struct cover *c, const struct piece *p, int64_t cel
     return piece_near(p, X, 0.5 * sqrt(c->dim) * c->spacing);
 }
 
-/* Returns true if several faces can cross a cell: it has no neighbours along an axis, or is between two faces. */
+/* Returns true if more than one face of the body can cross a cell: the cell has no filled neighbour along some axis,
+ * or is between two faces. */
 static bool is_thin(const struct cover *c, int64_t cell)
 {
     int64_t at[DIM_MAX], stride = 1;
@@ -107,7 +108,8 @@ static bool is_thin(const struct cover *c, int64_t cell)
     return thin || !beside;
 }
 
-/* Returns true if a solid is a surface from a file, for which each point is expensive to test. */
+/* Returns true if a solid of the shape is a surface from a file, for which it is expensive to test whether a point is
+ * inside. */
 static bool is_dear(const struct region *shape)
 {
     bool dear = false;
@@ -118,7 +120,8 @@ static bool is_dear(const struct region *shape)
     return dear;
 }
 
-/* Returns the share of a cell behind a plane face, from distance and normal of the shape at the centre of the cell. */
+/* Returns the share of a cell that is inside the shape, if its surface in the cell is replaced by a plane, from the
+ * distance and normal at the centre X of the cell. */
 static real share_behind(const struct cover *c, const struct region *shape, const real *X)
 {
     real normal[DIM_MAX] = {0}, reach = 0;

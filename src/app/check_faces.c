@@ -92,7 +92,9 @@ static real cosine_at(const struct scene *scene, const struct particles *part, c
     return 1 / sqrt(1 + slope2);
 }
 
-/* Sums the areas of a face from a coordinate along its axis on (-INFINITY: all). */
+/* Sums the area of the particles of a face whose inner end along the axis is at `from` or further out, and separately
+ * the area of those where the surface is inclined to the axis. from: coordinate along the axis, outward positive [m];
+ * -INFINITY includes all. */
 static struct elsewhere elsewhere_from(const struct particles *part, const struct scene *scene,
                                        const struct boundary *b, const struct face *f, const struct ends *c, real from)
 {
@@ -110,8 +112,9 @@ static struct elsewhere elsewhere_from(const struct particles *part, const struc
     return w;
 }
 
-/* Returns the coordinate from which a region excludes nearly all of the face that is not normal to its axis;
- * INFINITY if no plane does. */
+/* Returns a coordinate along the axis, outward positive [m]: if the region of the load begins there, it excludes
+ * nearly all of the inclined part of the face. Returns INFINITY if no such coordinate is found. all: sums over the
+ * whole face. */
 static real elsewhere_cut(const struct run *e, const struct boundary *b, const struct face *f, const struct ends *c,
                           const struct elsewhere *all)
 {

@@ -57,8 +57,9 @@ static bool layer_map_make(struct layer_map *m, const struct run *e, int body)
     return true;
 }
 
-/* Returns the number of consecutive particles along an axis from a site, up or down, without the site itself.
- * *mirrored: they end at a plane of symmetry. */
+/* Returns the number of consecutive filled sites along an axis, beginning next to site `from`, at most RUNS_MOST.
+ * way: 1 or -1, the direction along the axis. Sets *mirrored to true if the row of sites ends at a plane of
+ * symmetry. */
 static int layer_run(const struct layer_map *m, const int64_t *from, int axis, int way, bool *mirrored)
 {
     int64_t at = from[axis], site = 0;
@@ -75,8 +76,8 @@ static int layer_run(const struct layer_map *m, const int64_t *from, int axis, i
     return run;
 }
 
-/* Returns the number of layers across the body at a site: the least along the axes. Slanting parts have up to 1.4
- * times as many. */
+/* Returns the number of particle layers across the body at a site: the smallest one of all axes. Across slanting
+ * parts it is up to 1.4 times too large. */
 static double site_layers(const struct layer_map *m, const int64_t *at)
 {
     double least = RUNS_MOST;
@@ -89,8 +90,8 @@ static double site_layers(const struct layer_map *m, const int64_t *at)
     return least;
 }
 
-/* Returns the median number of layers across the thin parts of a body; INFINITY if less than half of it is thinner
- * than `most`. */
+/* Returns the median number of layers across those particles of a body that have fewer than `most` layers; INFINITY
+ * if these are less than the share SHARE_LEAST of the body. */
 static double body_layers(const struct run *e, int body, double most)
 {
     const struct particles *p = &e->part;
@@ -126,8 +127,9 @@ double count_thin_layers(const struct run *e, int body, double most)
 
 /* ---- nearly incompressible bodies -------------------------------------------------------------------------------- */
 
-/* Returns the relative error in bending, in plane strain and 3D [%], of families: for 10 layers from static bending
- * with ospd and mospd; smaller with more layers. */
+/* Returns the relative error of nearly incompressible peridynamic families in bending, in plane strain and 3D [%].
+ * The values hold for 10 layers, from static bending with the models ospd and mospd, and fall with the inverse of the
+ * number of layers. */
 static double soft_families(double poisson, double layers) { return (poisson > 0.47 ? 30 : 15) * 10 / layers; }
 
 /* Returns the relative error in bending of cells of two spacings [%]: a beam of N layers is 1 + b/N^2 times as

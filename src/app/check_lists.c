@@ -8,7 +8,8 @@
 #define PROBE 0.9       /* [spacings] largest distance of a particle from a position inside the body */
 enum { LOOKED_AT = 1024, LAYERS_MOST = 16 };
 
-/* Returns true if there is a particle of a body near X. */
+/* Returns true if a particle of the body is within PROBE spacings of X, or if too many particles are near X to test
+ * them all. */
 static bool body_at(const struct run *e, int body, const real *X)
 {
     enum { ROOM = 64 };
@@ -19,8 +20,8 @@ static bool body_at(const struct run *e, int body, const real *X)
     return n > ROOM;
 }
 
-/* Returns the number of layers of a body through particle i along the axis with the fewest, up to LAYERS_MOST;
- * planes of symmetry do not end a body. */
+/* Returns the number of particles of a body through particle i along the axis on which there are fewest, at most
+ * LAYERS_MOST. A plane of symmetry does not count as the end of the body. */
 static int layers_at(const struct run *e, int64_t i)
 {
     const struct particles *p = &e->part;
@@ -44,7 +45,8 @@ static int layers_at(const struct run *e, int64_t i)
     return least;
 }
 
-/* Returns the number of layers of the thinnest part that contains THIN_SHARE of a body. */
+/* Returns the smallest number of layers L such that at least the share THIN_SHARE of the body has L layers or fewer,
+ * at most LAYERS_MOST. Tests a sample of its particles. */
 static int thinnest(const struct run *e, int body)
 {
     const struct particles *p = &e->part;

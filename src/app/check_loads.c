@@ -17,13 +17,16 @@ struct instant {
     const char *why;
 };
 
+/* Replaces *best by t and *most by the absolute value of f at t, if this value is larger than *most and t is in
+ * 0..duration. */
 static void instant_try(const struct time_function *f, real t, real duration, real *best, real *most)
 {
     if (t < 0 || t > duration || !(fabs(time_function_value(f, t)) > *most)) return;
     *best = t, *most = fabs(time_function_value(f, t));
 }
 
-/* Returns the time of the largest factor, the first of several. */
+/* Returns the time in 0..duration at which the absolute value of a time function is largest [s], the first one of
+ * several. Stores this value in *most. */
 static real largest_factor_at(const struct time_function *f, real duration, real *most)
 {
     real best = *most = 0;
@@ -45,6 +48,7 @@ enum { MOMENTS = 200, PLACES = 64 }; /* numbers of times, and of particles of a 
 /* Function for the vector of the k-th particle of a load at a time [dim]. */
 typedef void vector_fn(const struct load *l, const struct particles *p, int64_t k, real t, real *vector);
 
+/* Returns the sum of the squared vectors of a load at time t over a sample of its particles. */
 static real square_sum(const struct load *l, const struct particles *p, vector_fn *vector, real t)
 {
     real sum = 0, a[DIM_MAX];
@@ -67,6 +71,8 @@ static real largest_at(const struct load *l, const struct particles *p, vector_f
     return best;
 }
 
+/* Returns the time at which the forces of a load are reported, and the reason as a text: the time at which they are
+ * largest, or the end of the run. */
 static struct instant instant_of(const struct load *l, const struct particles *p, real duration)
 {
     const struct boundary *b = l->boundary;
@@ -138,6 +144,8 @@ static bool has_distance(const struct scene *s, int body)
     return has;
 }
 
+/* Adds a face of particle i to the sums in `context` (struct faced): its area, its area projected on the surface of
+ * the body's shape, and that times its distance from this surface. axis, side: outward normal of the face. */
 static void face_beside_shape(void *context, int32_t i, int axis, int side, real area)
 {
     struct faced *f = context;
@@ -179,8 +187,8 @@ static void say_pressed(const struct run *e, int which)
                off < 0 ? "below" : "above");
 }
 
-/* Computes the area of the face of a box that is visible along b->face, within the region of b. Returns false if it
- * does not follow from the box. */
+/* Computes the exact area of the face of a box that is visible along the axis b->face, within the region of b [m^2].
+ * Returns false if the body is no box, or the region is none along the axes. */
 static bool face_exact(const struct scene *s, const struct boundary *b, real *area)
 {
     const int body = b->body >= 0 ? b->body : 0;
@@ -209,6 +217,7 @@ static void say_traction_area(const struct scene *scene, const struct load *l)
 
 /* ---- lines ------------------------------------------------------------------------------------------------------- */
 
+/* Prints the force and the moment of a load, and the time at which they are evaluated. */
 static void say_force(const struct particles *part, const struct scene *scene, const struct load *l)
 {
     const int dim = part->dim;

@@ -43,8 +43,9 @@ struct chord {
     real middle, width;
 };
 
-/* Returns true if a run continues from a cell to the next one along the axis. Runs consist of particles, or of cells
- * without particles that the piece covers partly. way: -1 or 1. */
+/* Returns true if the run of cells through `cell` continues to the next cell along the axis of the widths. A run
+ * consists of consecutive cells with particles, or of consecutive cells without particles that the piece partly
+ * covers. way: -1 or 1, the direction along the axis. */
 static bool run_goes_on(const struct necks *k, int64_t cell, int way)
 {
     const struct cover *c = k->cover;
@@ -55,7 +56,7 @@ static bool run_goes_on(const struct necks *k, int64_t cell, int way)
     return c->filled[next] == c->filled[cell] && (c->filled[next] || c->share[next] > COVERED);
 }
 
-/* Returns the number of cells of the run that begins at a cell. */
+/* Returns the number of cells of a run, from its first cell. */
 static int64_t run_span(const struct necks *k, int64_t from)
 {
     int64_t n = 1;
@@ -63,7 +64,8 @@ static int64_t run_span(const struct necks *k, int64_t from)
     return n;
 }
 
-/* Returns true if there is a particle next to a run, before or after it along the axis. */
+/* Returns true if there is a particle next to one of the ends of a run of n cells along the axis. from: its first
+ * cell. */
 static bool run_touches(const struct necks *k, int64_t from, int64_t n)
 {
     const struct cover *c = k->cover;
@@ -73,7 +75,8 @@ static bool run_touches(const struct necks *k, int64_t from, int64_t n)
            (at[k->axis] + n < c->n[k->axis] && c->filled[from + n * k->stride[k->axis]]);
 }
 
-/* Counts the particles of all runs along the axis. Covered cells without particles are a run if they touch none. */
+/* Stores in k->rows, for all cells of a run of consecutive cells along the axis, one more than the number of its
+ * particles. Runs of covered cells without particles get 1, unless they touch a run of particles. */
 static void rows_count(struct necks *k)
 {
     const struct cover *c = k->cover;
@@ -87,8 +90,8 @@ static void rows_count(struct necks *k)
     }
 }
 
-/* Returns a cell of the longest run beside the run of a cell, or -1. Runs are beside each other if they have
- * neighbouring cells. way: -1 or 1 along the axis `across`. */
+/* Considers the run of cells through `cell`, and the cells next to it along the axis `across` in the direction way
+ * (-1 or 1). Returns the one of these cells that is in the longest run of its own, or -1 if none is in a run. */
 static int64_t run_beside(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct cover *c = k->cover;
@@ -104,7 +107,8 @@ static int64_t run_beside(const struct necks *k, int64_t cell, int across, int w
     return found;
 }
 
-/* Returns true if a cell is the last one before a plane of symmetry normal to an axis. */
+/* Returns true if a cell is the last one before a plane of symmetry normal to the axis `across`, in the direction way
+ * (-1 or 1). */
 static bool at_mirror(const struct necks *k, int64_t cell, int across, int way)
 {
     const struct run *e = k->engine;
@@ -125,7 +129,8 @@ static void cell_point(const struct cover *c, int64_t cell, real *X)
     for (int d = 0; d < DIM_MAX; d++) X[d] = d < c->dim ? c->first[d] + (real)at[d] * c->spacing : 0;
 }
 
-/* Measures the piece along the axis through X. Returns false if X is outside or on the surface. */
+/* Measures the width of the piece on the line along the axis through X: its midpoint and length. Returns false if X
+ * is outside the piece or on its surface. */
 static bool chord_measure(const struct necks *k, const real *X, struct chord *chord)
 {
     const real h = k->cover->spacing, most = 2 * NARROW * h;
@@ -147,8 +152,9 @@ struct chords {
 
 static struct chord *chord_of(struct chords *p, int m) { return &p->chord[CHORDS_MOST + m]; }
 
-/* Measures chords from the first one to both sides, each through the midpoint of the previous one. reach: number of
- * chords on each side. */
+/* Measures the width of the piece on parallel lines SAMPLES to a spacing, first through p->X (chord 0), then to both
+ * sides, each through the midpoint of the previous chord. reach[2]: largest number of chords on the lower and upper
+ * side; a side ends earlier where a line misses the piece. Returns false if no chord is found near p->X. */
 static bool chords_measure(struct chords *p, const struct necks *k, const int *reach)
 {
     real X[DIM_MAX];
@@ -175,7 +181,8 @@ static bool chords_measure(struct chords *p, const struct necks *k, const int *r
     return true;
 }
 
-/* Returns the number of the narrowest chord from..to; of several equal ones the middle one. */
+/* Returns the number of the narrowest one of chords from..to; of several chords with this width, to within a
+ * tolerance [m], the middle one. */
 static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
 {
     int best = from, end;
@@ -185,7 +192,8 @@ static int chords_narrowest(struct chords *p, int from, int to, real tolerance)
     return (best + end) / 2;
 }
 
-/* Returns the number of particle rows in the column of a chord: those between the ends of the chord on the lattice. */
+/* Returns the number of particle rows across the piece in the column of cells that contains chord m: lattice lines
+ * between the ends of the chord in the middle of the column. Returns NAN if that chord was not measured. */
 static real chord_rows(struct chords *p, const struct necks *k, int m)
 {
     const int column = (int)floor((m + 0.5 * SAMPLES) / SAMPLES) * SAMPLES;
@@ -196,9 +204,9 @@ static real chord_rows(struct chords *p, const struct necks *k, int m)
     return floor(high + ON_SURFACE) - ceil(low - ON_SURFACE) + 1;
 }
 
-/* Returns true if the piece widens on both sides of its narrowest chord by more than its midline shifts; the midline
- * shifts more in bent strips of constant width. *even: the piece widens by half a spacing or more at once, on both
- * sides. */
+/* Returns true if the piece widens on both sides of its narrowest chord, and its midline shifts less than its width
+ * grows; bent strips of constant width fail the second condition. A side that ends at a plane of symmetry counts as
+ * the other one. Sets *even to true if all changes of width are either negligible or larger than half a spacing. */
 static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool *even)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -219,8 +227,8 @@ static bool is_neck(struct chords *p, const struct necks *k, int narrowest, bool
     return fabs(shift[0] + shift[1]) < 0.75 * (growth[0] + growth[1]);
 }
 
-/* Returns the relative error of the rows of a neck, by the mean of the inverse widths over a length equal to its
- * width. */
+/* Returns the relative error of the width that the particle rows of a neck represent [1]. Width and rows are averaged
+ * as the mean of their inverses, over a length of the neck equal to its width. */
 static real neck_off(struct chords *p, const struct necks *k, int narrowest)
 {
     const real h = k->cover->spacing, width = chord_of(p, narrowest)->width;
@@ -233,7 +241,7 @@ static real neck_off(struct chords *p, const struct necks *k, int narrowest)
     return exact / filled - 1;
 }
 
-/* Returns the cell at the centre of a neck, which is in its run of particles, or -1 if it is in none. */
+/* Returns the cell at the centre of a neck, or -1 if the centre is in no run of particles. */
 static int64_t neck_cell(const struct necks *k, const struct uneven *u)
 {
     int64_t cell = 0;
@@ -245,8 +253,8 @@ static int64_t neck_cell(const struct necks *k, const struct uneven *u)
     return k->rows[cell] > 0 ? cell : -1;
 }
 
-/* Returns true if the width is smaller at the last position along an axis that is inside the piece, within a spacing
- * from X. */
+/* Moves X along an axis in fine steps until the piece ends, at most two spacings. Returns true if the width measured
+ * last is less than 0.95 of `width` [m]. way: -1 or 1, the direction along the axis. X is changed. */
 static bool narrows_to(const struct necks *k, real *X, int axis, int way, real width)
 {
     struct chord chord = {X[k->axis], width};
@@ -257,9 +265,9 @@ static bool narrows_to(const struct necks *k, real *X, int axis, int way, real w
     return chord.width < 0.95 * width;
 }
 
-/* Returns true if the width is nowhere smaller along the third axis, up to the end of the piece or to where it
- * widens. Sections of round rods are narrower at their sides; these sections are compared as a whole
- * (check_sections.c). */
+/* Returns true if the neck is nowhere narrower along the third axis, up to the end of the piece or to where it
+ * widens. cell: a cell of the neck; width: its width there [m]. Round rods fail, as they are narrower at their sides;
+ * check_sections.c examines their cross-sections. */
 static bool is_least_across(const struct necks *k, int64_t cell, int third, real width)
 {
     for (int way = -1; way <= 1; way += 2) {
@@ -273,8 +281,9 @@ static bool is_least_across(const struct necks *k, int64_t cell, int third, real
     return true;
 }
 
-/* Returns the neck at the narrowest chord; the narrowest position of a curved neck is that of a parabola through
- * three chords. */
+/* Returns position, width and error of a neck at its narrowest chord. If the chords on both sides are known, the
+ * minimum of a parabola through the three widths gives a better position, where the width is measured again. rows:
+ * number of particle rows. */
 static struct uneven neck_at(struct chords *p, const struct necks *k, int narrowest, real rows)
 {
     const real h = k->cover->spacing;
@@ -296,8 +305,9 @@ static struct uneven neck_at(struct chords *p, const struct necks *k, int narrow
     return u;
 }
 
-/* Adds a neck to the list if its error is large. cell: cell of its first column, on the lattice; columns: number of
- * columns with equal rows. */
+/* Measures a neck and adds it to the list if the width represented by its particle rows has a large error. cell: cell
+ * of its first column; columns: number of consecutive columns with equal numbers of rows. p: memory for the chords,
+ * whose axis and planes of symmetry are set. */
 static void neck_judge(struct uneven_list *list, const struct necks *k, struct chords *p, int64_t cell, int columns)
 {
     const real h = k->cover->spacing, rows = k->rows[cell] - 1;
@@ -319,7 +329,8 @@ static void neck_judge(struct uneven_list *list, const struct necks *k, struct c
     uneven_add(list, &u, false);
 }
 
-/* Marks neighbouring runs with one number of rows: they are one neck, and have been compared. */
+/* Sets k->seen of all cells that are connected to `cell` through runs of the same length, so that their neck is
+ * examined once. */
 static void neck_mark(struct necks *k, int64_t cell)
 {
     int64_t top = 0;
@@ -338,8 +349,8 @@ static void neck_mark(struct necks *k, int64_t cell)
     }
 }
 
-/* Follows runs with one number of rows across the axis, from the first of them, and evaluates them if they are a
- * neck. */
+/* Starts at the run of cells through `cell` and follows the runs of the same length along the axis `across`. If the
+ * runs before and after them are longer, or a plane of symmetry is there, examines them as a neck. */
 static void neck_follow(struct uneven_list *list, struct necks *k, int64_t cell, int across)
 {
     const int64_t before = run_beside(k, cell, across, -1);
@@ -382,8 +393,8 @@ void uneven_add_necks(struct uneven_list *list, const struct run *e, const struc
     memory_free(k.stack);
 }
 
-/* Adds a piece in 1D from `low` to `high` [m] if its particles are too many or too few. first: position of a
- * particle of the lattice [m]. */
+/* Adds a piece of a 1D body from `low` to `high` [m] to the list if its particles represent another length. first:
+ * position of a particle [m]. */
 static void length_judge(struct uneven_list *list, real low, real high, real first)
 {
     const real h = list->piece.scene->spacing;

@@ -41,7 +41,8 @@ static int32_t section_new(struct sections *s, int64_t slice, int64_t cell)
     return s->n++;
 }
 
-/* Marks all cells of a slice that are connected to cell `first`. stack: memory for a slice. */
+/* Creates a section that consists of all covered cells of a slice connected to cell `first`, and sums its area.
+ * stack: memory for one index per cell of a slice. */
 static void section_flood(struct sections *s, int64_t slice, int64_t first, int64_t *stack)
 {
     const struct cover *c = s->cover;
@@ -64,12 +65,14 @@ static void section_flood(struct sections *s, int64_t slice, int64_t first, int6
     }
 }
 
-/* Returns the larger of two sections; -1: none. */
+/* Returns the number of the section with the larger area, a or b; -1 stands for no section. */
 static int32_t larger(const struct sections *s, int32_t a, int32_t b)
 {
     return a < 0 ? b : b < 0 || s->section[a].area >= s->section[b].area ? a : b;
 }
 
+/* Finds the sections of all slices normal to an axis, and for each one the largest section that it touches in the
+ * next and previous slice. named: marks of cells, kept for all axes. Release with sections_free. */
 static void sections_make(struct sections *s, const struct cover *c, int axis, uint8_t *named)
 {
     const int64_t stride[DIM_MAX] = {1, c->n[0], c->n[0] * c->n[1]};
@@ -103,15 +106,16 @@ static void sections_free(struct sections *s)
     memory_free(s->of);
 }
 
-/* Returns true if a section has neighbours on both sides and nearly the given area. */
+/* Returns true if section k exists, touches sections in the previous and next slice, and has the given area [cells]
+ * to within the relative tolerance ALIKE. */
 static bool goes_on_alike(const struct sections *s, int32_t k, real area)
 {
     return k >= 0 && s->section[k].before >= 0 && s->section[k].after >= 0 &&
            fabs(s->section[k].area - area) <= ALIKE * area;
 }
 
-/* Returns the width of a section along one of the axes across: its area, of the shape or of particles, over the
- * number of its lines along this axis [cells]. */
+/* Returns the mean width of a section along s->across[k] [cells]: its area over the number of lines of cells along
+ * this axis. The area is the one of the shape, or with `filled` the one of the particles. */
 static real width_along(const struct sections *s, int32_t number, int k, bool filled)
 {
     const struct cover *c = s->cover;
@@ -129,7 +133,8 @@ static real width_along(const struct sections *s, int32_t number, int k, bool fi
     return sum > 0 ? (filled ? section->filled : section->area) / sum : 0;
 }
 
-/* Returns the widths and the position of a section, along the axis with the largest difference of widths. */
+/* Describes a section with a wrong number of particle rows: its centre, and its widths along the axis on which the
+ * width of the particles differs most from the width of the shape. off: relative error of the area. */
 static struct uneven uneven_of(const struct sections *s, int32_t number, real off)
 {
     const struct cover *c = s->cover;
@@ -156,7 +161,8 @@ static struct uneven uneven_of(const struct sections *s, int32_t number, real of
     return u;
 }
 
-/* Sums over consecutive sections of a part, at most `most` of them. */
+/* Sums over consecutive sections of nearly equal area. middle: the section halfway; area and filled: areas of the
+ * shape and of the particles [cells]. */
 struct stretch {
     int slices;
     int32_t middle;
@@ -164,6 +170,8 @@ struct stretch {
     bool even; /* all sections have equal numbers of particles: their faces are along the axis */
 };
 
+/* Sums over at most `most` consecutive sections with nearly the area of section `first`, in ascending order of
+ * slices. */
 static struct stretch stretch_from(const struct sections *s, int32_t first, int most)
 {
     const struct section *begin = &s->section[first];
@@ -177,7 +185,8 @@ static struct stretch stretch_from(const struct sections *s, int32_t first, int 
     return t;
 }
 
-/* Marks the cells of a part in both directions from one of its sections, for a width along `axis`. */
+/* Marks in s->named the cells of section `from` and of all sections that continue it with nearly equal area on both
+ * sides. axis: the axis of the wrong width. */
 static void part_mark(const struct sections *s, int32_t from, int axis)
 {
     const real area = s->section[from].area;
@@ -193,8 +202,9 @@ static void part_mark(const struct sections *s, int32_t from, int axis)
     }
 }
 
-/* Evaluates a part from one of its sections on: SLICES of them, or all if there are fewer. If they are uneven, as
- * slanting faces are, four times as many, over which steps average out. */
+/* Compares the areas of shape and particles over SLICES sections from `first` on, or over fewer if the part is
+ * shorter. Uses SLICES_SLANTING sections if they differ, because errors from the steps of slanting faces average out.
+ * Adds the part to the list if the areas differ too much. */
 static void part_judge(const struct sections *s, int32_t first, struct uneven_list *list)
 {
     const struct section *begin = &s->section[first];
@@ -212,7 +222,8 @@ static void part_judge(const struct sections *s, int32_t first, struct uneven_li
     uneven_add(list, &u, known);
 }
 
-/* Evaluates the sections of a piece across each axis. */
+/* Examines the sections of a piece across each axis and adds narrow parts to the list whose particles have a wrong
+ * area. */
 static void piece_sections(struct uneven_list *list, const struct cover *c, uint8_t *named)
 {
     for (int axis = 0; axis < c->dim; axis++) {
@@ -223,7 +234,8 @@ static void piece_sections(struct uneven_list *list, const struct cover *c, uint
     }
 }
 
-/* Evaluates the narrow parts of the piece of the list: a body, or its parts of one material. */
+/* Examines the narrow parts of the piece in the list, which is a body or all its parts of one material, and adds
+ * those with a wrong number of particle rows. */
 static void piece_judge(struct uneven_list *list, const struct run *e)
 {
     struct cover c;

@@ -34,8 +34,8 @@ static bool is_sif_driven(const struct run *e)
     return tips_of_cracks(e->fracture) > 0 && sif_why_not(e, NULL) == NULL;
 }
 
-/* Returns the distance that bodies extend from a tip, straight ahead (side 1) or back (-1) [m]; 0 for bodies from
- * lists. */
+/* Returns the distance over which the bodies extend from a crack tip [m]: ahead of it (side 1) or back along the
+ * crack (side -1). Bodies from particle lists are ignored. */
 static real way_within(const struct scene *s, const struct particles *part, const struct tip *tip, int side)
 {
     const real most = 2 * (particles_longest_edge(part) + s->spacing), step = 0.5 * s->spacing;
@@ -132,7 +132,7 @@ static void advise_lengths(const struct run *e, FILE *out)
     }
 }
 
-/* Returns the width of the particles of a load along an axis [spacings]; 0 if they extend over all of the bodies. */
+/* Returns the number of particle columns of a load along an axis; 0 if they extend over the whole body along it. */
 static int support_width(const struct scene *scene, const struct particles *part, const struct load *l, int axis)
 {
     const real h = scene->spacing;
@@ -176,8 +176,9 @@ void print_load_step_advice(const struct run *e, FILE *out)
 
 /* ---- cost -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the number of equilibria of a crack increment: pairs of bonds break one after another, or as many at once
- * as the scene allows. */
+/* Estimates the number of equilibria that one crack increment takes. In 2D a fixed number of bond pairs breaks per
+ * equilibrium, in 3D the largest number that the scene allows; cracks driven by stress-intensity factors take a fixed
+ * number of equilibria. */
 static double equilibria_of_advance(const struct run *e)
 {
     const struct scene *s = e->scene;
@@ -194,7 +195,8 @@ static double equilibria_of_advance(const struct run *e)
     return 1 + SPACINGS * 0.5 * neighbours * reach * wide / at_once;
 }
 
-/* Returns the largest number of increments of all cracks. */
+/* Estimates the total number of crack increments of a run: the number of steps for cracks driven by energy, else the
+ * distance ahead of all tips over the length of an increment; 0 if no bond can break. */
 static double advances_of(const struct run *e)
 {
     const struct scene *s = e->scene;

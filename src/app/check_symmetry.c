@@ -28,8 +28,8 @@ static real largest(const real *a, int64_t n)
     return most;
 }
 
-/* Returns true if the values a[n] are equal at mirror twins, or with `odd` opposite. twin: index of the mirror image
- * [n]. */
+/* Returns true if the value a[i] of each particle i equals the value a[twin[i]] of its mirror image, or its opposite
+ * with `odd`. */
 static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
 {
     const real most = NEAR_ENOUGH * largest(a, n);
@@ -38,7 +38,8 @@ static bool agree(const real *a, const int32_t *twin, int64_t n, bool odd)
     return true;
 }
 
-/* Returns true if material, body, kind, volume and damage by cracks are equal at twins. */
+/* Returns true if material, body, kind, volume and initial damage of each particle equal those of its mirror image.
+ * twin[]: index of the image. */
 static bool matter_agrees(const struct particles *p, const int32_t *twin)
 {
     for (int64_t i = 0; i < p->n; i++)
@@ -48,7 +49,8 @@ static bool matter_agrees(const struct particles *p, const int32_t *twin)
     return agree(p->damage, twin, p->n, false) && agree(p->volume0, twin, p->n, false);
 }
 
-/* Returns a number for the kind and the time function of a load, such that sums over different loads do not cancel. */
+/* Returns a number that depends on the kind of a load and on its function of time, so that different loads have
+ * different numbers and sums of them hardly ever agree by chance. */
 static real load_mark(const struct boundary *b)
 {
     const struct time_function *t = &b->time;
@@ -59,7 +61,9 @@ static real load_mark(const struct boundary *b)
     return mark;
 }
 
-/* Sums the marked loads on component d to ask[n], and the marks of prescribed motions to held[n], per particle. */
+/* Sums over all loads, for component d of each particle: the load times its number from load_mark, to ask[n], and
+ * this number for each prescribed motion or absorbing boundary, to held[n]. Particles at mirror images must have
+ * equal sums. */
 static void loads_ask(const struct particles *part, const struct loads *loads, int d, real *ask, real *held)
 {
     array_fill_bytes(ask, 0, part->n, sizeof *ask);
@@ -80,7 +84,8 @@ static void loads_ask(const struct particles *part, const struct loads *loads, i
     }
 }
 
-/* Returns true if loads, constraints and initial velocities are mirror images across `axis`. */
+/* Returns true if loads, constraints and initial velocities are symmetric about a plane normal to `axis`. twin[]:
+ * index of the mirror image of each particle. */
 static bool loads_agree(const struct particles *p, const struct loads *loads, int axis, const int32_t *twin)
 {
     real *ask = NEW("check.ask", p->n, real), *held = NEW("check.held", p->n, real);
@@ -99,8 +104,8 @@ static bool loads_agree(const struct particles *p, const struct loads *loads, in
     return same;
 }
 
-/* Finds the mirror image twin[n] of every particle in the plane at `at` [m]. Returns false if a particle has none,
- * or is its own image: half a layer would remain then. */
+/* Stores in twin[n] the mirror image of every particle in the plane normal to `axis` at `at` [m]. Returns false if a
+ * particle has no image, or is its own image, since a half scene would then cut a layer of particles. */
 static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *twin)
 {
     const struct particles *p = &e->part;
@@ -115,8 +120,8 @@ static bool mirror_twins_find(const struct run *e, int axis, real at, int32_t *t
     return true;
 }
 
-/* Returns true if rigid body b is the mirror image of a, by the distances of both from some of the particles and
- * from their images. */
+/* Returns true if rigid body b is the mirror image of rigid body a in the plane normal to `axis` at `at` [m]: equal
+ * motion, and equal distances from a sample of particles and from the images of these particles. */
 static bool rigid_twins(const struct particles *p, const struct scene *scene, int axis, real at,
                         const struct scene_body *a, const struct scene_body *b)
 {
@@ -137,6 +142,8 @@ static bool rigid_twins(const struct particles *p, const struct scene *scene, in
     return same;
 }
 
+/* Returns true if every rigid body has a mirror image in the plane normal to `axis` at `at` [m], and none moves
+ * freely. */
 static bool rigid_bodies_agree(const struct scene *scene, const struct particles *part, int axis, real at)
 {
     const struct scene_body *rigid = scene->body + scene->bodies;
@@ -152,7 +159,8 @@ static bool rigid_bodies_agree(const struct scene *scene, const struct particles
 /* Returns true for equal numbers, and if neither is given. */
 static bool same_number(real a, real b) { return a == b || (isnan(a) && isnan(b)); }
 
-/* Returns true if every growing crack has a mirror image with equal settings. */
+/* Returns true if every growing crack has a mirror image with equal settings, in the plane normal to `axis` at `at`
+ * [m]. */
 static bool growths_agree(const struct scene *s, const struct particles *part, int axis, real at)
 {
     for (int k = 0; k < s->growths; k++) {
@@ -174,7 +182,8 @@ static bool growths_agree(const struct scene *s, const struct particles *part, i
     return true;
 }
 
-/* Returns true if no integration domain of stress-intensity factors crosses the plane. */
+/* Returns true if the plane normal to `axis` at `at` [m] crosses no ring-shaped integration domain of a probe of
+ * stress-intensity factors. */
 static bool rings_clear(const struct run *e, int axis, real at)
 {
     const struct observed seen = run_observed(e);

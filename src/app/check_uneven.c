@@ -10,19 +10,21 @@
 #define SAME_PLACE 2    /* largest distance of two measurements of one width [spacings] */
 enum { TRIED = 8 };     /* number of row counts for which a spacing is tried */
 
-/* Returns false if the list is full and the error of a part is smaller than all errors in it. Sampling makes errors
- * of equal parts differ. */
+/* Returns true if a part with the relative error `off` would be in the list: it is not full, or its smallest error is
+ * not clearly larger. Errors of equal parts differ by up to a tenth, as they come from samples. */
 bool uneven_matters(const struct uneven_list *list, real off)
 {
     return list->n < UNEVEN_MOST || fabs(off) > 0.9 * fabs(list->part[list->n - 1].off);
 }
 
+/* Returns true if two parts have nearly the same width, and both have too many or both too few rows. */
 static bool same_width(const struct uneven *a, const struct uneven *b)
 {
     return fabs(a->width - b->width) < SAME_WIDTH * b->width && a->off * b->off > 0;
 }
 
-/* Returns true if both were measured at one position, one in the body and one in its part of a material. */
+/* Returns true if two entries have the same axis and position, to within SAME_PLACE spacings: a part is then found
+ * twice, in the whole body and in its part of one material. */
 static bool same_place(const struct uneven *a, const struct uneven *b, const struct scene *s)
 {
     real r2 = 0;
@@ -78,7 +80,8 @@ real piece_end(const struct piece *p, const real *X, int axis, real step, real m
     return fabs(inside);
 }
 
-/* Computes the ends of a part along its axis [m]. */
+/* Computes the coordinates at which the piece ends below and above the point u->at, along the axis of its width
+ * [m]. */
 static void width_ends(const struct piece *p, const struct uneven *u, real *low, real *high)
 {
     const real h = p->scene->spacing, most = 4000 * h;
@@ -86,8 +89,8 @@ static void width_ends(const struct piece *p, const struct uneven *u, real *low,
     *high = u->at[u->axis] + piece_end(p, u->at, u->axis, 0.05 * h, most);
 }
 
-/* Replaces the width of a part, which is known to a few percent, by the width through its point `at`, if both are
- * similar and this width explains the error of the sections. */
+/* Measures the width of a part through its point u->at. Replaces u->width, which comes from areas, if the measured
+ * width differs by less than 10 % and is still far enough from the width of the particles. Sets u->measured then. */
 static void width_measure(struct uneven *u, const struct piece *p)
 {
     real low, high;
@@ -98,8 +101,8 @@ static void width_measure(struct uneven *u, const struct piece *p)
     if (u->measured) u->width = width;
 }
 
-/* Returns the number of rows between low and high on the lattice of a body with another spacing; -1: the body has no
- * lattice then. */
+/* Returns the number of lattice rows between two coordinates along an axis [m], if the body had another spacing; -1
+ * if its lattice cannot be determined for this spacing. */
 static int64_t rows_at(const struct piece *p, int axis, real low, real high, real spacing)
 {
     struct scene other = *p->scene;
@@ -117,7 +120,7 @@ struct length_unit {
     const char *name;
 };
 
-/* Returns the largest unit in which a spacing is not below 0.1. */
+/* Returns the largest unit of length in which the number for a spacing is at least 0.1. */
 static struct length_unit unit_of_spacing(real spacing)
 {
     static const struct length_unit unit[] = {{1, "m"}, {1e-3, "mm"}, {1e-6, "um"}, {1e-9, "nm"}};

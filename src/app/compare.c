@@ -27,7 +27,7 @@ struct pair {
     int dim;
 };
 
-/* Returns true if the folder contains at least one of the files that are compared. */
+/* Returns true if a folder contains at least one of the files of a run that are compared. */
 static bool holds_run(const char *folder)
 {
     return run_has_file(folder, "summary.json") || run_has_file(folder, "history.csv") ||
@@ -36,6 +36,7 @@ static bool holds_run(const char *folder)
 
 /* ---- rows of the table ------------------------------------------------------------------------------------------- */
 
+/* Prints a number in a column of the table; a dash for NAN. */
 static void print_number(double a)
 {
     if (isnan(a))
@@ -66,12 +67,14 @@ struct times {
     struct listed_frame *list;
 };
 
+/* Returns the mean time between the frames of a run [s]; INFINITY for fewer than two. */
 static double interval(const struct times *t)
 {
     return t->n > 1 ? (t->list[t->n - 1].time - t->list[0].time) / (t->n - 1) : INFINITY;
 }
 
-/* Finds the indices of the last frames of equal time. Returns false if there are none. */
+/* Finds the last frame of run A that has a frame of run B at the same time; stores both indices. Returns false if
+ * there is none. */
 static bool last_common(const struct times *a, const struct times *b, int *i, int *j)
 {
     double near = SAME_TIME * fmin(interval(a), interval(b));
@@ -95,7 +98,8 @@ struct difference {
     int64_t where;              /* particle of the largest        */
 };
 
-/* Returns the difference of two vector or tensor fields over n particles. */
+/* Returns the largest and the root-mean-square difference of two vector or tensor fields over n particles, and the
+ * particle with the largest one. */
 static struct difference field_difference(float *const *a, float *const *b, int components, int64_t n)
 {
     struct difference d = {0};
@@ -116,6 +120,8 @@ static struct difference field_difference(float *const *a, float *const *b, int 
     return d;
 }
 
+/* Prints the largest and root-mean-square difference of a field, its scale, and the position of the largest
+ * difference. */
 static void print_field(const char *label, const char *unit, const struct frame *f, struct difference d)
 {
     char text[KEY_LENGTH];
@@ -153,7 +159,7 @@ static const char *particles_differ(const struct frame *a, const struct frame *b
 
 static double frame_step_length(const struct frame *f) { return f->step > 0 ? f->t / (double)f->step : INFINITY; }
 
-/* Prints the time between two frames that are compared, if it is not negligible. */
+/* Prints the difference in time of the two frames that are compared, unless it is negligible. */
 static void print_time_apart(const struct pair *p, const struct frame *a, const struct frame *b)
 {
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
@@ -217,12 +223,14 @@ static status compare_frames(struct pair *p)
 
 /* ---- energies ---------------------------------------------------------------------------------------------------- */
 
+/* Returns the last value of a column of a history; NAN if there is none. */
 static double last_of(const struct history *h, const char *name)
 {
     return h->rows > 0 ? history_at(h, h->rows - 1, history_find_column(h, name)) : NAN;
 }
 
-/* Compares the last lines of both history.csv. */
+/* Prints the energies and errors of both runs in the last lines of history.csv, with their differences; a message if
+ * a run has no such file. */
 static status compare_energies(const struct pair *p)
 {
     static const struct {
@@ -256,14 +264,14 @@ static status compare_energies(const struct pair *p)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
-/* Returns a value of summary.json; NAN if there is none. */
+/* Returns the number stored under a key of summary.json in a folder; NAN if it is missing. */
 static double compare_figure_of(const char *folder, const char *key)
 {
     double value;
     return summary_number(folder, key, &value) == OK ? value : NAN;
 }
 
-/* Reads the position of crack tip k of a run [m]. Returns false past the last tip. */
+/* Reads the position of crack tip k of a run [m] from its summary. Returns false if there is no tip k. */
 static bool tip_place(const char *folder, int k, double place[DIM_MAX])
 {
     bool found = false;
@@ -332,6 +340,8 @@ static void compare_time(const struct pair *p)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
+/* Reads the two folders from the command line. REFUSED for options, another number of words, or a folder without a
+ * run. */
 static status read_words(struct pair *p, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)

@@ -52,7 +52,8 @@ struct check {
 
 static double check_at(const struct check *c, int64_t i, int column) { return c->h.value[i * c->h.columns + column]; }
 
-/* Sorts the rows by id. FAILED unless they belong to n particles. */
+/* Sorts the rows of check.csv by particle id, in a new array that replaces the old one. FAILED unless all columns are
+ * present and the ids are 1..n. */
 static status check_sort(struct check *c, int64_t n, const char *path)
 {
     const int id = history_find_column(&c->h, "id"), columns = c->h.columns;
@@ -86,6 +87,7 @@ static status check_read(struct check *c, const char *folder, int64_t n)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if all particles have z = 0, so that the run is two-dimensional. */
 static bool lies_in_plane(const struct check *c)
 {
     for (int64_t i = 0; i < c->h.rows; i++)
@@ -136,6 +138,7 @@ status lammps_run_read_frame(struct frame *f, const char *folder, int number)
 
 /* ---- the check --------------------------------------------------------------------------------------------------- */
 
+/* Prints the largest differences in displacement and damage between a frame of LAMMPS and Cleave's check.csv. */
 static void check_print(const struct check *c, const struct lammps_frame *f)
 {
     double apart = 0, size = 0, damage = 0;

@@ -6,7 +6,7 @@
 #include "commands.h"
 #include "scene/scene.h"
 
-/* Prints the options in the form of a command, separated by blanks. */
+/* Writes the options of a command, each after a blank, from the text of its usage; --help is last. */
 static void options_of(FILE *out, const struct command *c)
 {
     for (const char *at = c->words; *at; at++) {
@@ -19,7 +19,8 @@ static void options_of(FILE *out, const struct command *c)
     fputs(" --help", out);
 }
 
-/* Prints the options and arguments of each command as a case of the shell. */
+/* Writes a `case` statement of the shell that assigns the options of the current command to the variable
+ * `options`. */
 static void cases_print(FILE *out)
 {
     fputs("    case \"$command\" in\n", out);

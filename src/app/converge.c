@@ -24,6 +24,8 @@ struct converge_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
+/* Reads the time that the study may take, such as "10 min" [s]; also sets w->finer. REFUSED unless it is a positive
+ * time. */
 static status budget_read(struct convergence_request *w, const char *text)
 {
     char what[256];
@@ -95,7 +97,9 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Sets and checks the folder. REFUSED if it contains the study of another scene, or other files. */
+/* Sets the folder of the results, by default one named after the scene, and checks it. REFUSED if it contains the
+ * study of another scene or files that do not belong to a study. The study of another scene is accepted with
+ * --overwrite. */
 static status converge_place(struct converge_arguments *a)
 {
     struct convergence_request *w = &a->wish;

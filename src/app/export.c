@@ -10,7 +10,8 @@
 
 static const char usage[] = "export " EXPORT_WORDS;
 
-/* Removes the words of this command from argv; the remaining words are those of a run. */
+/* Reads the options that only `export` has into r and removes them from argv; the remaining words are read like those
+ * of `run`. REFUSED for an unknown --style, and for --resume and -q. */
 static status export_words(struct export_request *r, int *argc, char **argv)
 {
     int kept = 1;

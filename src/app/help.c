@@ -17,7 +17,8 @@ static status help_scene(void)
     return scene_print_help(stdout, NULL);
 }
 
-/* Returns REFUSED with the page or command nearest to a word that is no key, if there is one within two letters. */
+/* Returns REFUSED if a word is not a key but is within two letters of the name of a page or command; the message
+ * contains that name. Returns OK otherwise. */
 static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
@@ -31,8 +32,8 @@ static status help_misspelt(const char *word)
     return status_set(REFUSED, "%.40s: neither a page nor a key; the nearest is %s", word, nearest);
 }
 
-/* Joins the words after `help` by _, as in keys: fracture energy becomes fracture_energy. Returns NULL if there are
- * none. */
+/* Joins the words after `help` by underscores into joined[room], as in names of keys: fracture energy becomes
+ * fracture_energy. Returns joined, or NULL if there are no words. */
 static const char *help_word(int argc, char **argv, char *joined, size_t room)
 {
     size_t used = 0;

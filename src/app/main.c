@@ -18,7 +18,7 @@
 #define LEAVE _exit
 #endif
 
-/* Returns true for `--help` anywhere after a command, except as the value of an option. */
+/* Returns true if --help is among the words after a command, unless it is the value of an option. */
 static bool asks_help(int argc, char **argv)
 {
     bool asks = false;
@@ -50,8 +50,8 @@ static void limit_spin(char **argv)
     if (setenv("GOMP_SPINCOUNT", "2000", 0) == 0) execv("/proc/self/exe", argv); /* without /proc the default remains */
 }
 
-/* Opens standard descriptors that are closed, as under daemons: the next file opened would receive one of them, with
- * all printed text. */
+/* Opens the descriptors of standard input, output and error if they are closed, as they are under daemons. Otherwise
+ * the next file opened would get such a descriptor, and with it all printed text. */
 static void keep_descriptors(void)
 {
     int fd;
@@ -60,7 +60,7 @@ static void keep_descriptors(void)
     if (fd > STDERR_FILENO) close(fd);
 }
 
-/* Returns true if the other end of standard output is closed. */
+/* Returns true if the program that reads the standard output through a pipe has ended. */
 static bool reader_gone(void)
 {
     struct pollfd output = {STDOUT_FILENO, POLLOUT, 0};

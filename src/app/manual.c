@@ -148,6 +148,7 @@ static void wrapped(FILE *out, const char *text, int indent)
 
 /* ---- usage ------------------------------------------------------------------------------------------------------- */
 
+/* Prints the text of `cleave --help`. */
 void usage_print(FILE *out)
 {
     fprintf(out, "cleave: dynamic fracture by peridynamics and the material point method\n\n");

@@ -41,7 +41,8 @@ static status kind_find(const char *name, const struct kind **found)
                       nearest->name);
 }
 
-/* REFUSED unless the last part of the path, without .yaml, is a valid name of a run. */
+/* Finds the name of the scene in a path: *name points to its first letter in path, *length is the length of the path
+ * without .yaml. REFUSED unless the name is a valid name of a run. */
 static status check_path(const char *path, int *length, const char **name)
 {
     const char *slash = strrchr(path, '/');

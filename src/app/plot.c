@@ -34,7 +34,7 @@ static status read_frames_option(struct plot_words *w, const char *text)
     return option_read_count(&r->panels, "plot: --frames", text, 1, FILM_FRAMES_MAX);
 }
 
-/* Reads times with units, separated by commas. */
+/* Reads the times of --times, numbers with units separated by commas. */
 static status read_times(struct plot_words *w, const char *text)
 {
     struct plot_request *r = &w->request;
@@ -127,7 +127,8 @@ static status read_option(struct plot_words *w, const char *word, const char *va
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
-/* Sets the format from the file name extension of -o, unless the format is given. */
+/* Sets the format from the file name extension of -o, unless --format is given. REFUSED if the extension is unknown,
+ * or if it differs from --format. */
 static status settle_format(struct plot_words *w)
 {
     const char *out = w->request.out, *dot = out ? strrchr(out, '.') : NULL;
@@ -140,6 +141,7 @@ static status settle_format(struct plot_words *w)
                       printable_name(out).text, w->format);
 }
 
+/* Returns REFUSED if two of the given options exclude each other, or if neither a folder nor --scene is given. */
 static status words_together(const struct plot_words *w)
 {
     const struct plot_request *r = &w->request;

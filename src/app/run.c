@@ -79,7 +79,8 @@ static status open_folder(struct output *out, const struct scene *s, const struc
     return OK;
 }
 
-/* Creates the engine, opens the folder, runs to the end and writes the summary. */
+/* Creates the run, opens its folder, resumes from a checkpoint if requested, runs to the end and writes the summary.
+ * The folder is opened after the run is created, so that a refused scene leaves no folder. */
 static status run_engine(struct run *e, const struct scene *s, struct output *out, const struct run_arguments *a,
                          int threads)
 {

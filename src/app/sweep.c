@@ -20,6 +20,7 @@ struct sweep_arguments {
 
 /* ---- the command line -------------------------------------------------------------------------------------------- */
 
+/* Reads a key with its values from the text of -s and appends it. REFUSED if the key is given twice. */
 static status key_add(struct sweep_arguments *a, const char *text)
 {
     TRY(varied_key_read(&a->key[a->keys], text));
@@ -69,6 +70,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
 
 /* ---- what is printed --------------------------------------------------------------------------------------------- */
 
+/* Returns the number of runs of a study in a given state. */
 static int cases_in(const struct study *s, enum case_state state)
 {
     int n = 0;
@@ -90,6 +92,7 @@ static void sweep_print(const struct study *s)
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
+/* Reads the results of all runs, writes sweep.csv and draws the pictures. */
 static status sweep_collect(const struct study *s, const struct sweep_arguments *a)
 {
     struct study_table table;

@@ -24,7 +24,8 @@ static real distance2(const struct particles *p, int64_t i, int64_t j)
     return sum;
 }
 
-/* Returns the micro-modulus of a bond between materials a and b over that of material 0: springs in series. */
+/* Returns the micro-modulus of a bond between materials a and b over the one of material 0. The two halves of the
+ * bond act as springs in series. */
 static real modulus_ratio(const struct exported *x, int a, int b)
 {
     const struct family *f = &x->e->source.family;
@@ -34,7 +35,8 @@ static real modulus_ratio(const struct exported *x, int a, int b)
     return 2 * first * second / (first + second) / family_micro_modulus(f, &m[0]);
 }
 
-/* Returns true if LAMMPS gives the bond the same weight. */
+/* Returns true if the weight of a bond of particle i equals the weight that LAMMPS would use, to within
+ * WEIGHT_NEAR. */
 static bool weight_alike(const struct exported *x, int64_t i, const struct bond *bond)
 {
     const struct particles *p = &x->e->part;
@@ -52,8 +54,9 @@ static status bond_refuse(const struct exported *x, int64_t i, const char *what)
                       p->X[0][i], p->X[1][i], p->dim > 2 ? p->X[2][i] : 0, what);
 }
 
-/* Marks the bonds of particle i in `bonded` and stores their number in *n. REFUSED if LAMMPS would weight one
- * differently. */
+/* Sets bonded[j] = i + 1 for each neighbour j to which particle i has a bond, and stores the number of these bonds in
+ * *n. REFUSED if a bond is beyond the cutoff of LAMMPS by round-off, as bonds of exactly the length of the horizon
+ * can be, or if it has another weight than in LAMMPS. */
 static status row_mark(const struct exported *x, int64_t i, int64_t *bonded, int *n)
 {
     const struct run *e = x->e;
@@ -86,6 +89,7 @@ static int lammps_near(const struct exported *x, int64_t i, int32_t *found, int 
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
+/* Adds a word to a hash and returns the new hash. */
 static uint64_t mix(uint64_t hash, int64_t word)
 {
     hash = (hash ^ (uint64_t)word) * 0x9E3779B97F4A7C15u;
@@ -97,8 +101,8 @@ static int64_t lattice_place(const struct exported *x, int64_t i, int d)
     return (int64_t)floor((x->e->part.X[d][i] - x->e->part.X[d][0]) / x->s->spacing + 0.5);
 }
 
-/* Returns the key of particle i: a hash of its material, its loads and its lattice position modulo the reach of
- * bonds. */
+/* Returns a hash of the material, the loads and the lattice position of particle i. The position is taken modulo
+ * twice the reach of bonds plus one [spacings], so that the keys of two neighbours determine their offset. */
 static uint64_t key_of(const struct exported *x, int64_t i)
 {
     const int64_t period = 2 * (int64_t)floor(x->cutoff / x->s->spacing + 1e-6) + 1;
@@ -107,6 +111,7 @@ static uint64_t key_of(const struct exported *x, int64_t i)
     return key;
 }
 
+/* Returns a hash of the lattice vector from particle i to particle j. */
 static uint64_t offset_of(const struct exported *x, int64_t i, int64_t j)
 {
     uint64_t offset = 2;
@@ -123,7 +128,9 @@ struct search {
     int room;
 };
 
-/* Marks the touched particles with 1, others with 0. Adds the numbers of bonds and of cut bonds. */
+/* Sets a->number[i] to 1 for each particle i with at least one cut bond, else to 0. Cut bonds are pairs within the
+ * cutoff of LAMMPS that have no bond in the scene. Stores the number of bonds and of cut bonds. REFUSED if LAMMPS
+ * cannot represent a bond. */
 static status touched_find(const struct exported *x, struct search *a, int64_t *bonds, int64_t *cut)
 {
     int64_t ends = 0, ends_cut = 0;
@@ -138,6 +145,8 @@ static status touched_find(const struct exported *x, struct search *a, int64_t *
     return OK;
 }
 
+/* Lists the particles marked in a->number as touched, allocates their keys, and replaces a->number by the index of
+ * each particle in the list, -1 for others. */
 static void touched_list(struct touched *t, const struct exported *x, struct search *a)
 {
     const int64_t n = x->e->part.n;
@@ -151,7 +160,8 @@ static void touched_list(struct touched *t, const struct exported *x, struct sea
     }
 }
 
-/* Lists the neighbours of the touched particles, and their keys. */
+/* Lists the neighbours of each touched particle, with the kind of each pair (bonded or cut), and computes the key of
+ * each touched particle from key_of and the offsets of its cut bonds. */
 static void touched_near(struct touched *t, const struct exported *x, struct search *a)
 {
     for (int64_t k = 0; k < t->n; k++) {

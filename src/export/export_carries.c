@@ -59,14 +59,15 @@ static status carries_materials(const struct scene *s, bool bond_style)
 
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
+/* Appends a key that the export has to change, its new value and a text about the effect, if `differs` is true. */
 static void settings_add(struct lammps_settings *to, bool differs, const char *key, const char *value,
                          const char *effect)
 {
     if (differs) to->of[to->n++] = (struct lammps_setting){key, value, effect};
 }
 
-/* Adds the contact settings of peri/pmb: its own contact (`own`), or none because no pair of particles remains in its
- * neighbour list. */
+/* Adds the contact settings that an export needs. own: the pair style has contact of its own, to which the settings
+ * of the scene are changed; otherwise contact is switched off. Adds nothing if the scene has no contact. */
 static void contact_settings(struct lammps_settings *to, const struct scene *s, bool own)
 {
     static const char *const effect = "pieces that meet push each other by LAMMPS' rule for pairs of particles";
@@ -84,6 +85,8 @@ static void contact_settings(struct lammps_settings *to, const struct scene *s, 
 
 bool lammps_families_differ(const struct scene *s) { return s->model == MODEL_OSPD && scene_bonds_break(s); }
 
+/* Adds the peridynamic settings of the scene that differ from the fixed rules of LAMMPS, with the effect of changing
+ * them. */
 static void pd_settings(struct lammps_settings *to, const struct scene *s, bool bond_style)
 {
     const bool state = s->model == MODEL_OSPD, touches = s->contact_between != CONTACT_NONE && !state;

@@ -30,7 +30,8 @@ struct colouring {
 
 static uint8_t pair_kind(const struct touched *t, int64_t q) { return t->cut[q] ? PAIR_CUT : PAIR_BONDED; }
 
-/* Returns true if colour c is consistent with particle k and its coloured neighbours. */
+/* Returns true if particle k can have colour c: for each coloured neighbour, the pair of colours is unused so far or
+ * stands for the same kind of pair (bonded or cut). */
 static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
 {
     for (int64_t q = a->t->first[k]; q < a->t->first[k + 1]; q++) {
@@ -41,7 +42,8 @@ static bool colour_fits(const struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
-/* Assigns colour c to k. Returns false if two neighbours with the same colour need different entries. */
+/* Assigns colour c to particle k and records the kind (bonded or cut) of the pairs with its coloured neighbours.
+ * Returns false if one pair of colours would need both kinds. */
 static bool colour_take(struct colouring *a, int64_t k, int32_t c)
 {
     a->of[k] = c;
@@ -55,6 +57,8 @@ static bool colour_take(struct colouring *a, int64_t k, int32_t c)
     return true;
 }
 
+/* Colours all particles, each with the first colour of its key that is consistent with its neighbours, or with a new
+ * one. Returns false if COLOURS_MOST colours are not enough. */
 static bool colours_share(struct colouring *a)
 {
     for (int64_t k = 0; k < a->t->n; k++) {

@@ -46,7 +46,8 @@ static void velocities_write(FILE *to, const struct exported *x)
     }
 }
 
-/* Writes the columns. They come last: LAMMPS of 2021 reads no section after one of `fix property/atom`. */
+/* Writes the per-particle columns. They are the last section, since LAMMPS of 2021 reads no section after one of `fix
+ * property/atom`. */
 static void columns_write(FILE *to, const struct exported *x)
 {
     fputs("\nColumns\n\n", to);

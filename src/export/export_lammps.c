@@ -15,7 +15,8 @@
 
 /* ---- the scene --------------------------------------------------------------------------------------------------- */
 
-/* Reads the scene with the overrides of the user, bonds everywhere, and the settings. */
+/* Reads the scene with the overrides of the user, with bonds in the whole body, and with the settings `with` that the
+ * export needs. */
 static status scene_make(struct scene *s, const struct export_request *r, const struct lammps_settings *with)
 {
     struct scene_override *all = NEW("export.overrides", r->overrides + 1 + with->n, struct scene_override);
@@ -28,7 +29,7 @@ static status scene_make(struct scene *s, const struct export_request *r, const 
     return read;
 }
 
-/* Returns REFUSED with all keys to change in one line. */
+/* Returns REFUSED with one message that lists all keys of the scene that the export would have to change. */
 static status settings_refuse(const struct lammps_settings *settings, const struct scene *s)
 {
     char list[1024] = "";
@@ -67,7 +68,7 @@ static status scene_to_export(struct scene *s, struct lammps_settings *settings,
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
-/* Prints which output requested by the scene the script of LAMMPS lacks; nothing if it has all. */
+/* Prints which output of the scene the script does not write; nothing if it writes all. */
 static void left_out_write(FILE *to, const struct scene *s)
 {
     if (s->probes == 0 && s->n_series == 0) return;
@@ -234,6 +235,8 @@ static status files_write(struct exported *x, const struct lammps_types *t)
 
 /* ---- the export -------------------------------------------------------------------------------------------------- */
 
+/* Prints how to start LAMMPS on the export, the bonds that it cuts, the cost, and how the results differ from the
+ * scene. */
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
     printf("%s: run it there with: lmp -in in.lammps\n", printable_name(x->request->folder).text);

@@ -24,6 +24,7 @@ static bool is_constant(const struct load *load) { return load->boundary->time.k
 
 /* ---- what can be done -------------------------------------------------------------------------------------------- */
 
+/* Returns true if LAMMPS can evaluate this kind of time function. */
 static bool function_carries(const struct time_function *f)
 {
     const enum time_kind kind = f->kind;
@@ -117,6 +118,8 @@ static bool is_displaced(const struct particles *p)
     return false;
 }
 
+/* Adds a per-particle column for each component of a force that varies over its particles, and a column for each
+ * component of displacement if particles are displaced at the start. */
 static void columns_make(struct exported *x)
 {
     const struct loads *l = &x->e->loads;
@@ -176,14 +179,15 @@ real lammps_column_value(const struct exported *x, int c, int64_t i)
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
-/* Writes a finite number, in parentheses if it is negative. */
+/* Writes a finite number to the script, in parentheses if it is negative. */
 static void put(FILE *to, real value)
 {
     if (!isfinite(value)) value = value > 0 ? 1e300 : -1e300;
     fprintf(to, value < 0 ? "(%.17g)" : "%.17g", value);
 }
 
-/* Writes a text with the numbers inserted at its percent signs. */
+/* Writes a formula: each % in `text` is replaced by the next entry of `number`, each letter t by the variable name
+ * `t`. */
 static void put_formula(FILE *to, const char *text, const char *t, const real *number)
 {
     for (; *text; text++)
@@ -206,7 +210,7 @@ static void put_table(FILE *to, const struct time_function *f, const char *t)
     put_formula(to, "+(t>=%)*%)", t, (real[]){f->t[f->n - 1], f->value[f->n - 1]});
 }
 
-/* Writes a function of time (time_function_value) of the LAMMPS variable t. */
+/* Writes a function of time as a LAMMPS formula in the variable whose name is t. */
 static void put_function(FILE *to, const struct time_function *f, const char *t)
 {
     const real a = f->from, b = f->until;
@@ -232,6 +236,7 @@ static void put_function(FILE *to, const struct time_function *f, const char *t)
 
 /* ---- commands ---------------------------------------------------------------------------------------------------- */
 
+/* Writes the command that defines the LAMMPS group of load k: all types of particles on which the load acts. */
 static void group_write(FILE *to, int k, const struct lammps_types *t, const struct exported *x)
 {
     fprintf(to, "group load%d type", k + 1);
@@ -240,7 +245,8 @@ static void group_write(FILE *to, int k, const struct lammps_types *t, const str
     fputc('\n', to);
 }
 
-/* Returns component d of a force as a LAMMPS argument: a number, or a variable of time, of the particle, or of both. */
+/* Returns component d of force k as an argument of a LAMMPS command: a number, or a variable if the force depends on
+ * time or on the particle. The definition of that variable is written to the script before. */
 static struct word force_word(FILE *to, const struct exported *x, int k, int d)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -260,8 +266,8 @@ static struct word force_word(FILE *to, const struct exported *x, int k, int d)
     return w;
 }
 
-/* Writes a force as the mean of its function over the velocity update, which ends half a step later; the first update
- * takes half a step. */
+/* Writes the commands for force k. Its function of time is the mean of the values at the beginning and end of the
+ * velocity update in which the force acts; updates end half a step later than the step. */
 static void force_write(FILE *to, const struct exported *x, int k)
 {
     const struct load *load = &x->e->loads.load[k];
@@ -277,8 +283,8 @@ static void force_write(FILE *to, const struct exported *x, int k)
     fprintf(to, "fix load%d load%d addforce %s %s %s\n", k + 1, k + 1, w[0].text, w[1].text, w[2].text);
 }
 
-/* Writes component d of the force on displaced particles: it changes the velocity in the middle of the last step to the
- * one that moves the particle to its prescribed position. */
+/* Writes component d of the force on particles with a prescribed displacement. It changes their velocity such that
+ * they are at the prescribed position at the end of the step. */
 static void displacement_write(FILE *to, const struct exported *x, int k, int d)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;
@@ -289,8 +295,8 @@ static void displacement_write(FILE *to, const struct exported *x, int k, int d)
     fprintf(to, "-c_placed[%d])/%.17g-v%c)/%.17g\"\n", d + 1, x->e->clock.dt, axis_name[d], x->e->clock.dt);
 }
 
-/* Writes the force that changes the velocity of driven particles from the middle of the last step to the prescribed one
- * in the middle of this step. */
+/* Writes the force on particles with a prescribed velocity. It changes their velocity from the middle of the last
+ * step to the prescribed one in the middle of this step. */
 static void drive_write(FILE *to, const struct exported *x, int k)
 {
     const struct boundary *b = x->e->loads.load[k].boundary;

@@ -38,7 +38,7 @@ static void law_write(FILE *to, const struct exported *x, int a, int b)
     fprintf(to, " %.17g %.17g 0.0\n", x->cutoff, stretch_of(x, a, b));
 }
 
-/* Writes the range of types of a material, which are consecutive. */
+/* Writes the types of a material as a range; they are numbered consecutively. */
 static void types_of(FILE *to, const struct lammps_types *t, int material)
 {
     int first = 0, last = 0;
@@ -47,6 +47,7 @@ static void types_of(FILE *to, const struct lammps_types *t, int material)
     fprintf(to, " %d*%d", first, last);
 }
 
+/* Returns true if particles of a material exist. */
 static bool is_there(const struct lammps_types *t, int material)
 {
     bool there = false;
@@ -119,7 +120,8 @@ static void particles_write(FILE *to, const struct exported *x)
     if (x->bond_style) fputs("compute damage all property/atom d_damage\n", to);
 }
 
-/* Writes the commands after the bonds exist: ends the exclusion of pairs, which may then come into contact. */
+/* Writes the commands that follow the creation of bonds: two runs of zero steps, the end of the exclusion of pairs of
+ * types, so that these pairs can come into contact, initial displacements, and time integration. */
 static void start_write(FILE *to, const struct exported *x, const struct lammps_types *t)
 {
     fprintf(to, "\ntimestep %.17g\nthermo 1000\n", x->e->clock.dt);

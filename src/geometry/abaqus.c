@@ -74,7 +74,8 @@ static bool data_line(struct source *s)
     return false;
 }
 
-/* Parses a field as a number; also with Fortran's exponent letter d. REFUSED: no finite number. */
+/* Parses a field as a number; also with Fortran's exponent letter d. An empty field is 0. REFUSED unless it is a
+ * finite number. */
 static status deck_real(const struct source *s, const char *field, real *value)
 {
     char text[FIELD], *end;
@@ -90,7 +91,7 @@ static status deck_real(const struct source *s, const char *field, real *value)
 /* Returns true if a field is a label, not the name of a set. */
 static bool is_label(const char *field) { return isdigit((unsigned char)field[0]); }
 
-/* Parses a field as a label of a node or element. REFUSED: no whole number from 0 to LABEL_MAX. */
+/* Parses a field as a label of a node or element. REFUSED unless it is a whole number from 0 to LABEL_MAX. */
 static status deck_label(const struct source *s, const char *field, int32_t *label)
 {
     real value;
@@ -113,7 +114,7 @@ static void word_plain(char *to, const char *from)
     to[n] = '\0';
 }
 
-/* Appends a parameter NAME or NAME=VALUE; further ones than PARAMETERS_MAX are ignored. */
+/* Appends a parameter NAME or NAME=VALUE to a keyword. Ignores parameters beyond PARAMETERS_MAX. */
 static void parameter_add(struct keyword *k, char *field)
 {
     char *equals = strchr(field, '=');
@@ -157,8 +158,8 @@ static const char *parameter(const struct deck *d, const char *name)
 
 /* ---- nodes and elements ---------------------------------------------------------------------------------------- */
 
-/* Finds or creates the set that a parameter of the keyword names; *set = -1 without this parameter. REFUSED: too many
- * sets. */
+/* Finds or creates the set whose name is the value of a parameter; *set is -1 if the parameter is missing. REFUSED if
+ * there are too many sets. */
 static status set_named(struct deck *d, const char *name, bool of_nodes, int *set)
 {
     const char *given = parameter(d, name);
@@ -166,7 +167,8 @@ static status set_named(struct deck *d, const char *name, bool of_nodes, int *se
     return given && *set < 0 ? source_fault(d->s, "more than %d sets", ELEMENT_SETS_MAX) : OK;
 }
 
-/* Reads the nodes of *NODE. */
+/* Reads the data lines of *NODE: a label and coordinates each. With NSET the nodes are added to a set. REFUSED for
+ * malformed lines and other coordinate systems. */
 static status nodes_read(struct deck *d)
 {
     int set;
@@ -205,8 +207,8 @@ static const struct size {
              {false, 6, ELEMENT_PRISM},        {false, 15, ELEMENT_PRISM},     {false, 8, ELEMENT_HEXAHEDRON},
              {false, 20, ELEMENT_HEXAHEDRON},  {false, 27, ELEMENT_HEXAHEDRON}};
 
-/* Returns shape and number of nodes of an element type, such as C3D10M or CPS4R; NULL if it neither fills nor bounds a
- * body. */
+/* Returns the row of the table of sizes for an element type, such as C3D10M or CPS4R, with its shape and number of
+ * nodes. Returns NULL for elements that are neither solids nor surfaces. */
 static const struct size *size_of_type(const char *type)
 {
     for (size_t f = 0; f < COUNT_OF(families); f++) {
@@ -220,8 +222,9 @@ static const struct size *size_of_type(const char *type)
     return NULL;
 }
 
-/* Reads the node labels of an element, possibly over several lines: corners, then middle nodes, which have the order of
- * elements.h; an element with 27 nodes has its interior node before those of its sides. */
+/* Reads the node labels of an element, which may continue on further lines: its corners into node[], its middle nodes
+ * into middle[] in the order of elements.h. In elements with 27 nodes the interior node is skipped. REFUSED if the
+ * number of labels is wrong. */
 static status element_nodes(struct deck *d, const struct size *size, int32_t *node, int32_t *middle)
 {
     const int corners = element_corners[size->kind], edges = element_edges[size->kind].n;
@@ -272,7 +275,8 @@ static status elements_read(struct deck *d)
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the labels first, last, step of a line after GENERATE. REFUSED: step < 1, last < first, or too many members. */
+/* Adds the labels first, first + step, .., last of a line after GENERATE to a set. REFUSED if the step is not
+ * positive, last is below first, or there are too many members. */
 static status generate_line(struct deck *d, int set)
 {
     int32_t bound[3] = {0, 0, 1};
@@ -299,7 +303,8 @@ static status set_join(struct deck *d, int set, const char *name, bool of_nodes)
     return OK;
 }
 
-/* Replaces labels added to sets since the last call by indices; drops labels that are not in the mesh. */
+/* Replaces the labels that were added to sets since the last call by indices of nodes or elements. Removes labels
+ * that the scope does not contain. */
 static void sets_resolve(struct deck *d, const struct scope *scope)
 {
     for (int k = 0; k < d->m->sets; k++) {
@@ -355,7 +360,7 @@ static status set_read(struct deck *d, bool of_nodes)
 
 /* ---- parts ---------------------------------------------------------------------------------------------------- */
 
-/* Replaces a node label of element k by the node's index. REFUSED: unknown node. */
+/* Replaces a node label of element k by the index of the node. REFUSED if there is no such node. */
 static status node_resolve(const struct deck *d, const struct scope *scope, int64_t k, int32_t *node)
 {
     const int64_t index = label_find(&scope->node_of, *node);
@@ -366,7 +371,8 @@ static status node_resolve(const struct deck *d, const struct scope *scope, int6
     return OK;
 }
 
-/* Ends the current scope: its labels become indices. Middle nodes with label 0 are missing: that edge is straight. */
+/* Ends the current scope and replaces its labels by indices. Label 0 of a middle node means that it is missing and
+ * the edge is straight. REFUSED for unknown or repeated labels. */
 static status scope_end(struct deck *d)
 {
     struct scope *scope = &d->scope[d->now];
@@ -402,8 +408,8 @@ static void scope_begin(struct deck *d, const char *name)
     scope->node = d->m->nodes, scope->element = d->m->elements;
 }
 
-/* At the beginning or end of a part: ends the scope and begins the next one. Nodes of the assembly have their own
- * labels. */
+/* Ends the current scope and begins a new one, called at the start and end of a part. name: name of the part; NULL
+ * outside parts, where labels belong to the assembly. REFUSED if there are too many parts. */
 static status scope_change(struct deck *d, const char *name)
 {
     if (d->scopes >= PARTS_MAX) return source_fault(d->s, "more than %d parts", PARTS_MAX);
@@ -426,8 +432,8 @@ static void rotate_about(real *X, const real *a, const real *b, real angle)
     }
 }
 
-/* Moves a part to the position of its instance: one line with a displacement, one with two points of an axis and an
- * angle in degrees. REFUSED: unknown part, or a second instance. */
+/* Moves a part to the position of its instance, from up to two lines: a displacement; two points of an axis and an
+ * angle in degrees. REFUSED if the part is unknown or has two instances. */
 static status instance_read(struct deck *d)
 {
     const char *part = parameter(d, "PART"), *name = parameter(d, "NAME");

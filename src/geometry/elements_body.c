@@ -19,8 +19,8 @@ static bool point_before(const real *X, const real *Y, real size)
     return false;
 }
 
-/* Halves a quadrilateral at its first corner by position, so that the elements on both sides of it are halved alike
- * even if each has its own nodes. */
+/* Adds a quadrilateral as two triangles, a triangle as it is. The diagonal starts at the corner that is first by
+ * position, so that two elements that share the side but not its nodes use the same diagonal. */
 void builder_add_side(struct builder *b, const int32_t *node, int n)
 {
     int low = 0;
@@ -72,7 +72,7 @@ static real builder_volume(const struct builder *b, int64_t first)
     return sum;
 }
 
-/* Returns the number of an element's edge between corners i and j; -1 if there is none. */
+/* Returns the index of the edge between corners i and j of an element of this kind; -1 if there is no such edge. */
 static int edge_between(enum element_kind kind, int i, int j)
 {
     const struct element_edges *edges = &element_edges[kind];
@@ -83,8 +83,9 @@ static int edge_between(enum element_kind kind, int i, int j)
     return -1;
 }
 
-/* Returns the side of an element with n corners and its middle nodes. centre: number of the side's own middle node, -1:
- * none. turned: reverses the orientation. */
+/* Returns one side of an element with its n corners, the middle nodes of its edges, and the node at its centre.
+ * corner[n]: numbers of the corners in the element. centre: number of the middle node of the side, or -1. turned:
+ * reverses the orientation of the side. */
 static struct patch patch_of(const struct builder *b, const struct element *e, const signed char *corner, int n,
                              int centre, bool turned)
 {
@@ -120,7 +121,7 @@ static void builder_add_patches(struct builder *b, const struct element *e, bool
     }
 }
 
-/* Adds an element. If its corners have the opposite orientation, its sides are reversed. */
+/* Adds the sides of an element, reversed if its corners have the opposite orientation. */
 static void builder_add_oriented(struct builder *b, const struct element *e)
 {
     const int64_t first = b->n;
@@ -137,8 +138,9 @@ static void builder_add_oriented(struct builder *b, const struct element *e)
     }
 }
 
-/* Makes a hull of the collected faces and of the nodes they use, and clears the builder. node_of: receives the node of
- * each corner, to be freed by the caller; if NULL, nodes added by subdivision are removed again. */
+/* Makes a hull of the collected faces and the nodes they use, in metres, and removes the faces from the builder.
+ * closed: the hull encloses a volume. *node_of: node of the mesh at each corner of the hull, to be freed by the
+ * caller. If node_of is NULL, nodes added by subdivision are removed from the mesh. */
 static void builder_close(struct builder *b, struct hull *hull, bool closed, int32_t **node_of)
 {
     struct element_mesh *m = b->m;
@@ -167,7 +169,8 @@ static void builder_close(struct builder *b, struct hull *hull, bool closed, int
 
 /* ---- sets ----------------------------------------------------------------------------------------------------- */
 
-/* Makes the surface of a set: closed if elements of it fill the body, else open, of its faces, lines and points. */
+/* Makes the surface of a set of elements: closed if some of them fill a part of the body, else open and made of its
+ * faces, lines and points. */
 static void set_of_elements(struct builder *b, const struct element_set *set, struct hull *hull)
 {
     const struct element *e = b->m->element;
@@ -201,7 +204,8 @@ static void set_of_nodes(struct builder *b, const struct element_set *set, const
     builder_close(b, hull, false, NULL);
 }
 
-/* Makes the surfaces of all sets that are not empty. */
+/* Makes the surface of each set of nodes or elements that is not empty, and stores it in g. node_of: node of the mesh
+ * at each corner of the body's hull. */
 static void take_sets(struct builder *b, const int32_t *node_of, struct geometry *g)
 {
     g->set = NEW("geometry.sets", b->m->sets, struct geometry_set);
@@ -219,8 +223,8 @@ static void take_sets(struct builder *b, const int32_t *node_of, struct geometry
 
 /* ---- the body ------------------------------------------------------------------------------------------------- */
 
-/* Determines the dimension of the elements that make up the body: 2 in 2D; in 3D 3 if there are any solids, else 2.
- * REFUSED if there is no such element. */
+/* Finds the dimension of the elements that form the body: dim, or 2 in 3D if there are surface elements only. REFUSED
+ * if there are no such elements, or solid elements in 2D. */
 static status body_dim_of(const struct element_mesh *m, const char *path, int dim, int *body_dim)
 {
     int64_t n[1 + DIM_MAX] = {0};
@@ -238,7 +242,7 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
 
-/* REFUSED unless 2D elements have equal z to 1e-6 of their extent. */
+/* Returns REFUSED unless 2D elements have equal z to 1e-6 of their extent. */
 static status check_plane(const struct element_mesh *m, const char *path)
 {
     real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};

@@ -28,8 +28,8 @@ static real sagitta_of(const struct element_mesh *m, int32_t from, int32_t to, i
     return off2 > square(STRAIGHT) * along2 ? sqrt(off2) : 0;
 }
 
-/* Returns the number of chords (at most `most`) that follow a curve of this sagitta to within `wanted`; their distance
- * falls with the square of their number. */
+/* Returns the number of chords, 1..most, whose distance from a curve is at most `wanted`. sagitta: distance of a
+ * single chord; the distance falls with the square of the number of chords. */
 static int pieces_for(real sagitta, real wanted, int most)
 {
     const real pieces = ceil(sqrt(sagitta / wanted));
@@ -58,7 +58,8 @@ status builder_set_fineness(struct builder *b, const char *path, real fine)
                       path, sagitta * b->scale, most);
 }
 
-/* Adds a node to the mesh and records the corners it is between (at most four). */
+/* Adds a node to the mesh at X and records the corners from which it was interpolated, at most four. Returns its
+ * index. */
 static int32_t node_between(struct builder *b, const real *X, const int32_t *parent, int parents)
 {
     const int32_t node = mesh_node_append(b->m, X, -1);
@@ -68,15 +69,15 @@ static int32_t node_between(struct builder *b, const real *X, const int32_t *par
     return node;
 }
 
-/* Computes the position of a middle node, or the midpoint of the edge if it has none. */
+/* Computes the position of the middle node of an edge, or the midpoint of its ends if it has no middle node. */
 static void middle_point(const struct element_mesh *m, int32_t from, int32_t to, int32_t middle, real X[DIM_MAX])
 {
     for (int d = 0; d < DIM_MAX; d++)
         X[d] = middle >= 0 ? m->node[middle][d] : 0.5 * (m->node[from][d] + m->node[to][d]);
 }
 
-/* Adds pieces - 1 nodes along an edge, by quadratic interpolation. Returns the index of the first, in order from `from`
- * to `to`. */
+/* Adds pieces - 1 nodes along an edge to the mesh, by quadratic interpolation through its middle node. Returns the
+ * index of the first; the others follow in order from node `from` to node `to`. */
 static int32_t edge_divide(struct builder *b, int32_t from, int32_t to, int32_t middle, int pieces)
 {
     const int32_t first = (int32_t)b->m->nodes, ends[] = {from, to};
@@ -107,6 +108,7 @@ static void line_add(struct builder *b, const struct patch *p)
 
 /* ---- sides that two elements share ------------------------------------------------------------------------------- */
 
+/* Appends a copy of a side of an element with middle nodes; builder_divide_curved divides it into faces later. */
 void builder_add_patch(struct builder *b, const struct patch *p)
 {
     GROW("mesh.patch", b->patch, b->patches + 1);
@@ -120,7 +122,8 @@ struct patch_key {
     int64_t of; /* index of the patch */
 };
 
-/* Computes the key of patch number `of`. */
+/* Returns the sorted corners and the orientation of a patch, so that patches with the same corners can be found. of:
+ * index of the patch. */
 static struct patch_key patch_key_of(const struct patch *p, int64_t of)
 {
     struct patch_key key = {.of = of};
@@ -148,7 +151,8 @@ static int key_order(const void *a, const void *b)
     return (p->of > q->of) - (p->of < q->of);
 }
 
-/* Removes patches that coincide with opposite orientation; of those that remain between the same corners, keeps one. */
+/* Removes patches that coincide with opposite orientation, as two elements on both sides of an inner face add them.
+ * If several patches with the same corners remain, keeps one. */
 static void patches_cancel(struct builder *b)
 {
     struct patch_key *key = NEW("mesh.keys", b->patches, struct patch_key);
@@ -197,7 +201,7 @@ static int curve_order(const void *a, const void *b)
     return (p->middle > q->middle) - (p->middle < q->middle);
 }
 
-/* Returns edge k of a patch, not divided. */
+/* Returns edge k of a patch as a curve with its ends and middle node; it is not divided yet. */
 static struct curve curve_of(const struct patch *p, int k)
 {
     const int32_t from = p->corner[k], to = p->corner[(k + 1) % p->n];
@@ -219,7 +223,7 @@ static struct curve *curve_find(const struct curves *c, const struct patch *p, i
     return &c->curve[low];
 }
 
-/* Returns true if an edge of the patch is curved, or its own middle node is off the mean of its corners. */
+/* Returns true if an edge of the patch is curved, or the node at its centre is not at the mean of its corners. */
 static bool patch_curved(const struct builder *b, const struct patch *p)
 {
     const struct element_mesh *m = b->m;
@@ -258,7 +262,7 @@ static void curves_make(struct curves *c, struct builder *b)
     }
 }
 
-/* Returns node `at` (0..pieces) along edge k of a patch, starting at its corner k. */
+/* Returns the index of node number `at`, 0..pieces, along edge k of a patch, counted from its corner k. */
 static int32_t curve_node(const struct builder *b, const struct curves *c, const struct patch *p, int k, int at)
 {
     const struct curve *e = curve_find(c, p, k);
@@ -296,7 +300,8 @@ static void quad_point(const struct element_mesh *m, const struct patch *p, real
     }
 }
 
-/* Like quad_point, but also interpolates the quadrilateral's own middle node if it has one. */
+/* Computes a point of a quadrilateral at the reference coordinates x, y in [-1, 1], from its eight nodes and, if
+ * there is one, the node at its centre. */
 static void quad_point_whole(const struct element_mesh *m, const struct patch *p, real x, real y, real X[DIM_MAX])
 {
     real middle[DIM_MAX];
@@ -306,8 +311,8 @@ static void quad_point_whole(const struct element_mesh *m, const struct patch *p
     for (int d = 0; d < DIM_MAX; d++) X[d] += (1 - x * x) * (1 - y * y) * (m->node[p->centre][d] - middle[d]);
 }
 
-/* Returns the node at grid position (i, j), 0..pieces, of a curved patch: on its edges the shared node, inside a new
- * one. */
+/* Returns the index of the node at grid position (i, j), each 0..pieces, of a curved patch. On the edges this is the
+ * node shared with the neighbours; inside the patch a new one. */
 static int32_t grid_node(struct builder *b, const struct curves *c, const struct patch *p, int i, int j)
 {
     const int n = b->pieces;
@@ -357,7 +362,8 @@ static void patch_star(struct builder *b, const struct curves *c, const struct p
     }
 }
 
-/* Adds a patch as faces, subdivided where needed. */
+/* Adds a patch as triangles: subdivided if it is curved, around its centre if only its edges are divided, else as it
+ * is. row: buffer. */
 static void patch_add(struct builder *b, const struct curves *c, const struct patch *p, int32_t *row)
 {
     bool divided = false;

@@ -25,7 +25,7 @@ static const struct format *format_of(const char *path)
     return NULL;
 }
 
-/* REFUSED if the surface encloses nothing, or is so open that inside and outside cannot be told apart. */
+/* Returns REFUSED if the surface encloses nothing, or is so open that inside and outside cannot be told apart. */
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;

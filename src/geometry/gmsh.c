@@ -100,7 +100,8 @@ static status node_next(struct gmsh *g, int32_t *index)
     return OK;
 }
 
-/* REFUSED unless a node of edge number `edge` (Gmsh's order) is on the edge's chord. */
+/* Returns REFUSED unless a node on an edge of order 3 or more is on the straight line between the ends of the edge.
+ * edge: number of the edge in Gmsh's order; between: the node. */
 static status check_straight(const struct gmsh *g, const struct gmsh_type *type, const int32_t *node, int edge,
                              int32_t between)
 {
@@ -136,7 +137,7 @@ static status element_next(struct gmsh *g, const struct gmsh_type *type, int64_t
     return OK;
 }
 
-/* Maps node labels to indices. REFUSED: a label occurs twice. */
+/* Creates the map from node labels to indices. REFUSED if a label occurs twice. */
 static status nodes_known(struct gmsh *g)
 {
     int64_t twice;
@@ -147,7 +148,8 @@ static status nodes_known(struct gmsh *g)
 
 /* ---- physical names and entities ------------------------------------------------------------------------------- */
 
-/* Reads a text in quotes, truncated to `room` bytes. REFUSED: no quotes, or no end on the line. */
+/* Reads a text in double quotes, truncated to `room` bytes. REFUSED if there are no quotes, or no closing one on the
+ * line. */
 static status quoted_next(struct source *s, char *text, size_t room)
 {
     size_t n = 0;
@@ -177,7 +179,7 @@ static status names_read(struct gmsh *g)
     return OK;
 }
 
-/* Records that an entity belongs to a physical group. */
+/* Appends the pair of an entity and a physical group to which it belongs. */
 static void entity_group_add(struct gmsh *g, int64_t entity, int64_t group)
 {
     GROW("gmsh.entities", g->entity, g->links + 1);
@@ -231,7 +233,7 @@ static status old_count(struct gmsh *g, const char *what, int64_t bytes, int64_t
     return source_check_count(g->s, what, *n, bytes);
 }
 
-/* Reads all nodes. */
+/* Reads the section of nodes in format 2.2. */
 static status old_nodes(struct gmsh *g)
 {
     int64_t n, label;
@@ -245,7 +247,8 @@ static status old_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads an element's tags, of which the first is its physical group (0: none), and its nodes. */
+/* Reads the tags of an element, of which the first one is its physical group (0: none), and its nodes. tags: number
+ * of tags. */
 static status old_element(struct gmsh *g, const struct gmsh_type *type, int64_t label, int64_t tags)
 {
     int64_t tag, group = 0;
@@ -280,8 +283,8 @@ static status old_elements(struct gmsh *g)
 
 /* ---- format 4.1 ----------------------------------------------------------------------------------------------- */
 
-/* Reads the head of a section: number of blocks, number of items, smallest and largest label. Only the first is
- * kept. */
+/* Reads the first line of a section: the number of blocks, stored in *blocks, and three numbers that are not needed.
+ * what: name of the section for messages. */
 static status new_head(struct gmsh *g, const char *what, int64_t *blocks)
 {
     int64_t skipped;
@@ -314,7 +317,7 @@ static status new_node_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads all nodes. */
+/* Reads the section of nodes in format 4.1, block by block. */
 static status new_nodes(struct gmsh *g)
 {
     int64_t blocks;
@@ -323,7 +326,8 @@ static status new_nodes(struct gmsh *g)
     return nodes_known(g);
 }
 
-/* Reads a block of elements of one type on one entity and adds them to the entity's physical groups. */
+/* Reads a block of elements that have one type and lie on one entity, and adds them to the physical groups of the
+ * entity. */
 static status new_element_block(struct gmsh *g)
 {
     int64_t dim, tag, number, n, label;
@@ -344,7 +348,7 @@ static status new_element_block(struct gmsh *g)
     return OK;
 }
 
-/* Reads all elements. */
+/* Reads the section of elements in format 4.1, block by block. */
 static status new_elements(struct gmsh *g)
 {
     int64_t blocks;
@@ -377,7 +381,7 @@ static status format_read(struct gmsh *g)
     return one == 1 ? OK : source_fault(g->s, "bytes in the order of another machine; save it anew, or in words");
 }
 
-/* Skips to the end of the line $EndNAME of a section. */
+/* Skips a section: moves behind the line $EndNAME. */
 static void section_skip(struct source *s, const char *name)
 {
     char end[48];

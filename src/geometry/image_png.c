@@ -16,7 +16,7 @@ static void bytes_next(png_structp png, png_bytep to, size_t n)
     s->at += (int64_t)n;
 }
 
-/* Keeps the message of an error and jumps back to png_read_pages. */
+/* Stores the message of an error that libpng reports and jumps back to png_read_pages. */
 static void fault_kept(png_structp png, png_const_charp what)
 {
     snprintf(png_get_error_ptr(png), 128, "%s", what);

@@ -19,7 +19,7 @@ static tmsize_t tiff_take(thandle_t handle, void *to, tmsize_t n)
     return taken;
 }
 
-/* Refuses to write. */
+/* Callback for writing, which is not needed; reports a fault. */
 static tmsize_t tiff_write(thandle_t handle, void *from, tmsize_t n)
 {
     (void)handle, (void)from, (void)n;
@@ -36,7 +36,7 @@ static toff_t tiff_seek(thandle_t handle, toff_t offset, int whence)
     return (toff_t)to;
 }
 
-/* Does nothing: the bytes belong to the caller. */
+/* Callback for closing; does nothing, since the caller owns the bytes. */
 static int tiff_close(thandle_t handle) { return (void)handle, 0; }
 
 /* Returns the file size [byte]. */
@@ -87,7 +87,8 @@ static int samples_used(const struct samples *a)
     return (a->bits == 8 || a->bits == 16) && a->count >= used ? used : 0;
 }
 
-/* REFUSED unless the samples are unsigned integers of up to 16 bits, with rows from left to right or right to left. */
+/* Returns REFUSED unless the samples are unsigned integers of up to 16 bits, with rows from left to right or right to
+ * left. */
 static status check_samples(const struct samples *a, const char *path)
 {
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
@@ -192,7 +193,7 @@ static bool colours_read(TIFF *tiff, uint16_t *page, int64_t width, int64_t heig
     return good;
 }
 
-/* Appends the current page. REFUSED: unsupported or malformed. */
+/* Appends the current page of a file to the pages. REFUSED if its samples are not supported or it is malformed. */
 static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
 {
     const struct samples a = samples_of(tiff);

@@ -20,7 +20,7 @@ struct sheets {
     struct sheet *at;
 };
 
-/* Returns the distance of two corners. */
+/* Returns the distance between two corners [m]. */
 static real corner_distance(const real *a, const real *b, int dim)
 {
     real r2 = 0;
@@ -28,7 +28,7 @@ static real corner_distance(const real *a, const real *b, int dim)
     return sqrt(r2);
 }
 
-/* Copies a face of a hull. */
+/* Returns a copy of a face of a hull, with its centre and size. */
 static struct sheet sheet_of(const struct hull *h, int64_t face)
 {
     struct sheet s = {.size = 0};
@@ -59,7 +59,7 @@ static bool sheets_coincide(const struct sheet *p, const struct sheet *q, int di
     return true;
 }
 
-/* Returns one face of each coincident pair; the caller frees s.at. */
+/* Returns the faces of a hull that coincide with another face, one of each pair. The caller frees s.at. */
 static struct sheets sheets_doubled(const struct hull *h)
 {
     struct sheets s = {.dim = h->dim};
@@ -79,7 +79,8 @@ static struct sheets sheets_doubled(const struct hull *h)
 
 /* ---- in the plane ------------------------------------------------------------------------------------------------ */
 
-/* Extends segment `to` by segment `by` if they share an end and are collinear; returns whether it did. */
+/* Extends segment `to` by segment `by` and returns true, if they have a common end and are collinear; otherwise
+ * returns false. */
 static bool segments_join(struct sheet *to, const struct sheet *by)
 {
     const real near = SAME * fmin(to->size, by->size);
@@ -96,7 +97,7 @@ static bool segments_join(struct sheet *to, const struct sheet *by)
     return false;
 }
 
-/* Joins segments until no two can be joined. */
+/* Joins collinear segments with a common end until there are no more such pairs. */
 static void segments_merge(struct sheets *s)
 {
     for (int64_t k = 0; k < s->n; k++)
@@ -113,7 +114,7 @@ struct flat {
     real (*at)[2];
 };
 
-/* Sets origin and axes from the corners of a face. */
+/* Sets the origin and two orthogonal unit vectors of a plane from the corners of a face. */
 static void flat_axes(struct flat *f, const struct sheet *s)
 {
     real w[3], normal[3];
@@ -193,8 +194,8 @@ static bool sheets_adjoin(const struct sheet *s, const struct sheet *other)
     return common == 2;
 }
 
-/* Moves the faces connected to face `first`, directly or through others, right after it. Returns the number of faces in
- * this group. */
+/* Moves all faces that are connected to face `first`, directly or through other faces, to the positions after it in
+ * the list. Returns the size of this group, with the first face. */
 static int64_t group_gather(struct sheets *s, int64_t first)
 {
     int64_t n = 1;

@@ -8,7 +8,7 @@
 
 enum { HEADER = 80, COUNT = 4, FACET = 50, NORMAL = 12 }; /* sizes in a binary file [byte] */
 
-/* Appends a corner; every third one completes a triangle. */
+/* Appends a corner as a node of its own; every third corner completes a triangle. */
 static status corner_add(struct element_mesh *m, const struct source *s, const real *X)
 {
     const int32_t node[] = {(int32_t)m->nodes - 2, (int32_t)m->nodes - 1, (int32_t)m->nodes};
@@ -56,7 +56,7 @@ static status binary_read(struct element_mesh *m, struct source *s)
 
 /* ---- text ----------------------------------------------------------------------------------------------------- */
 
-/* Reads all triangles of a text file. REFUSED: a facet without three corners, or no endsolid. */
+/* Reads all triangles of a text file. REFUSED if a facet does not have three corners, or endsolid is missing. */
 static status words_read(struct element_mesh *m, struct source *s)
 {
     char word[32];
@@ -112,7 +112,7 @@ static real extent_of(const struct element_mesh *m)
     return extent;
 }
 
-/* Makes corners that coincide share one node, so that neighbours are connected. */
+/* Replaces corners that coincide by one node, so that neighbouring triangles share nodes. */
 static void corners_weld(struct element_mesh *m)
 {
     struct corner_key *key = NEW("stl.corners", m->nodes, struct corner_key);

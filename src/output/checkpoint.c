@@ -73,7 +73,8 @@ static struct archive archive_of(struct hdf *f, bool saving)
 
 /* ---- writing ----------------------------------------------------------------------------------------------------- */
 
-/* Writes PATH.cleave.tmp without its footer; removes it on a fault. */
+/* Writes the state to an HDF5 file under a temporary name, without the footer. archive_all(context, ...) passes all
+ * entries. On a fault the file is removed. */
 static status state_write(struct output *o, const char *path, const char *scene_text, archive_all_fn *archive_all,
                           void *context)
 {

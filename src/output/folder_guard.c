@@ -14,8 +14,8 @@ bool file_name_is_ignored(const char *name)
     return name[0] == '.' || (length > 4 && strcmp(name + length - 4, ".tmp") == 0);
 }
 
-/* Checks that all entries of the folder are hidden, temporary or early entries of this kind. REFUSED, with the name of
- * the first other entry, if not. */
+/* Checks that a folder contains only hidden and temporary files and those that a folder of this kind has at first.
+ * REFUSED with the name of another entry. */
 static status entries_guard(const struct folder_kind *kind, const char *folder)
 {
     char found[PATH_NAME_ROOM] = "";

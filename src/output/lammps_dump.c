@@ -97,6 +97,7 @@ static status head_next(struct dump *d, struct dump_head *h, bool *more)
     return h->n < 0 ? dump_fault(d, "ITEM: NUMBER OF ATOMS is missing") : head_columns(d, h);
 }
 
+/* Skips n lines. Returns false if the file ends before. */
 static bool skip_rows(struct dump *d, int64_t n)
 {
     bool more = true;
@@ -104,6 +105,8 @@ static bool skip_rows(struct dump *d, int64_t n)
     return more;
 }
 
+/* Appends the numbers of all complete time steps of a dump to step[], and counts them in *n. FAILED unless they
+ * ascend. */
 static status steps_read(struct dump *d, int *n, int64_t **step)
 {
     struct dump_head h;
@@ -132,6 +135,7 @@ status lammps_list_steps(const char *path, int *n, int64_t **step)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
+/* Allocates the arrays of a frame for the particles in a header. */
 static void lammps_frame_make(struct lammps_frame *f, const struct dump_head *h)
 {
     f->n = h->n, f->step = h->step;
@@ -167,6 +171,8 @@ static bool dump_row_read(const struct dump *d, const struct dump_head *h, doubl
     return true;
 }
 
+/* Reads the rows of all particles of a time step into f, in the order of their ids. seen[n]: zeros, marks the ids
+ * read. FAILED if an id is missing, repeated or out of range. */
 static status rows_take(struct dump *d, const struct dump_head *h, struct lammps_frame *f, uint8_t *seen)
 {
     double value[WANTED];

@@ -39,7 +39,7 @@ static const struct {
     {"frames.vtkhdf", NULL},
 };
 
-/* Returns true if `name` is that of a frame, 123456.hdf, followed by `end`. */
+/* Returns true if `name` is the file name of a frame, such as 123456.hdf, followed by `end`. */
 static bool is_frame(const char *name, const char *end)
 {
     const size_t digits = strspn(name, "0123456789");
@@ -63,8 +63,8 @@ static bool has_frames(const char *folder)
 
 /* ---- check of the folder ----------------------------------------------------------------------------------------- */
 
-/* Returns the part of a line that identifies the scene: for a particle list the checksum of its contents instead of its
- * path. */
+/* Returns the part of a line of a scene that has to be equal for the scenes to be equal, and stores its length. This
+ * is the line, or for a line with the checksum of a file only the checksum, since the path of the file may differ. */
 static const char *line_meaning(const char *line, size_t *length)
 {
     static const char mark[] = "  # contents ";
@@ -150,7 +150,8 @@ static bool is_frames_folder(const char *folder, const char *name)
 static const struct folder_kind run_kind = {
     .what = "run", .sign = "scene.yaml", .is_sign = is_scene_of_run, .is_early = is_frames_folder, .inner = {"frames"}};
 
-/* Checks that the folder holds at most a run of this scene. REFUSED if not. */
+/* Checks the folder in which a run would write. REFUSED if it holds other files, or the run of another scene that
+ * must not be overwritten. */
 static status folder_check(const char *folder, const char *scene_text, enum output_mode mode)
 {
     char difference[500], *text = NULL;
@@ -224,8 +225,9 @@ static status file_each(const char *folder, const char *name, file_visit_fn *eac
     return path_exists(path.text) ? each(path.text) : OK;
 }
 
-/* Calls `each` for the frames of a region in the subfolder `inner` (frames_NAME) and for their indices. end: as in
- * files_visit. */
+/* Calls `each` for the frames in the folder `inner` (frames_NAME) of a region and for its index files. end:
+ * additional ending of the file names, such as the one of temporary files. If the files are removed, removes the
+ * folder too, unless other files are in it. */
 static status region_each(const char *folder, const char *inner, const char *end, file_visit_fn *each)
 {
     static const char *const index[] = {".hdf.series", ".xdmf", ".vtkhdf"};
@@ -250,8 +252,8 @@ static bool is_frames_of_region(const char *inner, const char *scene_text)
     return strstr(scene_text, line) != NULL;
 }
 
-/* Calls `each` as region_each does for every region of the scene that the folder holds. Copies of such folders under
- * other names stay. */
+/* Calls region_each for every region that scene.yaml in the folder defines. Other folders named frames_* are left
+ * alone. */
 static status regions_each(const char *folder, const char *end, file_visit_fn *each)
 {
     char *text;
@@ -382,6 +384,8 @@ status output_write_text(const struct output *o, const char *name, const char *t
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
+/* Saves the number, times and sizes of the frames of a series to an archive, or restores them. FAILED if the lists do
+ * not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
     char frames_name[100], time_name[100], rows_name[100];

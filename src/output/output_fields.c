@@ -7,8 +7,8 @@
 
 #include "data/derived_fields.h"
 
-/* Copies vectors `of`, or the differences of - less if `less` is not NULL, into rows of three numbers. Components that
- * the space lacks become 0. */
+/* Copies the vectors `of` of particles first..end-1 into rows of three numbers, or the differences of - less if
+ * `less` is not NULL. Rows are indexed by particle. Components that the space does not have become 0. */
 static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
                                        int dim)
 {
@@ -32,7 +32,7 @@ static void copy_velocity(const struct frame_source *s, int64_t first, int64_t e
     copy_vectors(rows, first, end, s->p->v, NULL, s->p->dim);
 }
 
-/* Copies one number per particle into rows of `columns` numbers. */
+/* Copies one number per particle, of particles first..end-1, to rows of `columns` numbers. */
 static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
 {
     for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
@@ -57,7 +57,8 @@ static void copy_stress(const struct frame_source *s, int64_t first, int64_t end
     }
 }
 
-/* Fills rows of a field that is derived from another field. */
+/* Computes a derived field of particles first..end-1 from their stress or velocity and writes it to
+ * rows[end][field->columns]. */
 static void copy_derived(const struct derived_field *field, const struct frame_source *s, int64_t first, int64_t end,
                          float *rows)
 {
@@ -137,6 +138,7 @@ static void copy_level(const struct frame_source *s, int64_t first, int64_t end,
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
+/* Copies the damage of particles first..end-1. */
 static void copy_damage(const struct frame_source *s, int64_t first, int64_t end, void *rows)
 {
     copy_scalars(rows, first, end, s->p->damage, 1);
@@ -214,6 +216,8 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
 /* Indices of the fields that are written only if the scene requests them; bit k of the request selects field k + 1. */
 enum { FIELD_ON_DEMAND = 13, FIELD_ON_DEMAND_LAST = 21 };
 
+/* Returns true if a frame contains a field: it was requested, if fields of this kind are written on request only, and
+ * the data exist. */
 static bool field_exists(const struct frame_field *field, const struct frame_source *s)
 {
     const int64_t k = field - frame_fields;

@@ -15,6 +15,7 @@
 
 /* ---- paths ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the path that consists of three texts; an empty path if it is too long. */
 static struct path path_compose(const char *first, const char *between, const char *last)
 {
     struct path p;
@@ -130,6 +131,8 @@ void file_discard(const char *path)
 
 /* ---- what is not replaced ---------------------------------------------------------------------------------------- */
 
+/* Checks that a file may be replaced or removed. REFUSED for an input of this command, a pipe, a socket or a
+ * device. */
 status file_check_replaceable(const char *path)
 {
     struct stat s;
@@ -209,7 +212,7 @@ static int sync_folder_of(const char *path)
     return fault;
 }
 
-/* Converts the result of a write (0 or an errno) to a status; on a fault the incomplete file is removed. */
+/* Returns the status for the result of a write, 0 or an errno. On a fault removes the incomplete file. */
 static status outcome(const char *path, int fault)
 {
     if (!fault) return OK;

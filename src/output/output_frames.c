@@ -45,8 +45,8 @@ struct frame_job {
     char message[512];
 };
 
-/* Creates a job for a frame at time t [s] and copies the fields that change. The memory of the copies is kept for the
- * next frame. */
+/* Creates a job that writes a frame at time t [s], and copies all fields that the next steps change to memory of the
+ * output, which is reused for the next frame. The caller releases the job with job_free. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
@@ -89,6 +89,7 @@ static void job_free(struct frame_job *job)
 
 /* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ---------------------------- */
 
+/* Returns the indices 0..n-1, released with free; NULL if memory is exhausted. */
 static int32_t *ascending_order(int64_t n)
 {
     int32_t *order = calloc((size_t)n + 1, sizeof *order);
@@ -116,6 +117,7 @@ static int32_t *order_by_id(const struct particles *p)
 
 enum { ROW_MOST = 36 }; /* bytes of the longest row: nine single-precision numbers */
 
+/* Writes field k of a frame as rows in the order `order`. room: buffer for the rows. */
 static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
 {
     const struct frame_field *field = &frame_fields[k];
@@ -184,8 +186,8 @@ static void kept_free(struct frame_series *s)
     memset(&s->kept, 0, sizeof s->kept);
 }
 
-/* Returns true if the series shows point i: a particle, or (i >= number of particles) a material point of a coarse
- * cell. */
+/* Returns true if a series of frames contains point i. Points from the number of particles on are material points of
+ * coarse cells. */
 static bool series_shows(const struct frame_series *s, const struct frame_source *source, int64_t i)
 {
     const struct particles *p = i < source->p->n ? source->p : source->extra.more;
@@ -195,8 +197,9 @@ static bool series_shows(const struct frame_series *s, const struct frame_source
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Fills the stored order and the buffer of a series. Both are kept until output_particles_changed and while there are
- * no points of coarse cells, which may change at any step. Returns false if memory is exhausted. */
+/* Computes the order of the rows in the frames of a series and a buffer for writing, unless they are still valid:
+ * they are kept until the particles change, but not for regions with points of coarse cells. Returns false if memory
+ * is exhausted. */
 static bool kept_make(struct frame_series *s, const struct frame_source *source)
 {
     const int64_t own = source->p->n, all = own + (source->extra.more ? source->extra.more->n : 0);
@@ -221,7 +224,7 @@ void output_particles_changed(struct output *o)
     for (int k = 0; k <= o->n_series; k++) kept_free(&o->series[k]);
 }
 
-/* Writes PATH.cleave.tmp and renames it to PATH. */
+/* Writes a frame under a temporary name and renames it. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
@@ -245,6 +248,8 @@ static status frame_write(struct frame_job *job)
 
 /* ---- indices ----------------------------------------------------------------------------------------------------- */
 
+/* Writes the file name of frame `number` of a series, relative to the folder of the run. name: capacity `room`
+ * [byte]. */
 void frame_name(const struct frame_series *s, char *name, size_t room, int number)
 {
     snprintf(name, room, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
@@ -270,7 +275,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     fprintf(out, "\n]}\n");
 }
 
-/* Writes a reference to a whole dataset of a frame. */
+/* Writes an XDMF reference to a dataset of n rows in the file of a frame. */
 static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
 {
     static const char *const number[] = {
@@ -342,7 +347,7 @@ static status index_make(const struct output *o, struct frame_job *job, int whic
     return whole ? OK : file_fault(index_path(o->folder, job->series, which).text, ENOMEM);
 }
 
-/* Writes both indices of a series. */
+/* Writes both index files of a series, frames.hdf.series and frames.xdmf. */
 static status indices_put(const char *folder, const struct frame_job *job)
 {
     for (int k = 0; k < 2; k++)
@@ -382,7 +387,7 @@ status output_wait(struct output *o)
     return s;
 }
 
-/* Counts a frame before it is written; output_wait reverses the count on a fault. */
+/* Adds a frame to the list of its series before it is written. If writing fails, output_wait removes it again. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
     GROW("output.frame_time", s->frame_time, s->frames + 1);
@@ -468,7 +473,7 @@ static int series_check(const struct output *o, struct frame_series *s, int *los
     return own;
 }
 
-/* Rewrites both indices of a series. */
+/* Composes and writes both index files of a series again, after frames were lost. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_job job = {.series = series};

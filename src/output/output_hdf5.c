@@ -31,7 +31,8 @@ static hid_t hdf_native(enum hdf_type type)
     }
 }
 
-/* Records the result of one HDF5 call, negative on a fault. Returns true if there was no fault. */
+/* Records the result of an HDF5 call, which is negative on a fault, and errno in f. Returns true if there was no
+ * fault. */
 static bool good(struct hdf *f, int64_t result)
 {
     if (result >= 0) return true;
@@ -40,14 +41,15 @@ static bool good(struct hdf *f, int64_t result)
     return false;
 }
 
+/* Returns true if no fault has occurred on the file. Clears errno for the next call. */
 static bool ready(const struct hdf *f)
 {
     errno = 0;
     return !f->failed;
 }
 
-/* Returns a file access list: closing a file closes all objects in it; no file locks, which some network file systems
- * lack. */
+/* Returns the access properties for a file: objects that are still open are closed with it, and no file locks are
+ * used, which some network file systems do not have. */
 static hid_t access_list(struct hdf *f)
 {
     hid_t list = -1;
@@ -100,7 +102,7 @@ void hdf_create_group(struct hdf *f, const char *name)
            good(f, H5Pclose(list)));
 }
 
-/* Returns the creation list of a dataset of this shape: contiguous, or in chunks compressed with gzip. */
+/* Returns the creation properties of a dataset of this shape: contiguous, or with compression in chunks. */
 static hid_t dataset_list(struct hdf *f, int rank, const hsize_t *shape)
 {
     hid_t list = -1;
@@ -125,7 +127,8 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Maps the rows of one source to the rows from at[0] on of a virtual dataset. Returns false on a fault. */
+/* Adds one source to the properties `list` of a virtual dataset: its rows appear from row at[0] on. shape: size of
+ * the source. Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -156,7 +159,7 @@ void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int 
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Returns a fixed-length string type; VTK 9.1 reads no other. */
+/* Returns the HDF5 type of a text with a fixed length; VTK 9.1 cannot read texts of variable length. */
 static hid_t text_type(struct hdf *f, const char *text)
 {
     hid_t type = -1;
@@ -194,7 +197,7 @@ void hdf_write_text_list(struct hdf *f, const char *name, const char *text)
     free(plain);
 }
 
-/* Writes one attribute and closes `space`. */
+/* Writes an attribute of a group and closes its data space. */
 static void output_hdf5_mark(struct hdf *f, const char *group, const char *name, hid_t type, hid_t space,
                              const void *value)
 {

@@ -27,6 +27,7 @@ struct line {
     FILE *to;
 };
 
+/* Opens a memory stream for the text of a line. Returns false if memory is exhausted. */
 static bool line_begin(struct line *l)
 {
     *l = (struct line){0};
@@ -34,7 +35,8 @@ static bool line_begin(struct line *l)
     return l->to != NULL;
 }
 
-/* Ends a line; adds it to length and hash of the file if it was written completely. */
+/* Writes the line to history.csv, adds it to the length and hash of the file, and frees it. FAILED if it cannot be
+ * written. */
 static status line_end(struct output *o, struct line *l)
 {
     errno = 0;
@@ -85,7 +87,7 @@ static status history_cut(const struct output *o)
                       path.text, shorter ? "shorter than" : "not what it was", (long long)o->history_bytes);
 }
 
-/* Opens a file without following a link. Returns NULL and sets errno on a fault. */
+/* Opens history.csv, new or at its end (resume), without following a link. Returns NULL and sets errno on a fault. */
 static FILE *history_file(const char *path, bool resume)
 {
     if (!resume) unlink(path);

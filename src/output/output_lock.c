@@ -15,7 +15,7 @@ static const char lock_name[] = ".running", lock_begin[] = "process ";
 
 enum { TRIES = 100 }; /* a lock file may be removed between open and lock */
 
-/* Returns true if `path` still names the open file. */
+/* Returns true if `path` still is the file that is open as fd, and was not removed or replaced. */
 static bool is_still_there(int fd, const char *path)
 {
     struct stat own, there;
@@ -50,7 +50,7 @@ static int lock_try(int fd)
     return errno == EACCES ? EAGAIN : errno;
 }
 
-/* Returns REFUSED with the process that the lock file names. */
+/* Returns REFUSED with a message about the process that holds the lock, as named in the lock file. */
 static status say_holder(int fd, const char *folder)
 {
     char who[160];
@@ -61,7 +61,7 @@ static status say_holder(int fd, const char *folder)
                       who[0] ? who : "another process");
 }
 
-/* Writes process and machine to the lock file. */
+/* Writes the process number and the name of the machine to the lock file, for messages. */
 static void sign(int fd)
 {
     char host[64] = "this machine", text[128];

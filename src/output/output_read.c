@@ -112,7 +112,8 @@ void frame_free(struct frame *f)
 
 /* ---- one field by name ------------------------------------------------------------------------------------------- */
 
-/* Fills `row` with row i of the field from which another field is derived; components that the space lacks are 0. */
+/* Fills row[SYM_MAX] with the velocity or stress of particle i, from which another field is derived. Components that
+ * the space does not have are 0. */
 static void source_row(const struct frame *f, enum derived_from from, int64_t i, real *row)
 {
     static const int plane[] = {0, 1, 3, 2}, plain[] = {0, 1, 2, 3, 4, 5}; /* order of read_fields */

@@ -28,7 +28,8 @@ struct temporal {
     unsigned fields;              /* bit set of the fields that all frames have */
 };
 
-/* Reads size and fields of frame k. Returns false if it cannot be read. */
+/* Reads the number of points of frame k into a->source[k], and removes fields that the frame does not have from
+ * a->fields. Returns false if the file cannot be read. */
 static bool frame_look(struct temporal *a, int k)
 {
     struct hdf f;
@@ -60,7 +61,7 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     }
 }
 
-/* Writes the group Steps: the times, and the offset of each time. number: [n] scratch. */
+/* Writes the group Steps: the times, and where the data of each time begin. number: work array of n entries. */
 static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const start[] = {"PointOffsets", "CellOffsets", "ConnectivityIdOffsets"};
@@ -87,7 +88,7 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes points, cells and fields as virtual datasets. */
+/* Writes points, cells and fields of all frames as virtual datasets. number: work array of n entries. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
@@ -109,7 +110,8 @@ static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
     }
 }
 
-/* Writes the texts that all times share: units and the scene. */
+/* Writes the units of the fields and the scene as field data that all times share. number: work array of 2 n
+ * entries. */
 static void write_texts(struct hdf *f, const struct temporal *a, const char *scene_text, int64_t *number)
 {
     static const char *const name[] = {"units", "scene"};
@@ -131,6 +133,8 @@ static void write_texts(struct hdf *f, const struct temporal *a, const char *sce
     }
 }
 
+/* Writes the temporal file under a temporary name and renames it. Sets *broken to true if HDF5 fails, after which the
+ * incomplete file is removed. */
 static status temporal_write(const struct temporal *a, const char *path, const char *scene_text, bool *broken)
 {
     static const int32_t version[2] = {2, 0};

@@ -62,7 +62,8 @@ static bool boxes_are_whole(int fd, int64_t length)
     return length > 0;
 }
 
-/* Returns the offset of the end in a whole file [byte]; -1 if the file is incomplete. */
+/* Returns the offset at which the end mark of the format begins, or the length of a file made of boxes [byte]; -1 if
+ * the file is incomplete. */
 static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
 {
     char last[END_LENGTH];
@@ -74,7 +75,8 @@ static int64_t find_end(int fd, int64_t length, const struct picture_end *e)
     return length - (int64_t)(have - own + e->end_length);
 }
 
-/* Writes the mark and syncs the file. Returns 0, an errno, or -1 if the picture is incomplete. */
+/* Writes the mark of Cleave into a complete picture and syncs the file. Returns 0, an errno, or -1 if the picture is
+ * incomplete. */
 static int mark_and_sync(int fd, const struct picture_end *e)
 {
     char bytes[2 * END_LENGTH];

@@ -41,7 +41,8 @@ struct path picture_path_of_field(const char *dir, const char *field, const char
     return picture_place(dir, field_prefix, field, ending);
 }
 
-/* Returns true if the rest of a name is `.png` or another ending of pictures, followed by `end`. */
+/* Returns true if the end of a name, after its first part, is the extension of a picture such as .png, followed by
+ * `end`. */
 static bool ends_as_picture(const char *rest, const char *end)
 {
     static const char *const ending[] = {".png", ".svg", ".pdf", ".mp4", ".gif"};

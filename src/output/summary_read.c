@@ -94,7 +94,8 @@ static bool word(struct reader *r, const char *text)
     return true;
 }
 
-/* Returns the rest of the key below a member of this name; NULL if the member is not on the path. */
+/* Returns what remains of the dotted key `rest` after its first part, if this part is `name`; NULL if it is another
+ * name or rest is NULL. */
 static const char *summary_read_below(const char *rest, const char *name, size_t length)
 {
     if (rest == NULL || strncmp(rest, name, length) != 0) return NULL;
@@ -102,7 +103,8 @@ static const char *summary_read_below(const char *rest, const char *name, size_t
     return rest[length] == '.' ? rest + length + 1 : NULL;
 }
 
-/* Parses the value of a member with a name of `length` bytes. A key that is too long is truncated. */
+/* Parses the value of the member `name` of an object; r->key has its dotted key meanwhile, truncated if it is too
+ * long. rest: part of the wanted key from this member on. Returns false if the text is malformed. */
 static bool member(struct reader *r, const char *rest, const char *name, size_t length, int depth)
 {
     const size_t above = r->length;

@@ -34,6 +34,8 @@ static const struct stop bond_stops[] = {
     {1.00, 6, 34, 86},
 };
 
+/* Returns the colour at a position 0..1 of a scale, interpolated between its stops; values beyond get the colour of
+ * the end. */
 static struct colour along_stops(const struct stop *stop, int stops, double at)
 {
     int k = 0;
@@ -52,8 +54,8 @@ struct colour colour_damage(double at) { return along_stops(damage_stops, COUNT_
 struct colour colour_bonds(double at) { return along_stops(bond_stops, COUNT_OF(bond_stops), at); }
 struct colour colour_points(void) { return (struct colour){236, 233, 226, 255}; }
 
-/* Fragment 0, the heaviest, is light grey; nine colours that differ in lightness and hue repeat for the others;
- * particles without bonds are nearly black. */
+/* Returns the colour of a fragment: light grey for fragment 0, the heaviest one; nine colours in turn for others;
+ * nearly black for particles without bonds (-1). */
 struct colour fragment_colour(int32_t fragment)
 {
     static const struct colour turn[] = {{68, 119, 170, 255}, {238, 153, 51, 255},  {34, 136, 51, 255},

@@ -13,6 +13,7 @@
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
+/* Returns the path of a picture in the folder and format of the request. */
 static struct path sheet_path(const struct plot_request *r, enum picture which)
 {
     return picture_path(r->folder, which, picture_ending[r->format]);
@@ -29,7 +30,8 @@ static status draw_map(const struct plot_request *r, const char *path, enum map 
     return maps_draw((struct sheet){path, r->format}, title, map, view, cloud, clouds);
 }
 
-/* Content of the frames that maps would show. */
+/* What the selected frames contain: damage, cracks, two kinds of particles; cracked is the share of particles on
+ * cracks in the last frame. */
 struct contents {
     bool damage, cracks, kinds;
     double cracked;
@@ -67,7 +69,8 @@ static status draw_every(const struct plot_request *r, const struct run_frames *
     return OK;
 }
 
-/* Draws damage and kinds of flat clouds, if the frames have any. */
+/* Draws the maps of damage, of the kinds of particles and of fragments, each only if the frames contain such. The
+ * same maps for every frame follow if r->every is set. scene: for its pre-cracks in 2D; may be NULL. */
 static status draw_views(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud,
                          const struct scene *scene)
 {
@@ -101,7 +104,7 @@ static status draw_flat(const struct plot_request *r, const struct run_frames *f
     return s;
 }
 
-/* Draws a solid in an outside view, and its cracks. */
+/* Draws the maps of a three-dimensional run in an outside view, and its cracks. */
 static status draw_outside(const struct plot_request *r, const struct run_frames *frames, const struct cloud *cloud)
 {
     const struct view view = view_around(cloud, frames->shown);
@@ -162,6 +165,7 @@ static status draw_profiles(const struct plot_request *r, const struct run_frame
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Draws a slice of a run and, in 3D, an outside view. */
 static status draw_solid(struct plot_request *r, const struct run_frames *frames, const struct frame *last)
 {
     r->projection.outside = false;

@@ -24,6 +24,7 @@ static const struct {
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Reads the profile of a probe at frame `number`. FAILED if there is none. */
 static status profile_read(struct history *h, const char *folder, const char *probe, int number)
 {
     char path[PATH_LENGTH];
@@ -48,7 +49,8 @@ static bool is_profile(const char *folder, const char *file, char name[NAME_MAX_
     return has;
 }
 
-/* Chooses the first probe in alphabetical order, so that the choice does not depend on the order of the folder. */
+/* Finds the probes with a closed-form solution whose profiles are in the folder, and stores the name of the first one
+ * in alphabetical order. Returns false if there is none. */
 bool bar_find_probe(const char *folder, char name[NAME_MAX_LENGTH])
 {
     char here[NAME_MAX_LENGTH];
@@ -72,6 +74,7 @@ struct scale {
     char label[64];
 };
 
+/* Extends the range of a scale by the finite values of a column of h; column NULL adds nothing. */
 static void extend(struct scale *s, const struct history *h, const char *column)
 {
     int at = column ? history_find_column(h, column) : -1;
@@ -89,8 +92,8 @@ static void power_text(char *text, size_t room, int power)
     snprintf(text, room, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
 }
 
-/* Returns the scale of panel q with a margin at both ends: strains in powers of ten, other quantities with SI
- * prefixes. */
+/* Returns range, unit and label of panel q for the values of all frames, with a margin at both ends. Strains have a
+ * power of ten as their unit, other quantities an SI prefix. */
 static struct scale scale_of(const struct history *h, int frames, int q)
 {
     struct scale s = {.factor = 1};
@@ -119,6 +122,7 @@ static struct scale scale_of(const struct history *h, int frames, int q)
 
 /* ---- the picture ------------------------------------------------------------------------------------------------- */
 
+/* Sends a number to gnuplot; NaN leaves a gap in a curve. */
 static void send_number(FILE *to, double a)
 {
     if (isfinite(a))
@@ -143,8 +147,8 @@ static void send_frame(FILE *to, const struct history *h, int k, double metre, c
     fputs("EOD\n", to);
 }
 
-/* Colours the background of the peridynamic parts of a frame. half: half a spacing [m]. Returns false if the frame has
- * particles of one kind only. */
+/* Colours the background of a panel where the bar consists of peridynamic particles in frame h. metre: unit of x [m];
+ * half: half a spacing [m]. Returns false if the frame has particles of one kind only; nothing is coloured then. */
 static bool tint_kinds(FILE *to, const struct history *h, double metre, double half)
 {
     int x = history_find_column(h, "x"), kind = history_find_column(h, "kind"), parts = 0;

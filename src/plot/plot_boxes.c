@@ -53,6 +53,7 @@ static void cube_of(const struct scene_canvas *v, const struct cloud *c, int64_t
     if (c->tall > 0) half[1] = c->tall;
 }
 
+/* Paints the cube of particle i on the pixels on which it is nearer to the viewer than what is painted there. */
 static void paint_cube(struct scene_canvas *v, const struct cloud *c, int64_t i, struct colour colour)
 {
     double half[3], at[2], reach[2] = {0, 0};

@@ -37,7 +37,8 @@ static int category_value(const struct cloud *c, int64_t i)
     return (int)fminf(fmaxf(c->value[i], -1), MOST);
 }
 
-/* Returns an allocated array of flags of the values that occur in the clouds; stores the largest value in *last. */
+/* Returns an allocated array seen[1 + value] that is true for each value that occurs in a cloud. Stores the largest
+ * value in *last. */
 static bool *values_seen(int *last, const struct cloud *cloud, int clouds)
 {
     *last = -1;

@@ -12,6 +12,8 @@ static const double COMPARISONS = 2e7;
 
 /* ---- spacing ----------------------------------------------------------------------------------------------------- */
 
+/* Returns the number of particles, of n, that are sampled to estimate the spacing, so that the number of comparisons
+ * is limited. */
 static int64_t sample_count(int64_t n)
 {
     int64_t samples = (int64_t)(COMPARISONS / (double)(n + 1));
@@ -60,7 +62,8 @@ double frame_spacing(const struct frame *f)
     return median_of(distance, known);
 }
 
-/* Returns true if the nearest neighbour in the map is within 8 degrees of an axis. */
+/* Returns true if the direction from particle i to its nearest neighbour in the map is within 8 degrees of an
+ * axis. */
 static bool lies_along(const struct cloud *c, int64_t i)
 {
     double best = INFINITY, along = 0, across = 1;
@@ -75,6 +78,8 @@ static bool lies_along(const struct cloud *c, int64_t i)
     return across < 0.14 * along; /* tan 8 degrees */
 }
 
+/* Returns true if the particles appear to be on a lattice along the axes of the map: lies_along holds for 90 % of a
+ * sample. */
 static bool is_aligned(const struct cloud *c)
 {
     int64_t samples = sample_count(c->n), along = 0;
@@ -84,6 +89,7 @@ static bool is_aligned(const struct cloud *c)
 
 /* ---- slices ------------------------------------------------------------------------------------------------------ */
 
+/* Computes the extent of the reference positions of all particles along axis d [m]. */
 static void frame_extent(const struct frame *f, int d, double *from, double *to)
 {
     *from = INFINITY, *to = -INFINITY;
@@ -194,8 +200,8 @@ static double along(const double *direction, const double *x)
     return direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2];
 }
 
-/* Appends particle i to the cloud: its position along the axes of the map; extends the bounding box of reference
- * positions. */
+/* Appends the current position of particle i along the axes of the map to the cloud, and extends the bounding box of
+ * the cloud by its reference position. */
 static void cloud_place(struct cloud *c, const struct frame *f, int64_t i)
 {
     const int64_t k = c->n;

@@ -59,7 +59,7 @@ void curves_write_time_axis(FILE *to, const struct series *s)
 
 /* ---- crack ------------------------------------------------------------------------------------------------------- */
 
-/* Sets an axis from zero to `top` in the colour of its curve. */
+/* Sets an axis from zero to `top`, with its label and tics in the colour of its curve. */
 static void set_axis(FILE *to, const char *axis, const char *label, int colour, double top)
 {
     fprintf(to,
@@ -213,8 +213,8 @@ status curves_draw(const char *folder, const char *title, enum picture_format fo
 
 /* ---- profiles ---------------------------------------------------------------------------------------------------- */
 
-/* Writes the colour of frame k: colours of curves for a few frames, else a scale from dark to light without the colours
- * too light for lines. text: capacity `room` [byte]. */
+/* Writes the colour of the curve of frame k of `frames`: a fixed colour each if there are few frames, else a shade of
+ * a scale from dark to light. text: capacity `room` [byte]. */
 static void frame_colour(char *text, size_t room, int k, int frames)
 {
     const struct colour c = colour_sequential(0.88 * k / fmax(frames - 1, 1));
@@ -234,8 +234,8 @@ static int plot_curves_by_place(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sets the axis along the bar, extended by half a spacing at both ends, so that the ends are round numbers if those of
- * the body are. */
+/* Sets the range of the axis along the bar to the positions in all frames, extended by half a spacing at both ends.
+ * metre: unit of the axis [m]. */
 static void profile_range(FILE *to, const struct frame *frame, int frames, double metre)
 {
     const double half = 0.5 * frame_spacing(&frame[0]);

@@ -57,8 +57,8 @@ static const struct plot_field fields[] = {
     {"spacing", "spacing", 0, "m", FROM_ZERO},
 };
 
-/* Returns true if the field is a component along an axis that the run lacks. Every run has the stress normal to the
- * plane, which may be a principal stress. */
+/* Returns true if a field is a component along an axis that a run with `dim` dimensions does not have. The stress
+ * normal to a plane exists in every run. */
 static bool lacks_component(const struct plot_field *field, int dim)
 {
     const char *end = strrchr(field->name, '_');

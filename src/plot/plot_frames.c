@@ -17,6 +17,8 @@ enum { PATH_LENGTH = 4096 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the unit with the SI prefix for which the number for `largest` has one to three digits before the point.
+ * name: the unit without prefix. */
 struct unit unit_for(double largest, const char *name)
 {
     static const struct {
@@ -39,6 +41,7 @@ struct unit unit_for_length(double largest)
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if the folder of a run contains a file `name`. */
 bool run_has_file(const char *folder, const char *name)
 {
     char path[PATH_LENGTH];
@@ -168,6 +171,7 @@ status picture_destination(struct path *path, const char *out, const char *name,
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
+/* Prints that a picture is not drawn, and why, and removes an older picture of this name if Cleave drew it. */
 status nothing_to_draw(const char *path, const char *why)
 {
     const char *slash = strrchr(path, '/');

@@ -39,7 +39,8 @@ static struct layout layout_of(int columns, int panels, double aspect, int right
     return l;
 }
 
-/* Returns the arrangement with the largest panels among those with about the wanted shape. */
+/* Returns the arrangement of panels with the best compromise between large panels, a picture of the shape
+ * SHAPE_WANTED and few empty positions. aspect: height over width of a panel; right: margin [pixel]. */
 static struct layout layout_choose(int panels, double aspect, int right)
 {
     struct layout best = layout_of(1, panels, aspect, right);
@@ -69,7 +70,8 @@ void panel_write_margins(FILE *to, const struct layout *l, double left, double a
     set_box(to, l, left, above, l->panel_width, l->panel_height);
 }
 
-/* Returns a round distance of tics over `range`: at least `apart` pixels, and for at most about ten tics. */
+/* Returns a round distance of tics, 1, 2 or 5 times a power of ten, for an axis of length `range` on `pixels` pixels.
+ * Tics are at least `apart` pixels apart, and there are at most about ten. */
 static double plot_maps_tic_distance(double range, int pixels, int apart)
 {
     double least = range * fmax(apart, pixels / 10.0) / pixels, decade = pow(10, floor(log10(least)));
@@ -87,7 +89,8 @@ void panel_write_image(FILE *to, const struct colour *pixel, int width, int heig
     fwrite(pixel, sizeof *pixel, (size_t)width * (size_t)height, to);
 }
 
-/* Draws pre-cracks as thin lines over the next panel: slits of a mesh cause no damage that would show them. */
+/* Draws pre-cracks as thin lines over the panel that follows, since slits of a mesh cause no damage that would show
+ * them. metre: unit of the axes [m]. */
 static void draw_notches(FILE *to, const struct view *view, double metre)
 {
     fputs("unset arrow\n", to);
@@ -136,8 +139,8 @@ void panel_write_directions(FILE *to, const struct layout *l, const struct view 
             end - length, at, end, at, length, metre->name, end - 0.5 * length, at + 10 * pixel);
 }
 
-/* Draws panel number `place`, counted row by row. second: unit of time of all panels; lowest: there is no panel
- * below. */
+/* Draws panel number `place`, counted row by row: the map of a cloud with axes and title. second: unit of time in the
+ * titles; lowest: the panel has labels below, since no other one is there. */
 static void plot_maps_draw_panel(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
                                  enum map map, const struct unit *second, int place, bool lowest)
 {
@@ -263,7 +266,7 @@ static void draw_categories(FILE *to, const struct layout *l, const struct categ
     if (k->more > 0) key_entry(to, l, x, ABOVE + 8 + KEY_LINE * k->n, (struct colour){0}, more);
 }
 
-/* Returns the width on the right for the longest name of a category [pixel]. */
+/* Returns the width that the key of named values needs on the right of the panels [pixel]. */
 static int right_room(const struct view *view, enum map map)
 {
     size_t longest = 12; /* `and 120 more` */
@@ -274,7 +277,7 @@ static int right_room(const struct view *view, enum map map)
     return (int)fmin(map == MAP_CATEGORY ? fmax(RIGHT, BAR_FROM + 30 + 9 * (double)longest) : RIGHT, RIGHT_MAX);
 }
 
-/* Draws the title, and the number of particles outside the rectangle. */
+/* Draws the title and, if there are any, the number of particles outside the shown rectangle. */
 static void draw_title(FILE *to, const struct layout *l, const char *title, int64_t outside)
 {
     char text[TITLE_LENGTH + 64];

@@ -20,7 +20,8 @@ struct canvas {
     double per_metre[2]; /* pixels per metre */
 };
 
-/* Paints particle i on the pixels that it covers and in which its rank is the smallest. */
+/* Paints particle i on all pixels that it covers and that no better particle has: nearer to the centre of the pixel,
+ * or, if several particles are on one pixel, more damaged. */
 static void paint_particle(struct canvas *v, const struct view *view, const struct cloud *c, int64_t i, enum map map)
 {
     double at[2], reach[2];

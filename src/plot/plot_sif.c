@@ -9,8 +9,8 @@
 
 enum { PROBES_SHOWN = 3, PATHS_SHOWN = 6 };
 
-/* Finds the probes that have a column whose name ends in `quantity`; stores at most `most` names and returns their
- * number. */
+/* Finds the columns of the history whose names end in `quantity`, and stores the parts before it, the names of the
+ * probes, in name[most]. Returns their number, at most `most`. */
 static int probes_with(const struct history *h, const char *quantity, char name[][NAME_MAX_LENGTH], int most)
 {
     const size_t tail = strlen(quantity);
@@ -41,7 +41,8 @@ struct factors {
     struct unit unit;
 };
 
-/* Finds the columns K_I, K_II and contour_spread of the sif probes. */
+/* Finds the columns of K_I, K_II and contour_spread of all probes of stress-intensity factors, and a unit for their
+ * largest value. */
 static void find_factors(struct factors *f, const struct history *h)
 {
     double largest = 0;
@@ -70,7 +71,8 @@ static void plot_factors(FILE *to, const struct factors *f)
     putc('\n', to);
 }
 
-/* Plots the spread of the contours; more than 1/2 indicates waves or a kink of the crack inside the ring. */
+/* Plots the relative differences between the contours of each probe. More than 1/2 indicates waves or a kink of the
+ * crack within the contours. */
 static void plot_spread(FILE *to, const struct series *s, const struct factors *f)
 {
     curves_write_time_axis(to, s);
@@ -165,8 +167,8 @@ static void send_tip_path(FILE *to, const struct history *h, const struct tip_pa
     fputs("EOD\n", to);
 }
 
-/* Computes the end of the ray at the angle of an experiment [m], on the side to which the tip has turned. Returns false
- * if there is no experiment. */
+/* Computes the end of a line from the start of a path at the crack angle of an experiment, on the side to which the
+ * computed path has turned and as long as this path has grown [m]. Returns false if there is no experiment. */
 static bool ray_of(const struct tip_path *w, double end[2])
 {
     const double pi = 3.14159265358979323846, along = w->direction * pi / 180;
@@ -176,7 +178,8 @@ static bool ray_of(const struct tip_path *w, double end[2])
     return isfinite(angle);
 }
 
-/* Sets ranges that form a square around all paths and a part of the initial crack. */
+/* Sets equal ranges on both axes that contain the ends of all paths and the lines of the experiments, with a margin.
+ * metre: unit of the axes. */
 static void set_square(FILE *to, const struct tip_path *w, int n, const struct unit *metre)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, end[2], side = 0;

@@ -68,6 +68,7 @@ struct reactions {
     double force, displacement; /* largest force [N]; largest displacement while there is a force [m] */
 };
 
+/* Returns the row of the history in which a force is largest. */
 static int64_t peak_of(const struct history *h, const struct components *force)
 {
     int64_t at = 0;
@@ -76,8 +77,8 @@ static int64_t peak_of(const struct history *h, const struct components *force)
     return at;
 }
 
-/* Finds the first column from `from` on whose name ends in `quantity`; returns its index and the name of its probe (the
- * part before the point), or -1. */
+/* Returns the index of the first column, from column `from` on, whose name ends in `quantity`, and stores the name
+ * before it, the one of its probe. Returns -1 if there is none. */
 static int probe_from(const struct history *h, int from, const char *quantity, char name[NAME_MAX_LENGTH])
 {
     const size_t tail = strlen(quantity);
@@ -91,8 +92,8 @@ static int probe_from(const struct history *h, int from, const char *quantity, c
     return -1;
 }
 
-/* Finds the reaction probes whose supports move; if none moves, all reaction probes, over the displacement of the first
- * point probe. */
+/* Finds the reaction probes whose supports move. If none moves, takes all reaction probes and draws their forces over
+ * the displacement of the first point probe that moves. */
 static void reactions_find(struct reactions *r, const struct history *h)
 {
     char name[NAME_MAX_LENGTH];
@@ -182,7 +183,8 @@ status load_displacement_draw(struct sheet sheet, const char *title, const struc
 
 /* ---- R-curve ----------------------------------------------------------------------------------------------------- */
 
-/* Collects the distinct values of G_c that are given for the materials; returns their number. */
+/* Reads the different critical energy release rates of the materials from the scene of a run into value[]. Returns
+ * their number; 0 if the scene cannot be read. */
 static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
 {
     struct scene s;
@@ -198,13 +200,15 @@ static int toughnesses_of(const char *folder, double value[TOUGHNESSES_SHOWN])
     return n;
 }
 
-/* Returns a unit of area: square millimetres between 0.01 and 100,000 of them. */
+/* Returns square millimetres for areas from 0.01 to 100,000 of them, else square metres. largest: largest value to be
+ * shown [m^2]. */
 static struct unit unit_for_area(double largest)
 {
     return largest > 1e-8 && largest < 0.1 ? (struct unit){1e-6, "mm²"} : (struct unit){1, "m²"};
 }
 
-/* Sends the data block $data: crack area and energy release rate of each load step in which the crack has grown. */
+/* Sends the data block $data: crack area and energy release rate of each load step in which the crack has grown.
+ * area, rate: columns of the history; square: unit of area; factor: unit of the rate. */
 static void release_send(FILE *to, const struct history *h, int area, int rate, struct unit square, double factor)
 {
     double before = 0;
@@ -218,6 +222,7 @@ static void release_send(FILE *to, const struct history *h, int area, int rate, 
     fputs("EOD\n", to);
 }
 
+/* Plots the energy release rate, its mean, and the critical values G_c of n materials as horizontal lines. */
 static void release_plot(FILE *to, const double *toughness, int n, double mean, struct unit rate)
 {
     fprintf(to,

@@ -28,8 +28,9 @@ struct span {
     double from, to;
 };
 
-/* Returns the quantiles `share` and 1 - share of n values. At least `few` values are excluded at each end, unless that
- * is more than 1/20 of all. */
+/* Returns the range of n values without their lowest and highest ones: a share of all at each end, or `few` values if
+ * these are more, but not more than 1/20 of all for `few`. sample[SAMPLE_MOST]: work array. The range is empty if no
+ * value is finite. */
 static struct span bulk_of(float *sample, const float *value, int64_t n, double share, int64_t few)
 {
     const int64_t kept = sample_sorted(sample, value, n), part = (int64_t)(share * (double)(kept - 1));
@@ -44,8 +45,8 @@ static struct span values_extent(const float *value, int64_t n)
     return s;
 }
 
-/* Returns the range along axis k: in each frame all particles but 1 %, extended by 20 % at both ends, united with the
- * initial body and limited to the extent of all particles. */
+/* Returns the range to be shown along axis k. It contains, for each frame, all particles but 1 % at each end,
+ * extended by 20 % of their range, and the initial body, but is not larger than the extent of all particles. */
 static struct span span_along(const struct cloud *cloud, int clouds, int k)
 {
     static const double SHARE = 0.01, BESIDE = 0.2;
@@ -63,6 +64,7 @@ static struct span span_along(const struct cloud *cloud, int clouds, int k)
     return (struct span){fmax(shown.from, all.from), fmin(shown.to, all.to)};
 }
 
+/* Returns the number of particles of a cloud that are outside the rectangle of the view. */
 static int64_t count_outside(const struct view *v, const struct cloud *c)
 {
     int64_t outside = 0;
@@ -99,7 +101,7 @@ struct view view_around(const struct cloud *cloud, int clouds)
     return v;
 }
 
-/* Returns the quantiles of the values of all clouds, as bulk_of for one array. */
+/* Returns the smallest range that contains the result of bulk_of for the values of every cloud. */
 static struct span values_bulk(const struct cloud *cloud, int clouds, double share, int64_t few)
 {
     float *sample = NEW("plot.sample", SAMPLE_MOST, float);

@@ -11,6 +11,7 @@ enum { ARROWS_MOST = 22, ARROWS_FIELD = 60, ARROWS_BAR = 4, HOW = 160, TEXT = 16
 
 /* ---- words ------------------------------------------------------------------------------------------------------- */
 
+/* Appends words to text, which has the capacity TEXT, and returns its new length. */
 static int add_words(char *text, int length, const char *words)
 {
     const int more = snprintf(text + length, (size_t)(TEXT - length), "%s", words);
@@ -26,6 +27,7 @@ static int add_value(char *text, int length, double value, const char *unit)
     return add_words(text, length, words);
 }
 
+/* Returns the magnitude of a vector. */
 static double value_size(const real *value, int dim)
 {
     double sum = 0;
@@ -33,6 +35,7 @@ static double value_size(const real *value, int dim)
     return sqrt(sum);
 }
 
+/* Returns true if a boundary prescribes zero velocity. */
 static bool is_support(const struct boundary *b, int dim)
 {
     return b->kind == BOUNDARY_VELOCITY && !b->rotates && value_size(b->value, dim) == 0;
@@ -55,8 +58,8 @@ struct acting {
     bool varies;
 };
 
-/* Returns the boundary of a load. Static solvers have boundaries of their own, with velocities that ramp the
- * displacements. */
+/* Returns the boundary condition that the scene gives for a load. Static solvers use boundaries of their own, in
+ * which velocities ramp the prescribed displacements. */
 static const struct boundary *boundary_of(const struct run *e, const struct load *l)
 {
     const int64_t number = l - e->loads.load;
@@ -91,7 +94,8 @@ static double vector_at(const struct run *e, const struct load *l, int64_t k, do
     return force > 0 ? pressure : 0;
 }
 
-/* Evaluates a load at time t at every n-th particle. */
+/* Computes the largest magnitude of a load at time t, and the number of its particles on which it is not 0, from
+ * every `every`-th particle. on[]: particles that count; NULL: all. */
 static struct acting acting_at(const struct run *e, const struct load *l, const uint8_t *on, double t, int64_t every)
 {
     struct acting a = {.t = t};
@@ -109,14 +113,15 @@ static struct acting acting_at(const struct run *e, const struct load *l, const 
     return a;
 }
 
+/* Sets the mark of a particle with a face under pressure; context: marks of all particles. */
 static void face_on(void *context, int32_t particle, int axis, int side, real area)
 {
     (void)axis, (void)side;
     ((uint8_t *)context)[particle] |= area > 0;
 }
 
-/* Marks the particles whose face carries a pressure, [n], allocated: the layer behind also carries a share of the load
- * but has no face. */
+/* Returns an allocated array with 1 for each particle whose face carries a pressure. A pressure is distributed over
+ * two layers of particles, of which only the outer one has a face. */
 static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
 {
     const struct particles *p = &e->part;
@@ -129,7 +134,8 @@ static uint8_t *faces_of_pressure(const struct run *e, const struct load *l)
     return on;
 }
 
-/* Evaluates a load at the times of its time function and at MOMENTS equidistant times. */
+/* Returns the state of a load at the time of its largest magnitude, among evenly spaced times and the characteristic
+ * times of its time function. on[]: particles that count; NULL: all. */
 static struct acting acting_of(const struct run *e, const struct load *l, const uint8_t *on)
 {
     enum { MOMENTS = 32, LOOKED_AT = 400 };
@@ -188,12 +194,14 @@ static void describe_boundary(char *text, const struct boundary *b, int dim, con
 /* Returns the stride that selects at most `most` of n particles. */
 static int64_t stride_for(int64_t n, int64_t most) { return n > most ? (n + most - 1) / most : 1; }
 
-/* Particles of a load that are drawn: every m-th line of the lattice in each direction, which covers the whole load. */
+/* Particles of a load that are drawn: those on every `every`-th layer of the lattice along each axis, so that the
+ * drawn particles cover the whole load. layers: number of layers along each axis; from: the first one [m]. */
 struct chosen {
     double from[DIM_MAX], spacing;
     int64_t layers[DIM_MAX], every;
 };
 
+/* Returns true if particle i is on a drawn layer along every axis. */
 static bool chosen_has(const struct chosen *c, const struct particles *p, int32_t i)
 {
     real X[DIM_MAX];
@@ -214,6 +222,7 @@ static int64_t chosen_count(const struct chosen *c, const struct particles *p, c
     return n;
 }
 
+/* Chooses the smallest distance of layers for which at most `most` particles of a load are drawn. */
 static struct chosen choose_particles(const struct marks *m, const struct load *l, int64_t most)
 {
     const struct particles *p = &m->engine->part;
@@ -281,6 +290,8 @@ static void mirror_plane_mark(struct marks *m, const struct boundary *b)
     }
 }
 
+/* Draws boundary condition `number` in a colour of its own: arrows, points or a plane of symmetry, with its
+ * description in the key. */
 static void boundary_mark(struct marks *m, int number)
 {
     const struct scene *s = m->engine->scene;
@@ -320,6 +331,7 @@ void marks_draw_loads(struct marks *m)
 
 /* ---- motion at the start ----------------------------------------------------------------------------------------- */
 
+/* Returns the initial speed of particle i [m/s]. */
 static double speed_at_start(const struct particles *p, int64_t i)
 {
     double sum = 0;
@@ -327,7 +339,8 @@ static double speed_at_start(const struct particles *p, int64_t i)
     return sqrt(sum);
 }
 
-/* Draws an arrow from the centre of each moving rigid body. */
+/* Draws an arrow from the centre of each moving rigid body, along its velocity. fastest: the speed that has an arrow
+ * of full length [m/s]. */
 static void rigid_arrows(struct marks *m, double fastest)
 {
     const struct scene *s = m->engine->scene;

@@ -13,6 +13,7 @@
 
 /* ---- marks ------------------------------------------------------------------------------------------------------- */
 
+/* Returns the component of x along an axis of the picture. */
 static double marks_across(const double *axis, const double *x, int dim)
 {
     double sum = 0;
@@ -56,6 +57,7 @@ void marks_add_colour_key(struct marks *m, struct colour c, const char *text)
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
+/* Sends the outline of a crack as a line. */
 static void crack_line(struct marks *m, const struct crack *c)
 {
     for (int k = 0; k < c->n; k++) mark_add_point(m, c->corner[k], NULL);
@@ -112,7 +114,7 @@ static void circle_line(struct marks *m, const real *centre, double radius)
     }
 }
 
-/* Marks the initial crack tips, of which a tip probe follows that of the longest crack. */
+/* Marks the initial position of every crack tip. */
 static void tip_marks(struct marks *m)
 {
     const struct tips *t = &m->engine->fracture->tips;
@@ -173,6 +175,7 @@ void marks_draw_probes(struct marks *m)
 
 /* ---- regions ----------------------------------------------------------------------------------------------------- */
 
+/* Draws boxes around the named regions of the scene. */
 void marks_draw_regions(struct marks *m)
 {
     const struct scene *s = m->engine->scene;
@@ -193,7 +196,7 @@ void marks_draw_regions(struct marks *m)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if the cell is at the lower corner of a coarse cell. k: receives its index in the box. */
+/* Returns true if a cell is the lowest one of the coarse cell that contains it. k[]: its indices along the axes. */
 static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k)
 {
     const struct grid *g = &l->fine->grid;
@@ -205,6 +208,7 @@ static bool is_corner_cell(const struct mesh_levels *l, int64_t cell, int64_t *k
     return corner;
 }
 
+/* Draws the outlines of all coarse cells of a level and returns their number. */
 static int64_t level_cells_draw(struct marks *m, int level)
 {
     const struct mesh_levels *l = &m->engine->frame->levels;

@@ -35,6 +35,7 @@ static int part_number(const struct scene *s, const struct particles *p, int64_t
     return s->materials > 1 ? p->material[i] : p->body[i];
 }
 
+/* Appends a square particle to a cloud, at the position x projected on the picture plane. size: edge [m]. */
 static void cloud_add(struct cloud *c, const real *x, int dim, double size, struct colour colour)
 {
     const double *axis[3] = {c->camera.right, c->camera.up, c->camera.towards};
@@ -48,7 +49,8 @@ static void cloud_add(struct cloud *c, const real *x, int dim, double size, stru
     c->colour[c->n++] = colour;
 }
 
-/* Appends the positions of particles and their colours. spacing: [p->n], NULL: the spacing of the scene. */
+/* Appends particles to a cloud, coloured by material or body. spacing: edges of the points of coarse cells [m]; NULL:
+ * particles with the spacing of the scene, of which peridynamic ones are darker. */
 static void cloud_add_particles(struct cloud *c, const struct scene *s, const struct particles *part,
                                 const struct particles *p, const real *spacing)
 {
@@ -62,8 +64,9 @@ static void cloud_add_particles(struct cloud *c, const struct scene *s, const st
     }
 }
 
-/* Computes the lattice of sites that shows a rigid body: from: its lower corner [m] (for a body without bounds, of its
- * part beside the particles); count: sites along each axis; step: their distance [m]. Returns the number of sites. */
+/* Computes a lattice of sites in the bounding box of a rigid body, or in the box around the particles if the body is
+ * unbounded. Stores its lower corner from[] [m], the number of sites along each axis and their distance [m]. Returns
+ * the number of sites. */
 static int64_t rigid_sites(const struct scene *s, const struct particles *part, const struct region *shape, real *from,
                            int64_t *count, double *step)
 {
@@ -176,7 +179,7 @@ static void key_of_parts(struct marks *m)
     }
 }
 
-/* Estimates the number of lines of the key. */
+/* Returns the largest number of lines that the key of a scene can have. */
 static int key_lines(const struct scene *s)
 {
     return s->materials + s->bodies + s->rigids + s->boundaries + s->probes + s->growths + s->regions + 6;
@@ -284,6 +287,7 @@ static status draw_scene(struct sheet sheet, struct run *e, struct cloud *c)
 
 /* ---- command ----------------------------------------------------------------------------------------------------- */
 
+/* Determines the path of the picture of a scene: the option -o, or a file in results. */
 static status scene_sheet(struct path *path, const struct scene *s, const struct plot_request *r)
 {
     char name[sizeof s->name + 16];
@@ -291,6 +295,8 @@ static status scene_sheet(struct path *path, const struct scene *s, const struct
     return picture_destination(path, r->out ? r->out : "results/", name, r->overwrite);
 }
 
+/* Creates the run of the scene, draws it and prints what was drawn. REFUSED for an outside view of a scene that is
+ * not three-dimensional. */
 static status draw_made(struct run *e, const struct scene *s, const struct plot_request *r)
 {
     struct path path;

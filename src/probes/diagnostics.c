@@ -18,7 +18,8 @@ void diagnostics_make(struct diagnostics *w)
 
 /* ---- the energy balance ------------------------------------------------------------------------------------------ */
 
-/* The error is the momentum of particles and nodes that was neither present at the start nor supplied since. */
+/* Computes the momentum of all particles and grid nodes, and its error: the part that differs from the initial
+ * momentum plus the impulse supplied since, over the largest momentum so far. */
 void diagnostics_momentum(struct diagnostics *w, const struct particles *p, const struct grid *const *nodes, int grids,
                           const real *impulse)
 {
@@ -61,6 +62,8 @@ void diagnostics_energy_balance(struct diagnostics *w, real t, const struct ener
 
 /* ---- the first break --------------------------------------------------------------------------------------------- */
 
+/* Finds the separate groups of bonds that break in this step, returns their number, and stores the position of the
+ * middle of one. */
 int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, int64_t n, real horizon, real *middle)
 {
     const real along[DIM_MAX] = {0};
@@ -102,7 +105,7 @@ bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p,
 
 /* ---- stability check --------------------------------------------------------------------------------------------- */
 
-/* Returns true if particle i has diverged. */
+/* Returns true if particle i has diverged (particles_diverged with one particle). */
 static bool diagnostics_particle_diverged(const struct particles *p, int64_t i, real limit)
 {
     const int32_t alone[1] = {(int32_t)i};

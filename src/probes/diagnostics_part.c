@@ -6,7 +6,7 @@
 #include "probes/diagnostics.h"
 #include "run/part.h"
 
-/* Writes the energies, the work and the errors of the balances. */
+/* Writes the energies, the external work, and the errors of the balances of energy and momentum. */
 static void put_energy_balance(struct json *j, const struct energy_balance *l)
 {
     json_open(j, "energy", '{');
@@ -18,7 +18,8 @@ static void put_energy_balance(struct json *j, const struct energy_balance *l)
     json_real(j, "angular_momentum_error", l->spin_error);
 }
 
-/* Writes the time t of an event [s], or its number in load steps, as `what`_time or `what`_step. */
+/* Writes the time t of an event [s] under the key `what`_time; in runs in load steps, the number of the step under
+ * `what`_step. Writes no step if t is NAN. */
 static void put_when(struct json *j, const struct scene *scene, const struct run_clock *clock, const char *what, real t)
 {
     char key[NAME_MAX_LENGTH];
@@ -56,7 +57,7 @@ static int64_t driven_bonds(const struct bonds *b, const struct particles *p)
     return broken;
 }
 
-/* Writes the first breaks, the longest crack and all crack tips. */
+/* Writes time and position of the first breaks, the length of the longest crack, and every crack tip. */
 static void put_crack(struct json *j, const struct run *e)
 {
     const struct tip *longest = tips_longest(&e->fracture->tips);

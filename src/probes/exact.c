@@ -16,11 +16,12 @@ static real depth(const struct exact *e, real X) { return e->loaded > 0 ? e->rig
 /* Returns the position at distance s from the loaded end [m]. */
 static real exact_position(const struct exact *e, real s) { return e->loaded > 0 ? e->right - s : e->left + s; }
 
-/* Returns the reflection factor of the end that is not loaded. */
+/* Returns the reflection factor of the end opposite to the loaded one. */
 static int far_reflection(const struct exact *e) { return e->reflection[e->loaded > 0 ? 0 : 1]; }
 
-/* Adds a stress jump [Pa] that travels with `speed` [m/s] towards greater x (sign 1) or smaller x (sign -1) and
- * passed the position `age` seconds before. Balance of momentum across it: rho speed v = -sign sigma. */
+/* Adds the jumps of a stress front to the values at a position. jump: stress behind minus stress ahead [Pa]; sign: 1
+ * or -1, direction of travel along x; age: time since the front passed the position [s], nothing is added if it is
+ * negative. The jump of velocity follows from the balance of momentum, rho speed v = -sign sigma. */
 static void add_front(struct exact_values *v, const struct exact *e, real jump, real modulus, real speed, int sign,
                       real age)
 {
@@ -34,7 +35,8 @@ static void add_front(struct exact_values *v, const struct exact *e, real jump, 
 
 /* ---- loaded bars ------------------------------------------------------------------------------------------------- */
 
-/* Returns the values in a step bar at distance s from the loaded end, as the sum of all fronts that have passed. */
+/* Returns the values at distance s from the loaded end of an elastic bar and time t: the sum of all fronts that have
+ * passed, with their reflections at both ends. */
 static struct exact_values step_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -49,7 +51,8 @@ static struct exact_values step_bar(const struct exact *e, real s, real t)
 /* Returns the stress of the elastic precursor [Pa]: the load, limited by the yield stress. */
 static real precursor(const struct exact *e) { return copysign(real_min(fabs(e->load), e->yield), e->load); }
 
-/* Returns the values in a plastic bar at distance s from the loaded end: precursor and plastic front. */
+/* Returns the values in an elastic-plastic bar at distance s from the loaded end and time t, as the sum of elastic
+ * precursor and plastic front. Valid until the precursor reaches the other end; NAN afterwards. */
 static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 {
     struct exact_values v = {0};
@@ -63,8 +66,8 @@ static struct exact_values plastic_bar(const struct exact *e, real s, real t)
 
 /* ---- pulses ------------------------------------------------------------------------------------------------------ */
 
-/* Adds a pulse in an infinite bar, `eta` [m] ahead of its centre. sign: direction of travel; factor: direction of
- * its displacement times the signs of its reflections at the ends [1]. */
+/* Adds a wave pulse in an infinite bar to v, at a distance eta ahead of the centre of the pulse [m]. sign: direction
+ * of travel along x; factor: sign of its displacement after all reflections. */
 static void add_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real eta, int sign,
                       real factor)
 {
@@ -76,8 +79,8 @@ static void add_pulse(struct exact_values *v, const struct exact *e, const struc
     v->strain += factor * sign * wave.strain;
 }
 
-/* Adds a pulse and its images in the ends of the bar. On the unfolded path of the pulse, images follow one another
- * at distances of the bar's length; the displacement changes sign at a fixed end. */
+/* Adds a pulse and its reflections at the ends of the bar to v, as images of the pulse at distances of the bar's
+ * length. The displacement changes its sign at a fixed end. */
 static void one_pulse(struct exact_values *v, const struct exact *e, const struct wave_pulse *p, real X, real t)
 {
     real L = length(e), gone = wave_speed(e) * t;
@@ -91,7 +94,7 @@ static void one_pulse(struct exact_values *v, const struct exact *e, const struc
     }
 }
 
-/* Returns the sum of all initial pulses and their images. */
+/* Returns the values at position X and time t: the sum of all initial pulses and their reflections. */
 static struct exact_values pulses(const struct exact *e, real X, real t)
 {
     struct exact_values v = {0};
@@ -100,7 +103,7 @@ static struct exact_values pulses(const struct exact *e, real X, real t)
     return v;
 }
 
-/* Returns the values of the manufactured solution. */
+/* Returns the values of the manufactured solution at position X and time t. */
 static struct exact_values manufactured(const struct exact *e, real X, real t)
 {
     real k = 2 * pi / e->wavelength, phase = k * (X - e->origin), grown = square(sin(pi * t / e->period));
@@ -129,8 +132,8 @@ struct exact_values exact_solution_at(const struct exact *e, real X, real t)
 
 /* ---- fronts and plateaus ----------------------------------------------------------------------------------------- */
 
-/* Returns the last front: front m has crossed the bar m times, and the stress behind it is the sum of all jumps up
- * to its own. */
+/* Returns position and stresses of the front in a step bar at time t. The front is reflected at both ends; the stress
+ * behind it is the sum of the jumps of all its passages. */
 static struct exact_front step_front(const struct exact *e, real t)
 {
     real L = length(e), gone = wave_speed(e) * t, m = floor(gone / L);

@@ -23,7 +23,7 @@ static void column_add(struct probes *s, struct probe *q, const char *quantity, 
     q->columns++;
 }
 
-/* Adds a column for each component of a vector. */
+/* Adds a column to the history for each component of a vector, named by the prefix and the axis. */
 static void columns_by_axis(struct probes *s, struct probe *q, const char *prefix, int dim, const char *unit)
 {
     for (int d = 0; d < dim; d++) {
@@ -33,7 +33,7 @@ static void columns_by_axis(struct probes *s, struct probe *q, const char *prefi
     }
 }
 
-/* Adds the columns of a probe, by its kind. */
+/* Adds the columns of the history that a probe of this kind has, and stores the index of the first one. */
 static void columns_add(struct probes *s, struct probe *q, const struct particles *p)
 {
     const int dim = p->dim;
@@ -148,7 +148,8 @@ static status bind_line(struct probe *q, const struct observed *o)
     return status_set(REFUSED, "probe \"%s\": the whole line is outside the bodies", q->request.name);
 }
 
-/* Lists the particles of the region, including those on its surface within round-off. */
+/* Lists the particles of the probe's region, including those on its surface within round-off. REFUSED if there is
+ * none. */
 static status bind_region(struct probe *q, const struct observed *o)
 {
     const struct particles *p = o->part;
@@ -185,7 +186,7 @@ static status bind_support(const struct probe *q, const struct observed *o)
                       q->request.boundary, used > 0 ? known : "none");
 }
 
-/* Finds the growing crack of a GROWTH probe. */
+/* Finds the growing crack that a GROWTH probe measures by its name, or the first one if the probe names none. */
 static status bind_growth(struct probe *q, const struct observed *o)
 {
     for (int k = o->growths - 1; k >= 0; k--)
@@ -260,7 +261,8 @@ void probes_free(struct probes *s)
 
 /* ---- every step -------------------------------------------------------------------------------------------------- */
 
-/* Stores time and position of the first cut in the region of a BREAK probe. */
+/* Stores time, position and number of the first bonds that break in the region of a BREAK probe, if any break in this
+ * step. Bonds of driven particles do not count. */
 static void step_break(struct probe *q, const struct observed *o)
 {
     q->memory.ends = diagnostics_first_break(o->part, q->list, q->n, o->horizon, q->memory.position);
@@ -371,7 +373,8 @@ void probes_sample(struct probes *s, const struct observed *o)
     }
 }
 
-/* Returns true for kinds of probes that measure velocities at the time of a sample. */
+/* Returns true for kinds of probes whose values depend on velocities, which leap-frog provides only between
+ * samples. */
 static bool has_motion(const struct probe *q)
 {
     const enum probe_kind kind = q->request.kind;
@@ -393,7 +396,7 @@ static void sample_sif(struct probe *q, const struct observed *o, real t_velocit
     for (int f = 0; f < SIF_FIGURES; f++) value[f] = q->memory.factors[f];
 }
 
-/* Stores the reaction in the step just made, whose forces are those at the time of the sample. */
+/* Stores the components of the reaction force in value[dim]. The forces are those of the step just made. */
 static void sample_force(const struct probe *q, const struct observed *o, real *value)
 {
     real displacement[DIM_MAX];
@@ -442,6 +445,7 @@ void probes_sample_end(struct probes *s, const struct observed *o, const struct 
 
 /* ---- restart ----------------------------------------------------------------------------------------------------- */
 
+/* Saves the state of all probes to an archive, or restores it. */
 status probes_archive(struct probes *s, struct archive *a)
 {
     if (s->n == 0) return OK;

@@ -13,16 +13,18 @@
 
 /* ---- stress and strain ------------------------------------------------------------------------------------------- */
 
-/* Returns the rank of particle i along the bar; -1 or n for an image beyond an end. */
+/* Returns the rank of particle i, its position in the order from left to right. For image particles beyond the ends
+ * returns -1 (left) or n (right). */
 static int64_t probes_bar_rank(const struct bar *b, const struct particles *p, int32_t i)
 {
     if (i < p->n) return b->rank[i];
     return p->X[0][i] < b->exact.left ? -1 : b->n;
 }
 
-/* Adds the force of each bond at the ranks where it begins and ends: prefix sums over `between` give the force of
- * bonds across a particle, and `end` has half the force of bonds that end at a particle [n + 1, N]. Each bond is
- * added once, from its end with the smaller index; images have no rows and the largest indices. */
+/* Adds the forces of all intact bonds for the computation of the stress in a bar. between[n + 1]: each bond's force
+ * is added behind its left and subtracted at its right particle, so that prefix sums are the forces of the bonds
+ * across each particle. end[n]: half the force of the bonds that end at each particle [N]. Each bond is added
+ * once. */
 static void add_bonds(const struct bar *b, const struct observed *o, real *between, real *end)
 {
     const struct bonds *bonds = o->bonds;
@@ -198,10 +200,9 @@ static void errors(const struct bar *b, const struct observed *o, real *value)
     value[L2_DISPLACEMENT] = sqrt(sum[6] / n);
 }
 
-/* Returns the position at which a field times `factor` passes the middle of a front's jump, in the direction of the
- * jump, interpolated linearly between particles [m]; NAN if there is none. Oscillations and the soft ends of loaded
- * bars can cause other passages: the one nearest to the exact front is taken. The outermost particles are left out,
- * since the load acts on them and their bonds carry half of it. */
+/* Returns the position at which a field times `factor` passes the mean of the values before and behind a front, with
+ * interpolation between particles [m]; NAN if there is none. Of several positions, takes the one nearest to the exact
+ * front. The outermost particles are left out, since the load acts on them and their bonds carry only half of it. */
 static real front_of(const struct bar *b, const struct particles *p, const struct exact_front *f, const real *field,
                      real factor)
 {

@@ -72,7 +72,7 @@ static status find_bar(struct probe *q, const struct observed *o)
 
 /* ---- ends and loads ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if a load acts on a particle. */
+/* Returns true if the list of particles of a load contains the particle. */
 static bool acts_on(const struct load *l, int32_t particle)
 {
     for (int64_t k = 0; k < l->n; k++)
@@ -109,8 +109,8 @@ static bool probes_bar_make_at_rest(const struct particles *p)
     return true;
 }
 
-/* Returns true if the initial velocities are those of the pulses, to a relative 1e-6. They differ if a pulse is cut
- * by its region or by an end, or is added to other motion. */
+/* Returns true if the initial velocities equal the sum of the pulses of the scene, to a relative 1e-6. They do not if
+ * a pulse is cut off by its region or by an end, or if there is other motion. */
 static bool starts_with_pulses(const struct exact *e, const struct particles *p)
 {
     real scale = 0;
@@ -120,7 +120,7 @@ static bool starts_with_pulses(const struct exact *e, const struct particles *p)
     return true;
 }
 
-/* Returns the number of boundaries of a kind; *found is the last of them. */
+/* Returns the number of loads of a kind. *found: the last of them; unchanged if there is none. */
 static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind kind, const struct load **found)
 {
     int n = 0;
@@ -129,7 +129,8 @@ static int probes_bar_make_count_of(const struct observed *o, enum boundary_kind
     return n;
 }
 
-/* Finds the one traction, whose stress at its end is its value along x times the sign of the face's normal. */
+/* Finds the traction on one end of the bar and stores its stress, positive in tension. REFUSED unless there is
+ * exactly one, on a free end and constant in time. */
 static status find_traction(struct probe *q, const struct observed *o)
 {
     struct bar *b = q->bar;

@@ -59,6 +59,7 @@ void growth_readings(const struct growth *g, real *value)
 
 /* ---- tips and supports ------------------------------------------------------------------------------------------- */
 
+/* Returns the crack tip that a TIP probe follows at present; NULL if there is none. */
 const struct tip *probe_tip(const struct probe *q, const struct tips *t)
 {
     if (t->n == 0) return NULL;
@@ -143,7 +144,8 @@ static real fracture_term(const void *context, int64_t k)
     return row >= 0 ? s->o->bonds->fracture_energy[row] : 0;
 }
 
-/* Returns the number of directed bonds of the k-th particle broken by load; rows of driven particles do not count. */
+/* Returns the number of broken bonds of the k-th particle of the region; a bond counts at both of its ends. 0 for
+ * driven particles. */
 static real broken_term(const void *context, int64_t k)
 {
     const struct region_sum *s = context;
@@ -185,7 +187,7 @@ struct emitter {
     const real *sampled; /* columns of the probe at a sample of this time; NULL if there is none */
 };
 
-/* Reports a figure of the probe. */
+/* Reports a value of the probe to the receiver of the figures, unless it is not finite. */
 static void probes_figures_put(const struct emitter *e, const char *quantity, real value)
 {
     if (isfinite(value)) e->emit(e->context, e->q->request.name, quantity, value);

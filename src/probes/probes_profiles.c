@@ -18,7 +18,7 @@ static void profile_header(FILE *file, const struct particles *p)
     fputc('\n', file);
 }
 
-/* Writes the readings of all stations inside the bodies. */
+/* Writes a row of the profile of a LINE probe for each station inside a body. */
 static void profile_rows(FILE *file, const struct probe *q, const struct particles *p)
 {
     real X[DIM_MAX], start[DIM_MAX], value[READINGS_MAX];
@@ -36,7 +36,8 @@ static void profile_rows(FILE *file, const struct probe *q, const struct particl
     }
 }
 
-/* Writes the rows of the profile of an EXACT probe. */
+/* Writes the profile of an EXACT probe as CSV, with a header: computed and exact values of all particles from left to
+ * right. */
 static void bar_rows(FILE *file, const struct probe *q, const struct observed *o)
 {
     real value[BAR_READINGS];
@@ -51,7 +52,7 @@ static void bar_rows(FILE *file, const struct probe *q, const struct observed *o
     }
 }
 
-/* Writes the profile of a probe. */
+/* Writes the profile of a LINE or EXACT probe as CSV, with a header. */
 static void profile_text(FILE *file, const struct probe *q, const struct observed *o)
 {
     if (q->request.kind == PROBE_EXACT) {
@@ -62,8 +63,8 @@ static void profile_text(FILE *file, const struct probe *q, const struct observe
     profile_rows(file, q, o->part);
 }
 
-/* Writes the file name `<probe>_NNNNNN.csv` of a frame. A slash in the name of a list entry, such as a growth,
- * becomes an underscore. */
+/* Writes the file name `<probe>_NNNNNN.csv` of the profile at a frame. A slash in the name of the probe becomes an
+ * underscore. */
 static void profile_name(char *name, const struct probe *q, int frame)
 {
     snprintf(name, PROFILE_NAME, "%.*s_%06d.csv", NAME_MAX_LENGTH, q->request.name, frame);
@@ -87,7 +88,8 @@ bool probes_profile_name(const struct probes *s, int which, int frame, char *nam
     return false;
 }
 
-/* Prints the profile of a probe and hands it to put. Returns FAILED if memory is exhausted or put fails. */
+/* Composes the profile of a probe at a frame and passes name and text to put(context, ...), which writes them. FAILED
+ * if memory is exhausted or put fails. */
 static status profile_put(const struct probe *q, const struct observed *o, probe_file_fn *put, void *context, int frame)
 {
     char name[PROFILE_NAME], *text = NULL;

@@ -19,7 +19,8 @@ struct rigid_sum {
     real centre[2], centre_reference[2];
 };
 
-/* Adds mass, and mass times current and reference position, of particles first .. end - 1 to sum. */
+/* Adds to sum[5], over particles first..end-1 of the probe: mass, mass times current position, mass times reference
+ * position (x, y). Used for the centre of mass. */
 static void centre_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -34,8 +35,8 @@ static void centre_block(const void *context, int64_t first, int64_t end, real *
     }
 }
 
-/* Adds the sums about the centre to sum: m X . x and m X x x (for the best-fit rotation), angular momentum, |m r x
- * v|, kinetic energy. */
+/* Adds to sum[5], over particles first..end-1 of the probe, with X and x relative to the centres of mass: m X . x, m
+ * X x x (both for the best-fit rotation), angular momentum, sum of |m x x v|, kinetic energy. */
 static void turn_block(const void *context, int64_t first, int64_t end, real *sum)
 {
     const struct rigid_sum *s = context;
@@ -76,7 +77,8 @@ status rigid_probe_start(struct probe *q, const struct observed *o)
     return OK;
 }
 
-/* Computes the largest |principal stress| and the largest in-plane shear stress of the particles [Pa]. */
+/* Computes the largest absolute principal stress and the largest in-plane shear stress of the particles of a probe
+ * [Pa]. */
 static void stresses(const struct probe *q, const struct particles *p, real *stress, real *shear)
 {
     *stress = *shear = 0;
@@ -91,13 +93,15 @@ static void stresses(const struct probe *q, const struct particles *p, real *str
 
 enum { RIGID_PLACES = 3 }; /* number of figures that depend on positions only */
 
-/* Updates the largest |value| of figures first .. end - 1. */
+/* Updates m->most[k], the largest absolute value so far of figure k, for k = first..end-1. It becomes NAN with the
+ * value. */
 static void rigid_most(struct rigid_memory *m, const real *value, int first, int end)
 {
     for (int k = first; k < end; k++) m->most[k] = isnan(value[k]) ? NAN : real_max(m->most[k], fabs(value[k]));
 }
 
-/* Accumulates the angle beyond half a turn; samples must be less than half a turn apart. */
+/* Computes the rotation angle of a RIGID probe's body and its largest stresses. The angle is continued beyond half a
+ * turn, provided that the body rotates by less than half a turn between samples. */
 void rigid_probe_sample(struct probe *q, const struct observed *o, real *value)
 {
     struct rigid_memory *m = &q->memory.rigid;

@@ -36,13 +36,13 @@ struct sif_tracked {
     real *body[2];                   /* [n_all] forces of loads over masses [m/s^2] */
 };
 
-/* Returns true for a value that the scene gives, which is neither NAN nor 0. */
+/* Returns true for a value that the scene gives: it is positive, not NAN. */
 static bool given(real value) { return value > 0; }
 
 /* ---- binding ----------------------------------------------------------------------------------------------------- */
 
-/* Sets the contour of the figures, then those to compare: the requested ones, or 0.6, 0.8 and 1 times the outer
- * radius. */
+/* Sets the contour from which the figures are computed, then contours to compare it with: those of the request, or
+ * 0.6, 0.8 and 1 times its outer radius. */
 static void make_contours(struct sif_tracked *w, const struct probe_request *r, real spacing)
 {
     const real outer = given(r->outer) ? r->outer : OUTER * spacing, inner = given(r->inner) ? r->inner : 0.5 * outer;
@@ -55,7 +55,8 @@ static void make_contours(struct sif_tracked *w, const struct probe_request *r, 
     for (int k = 0; k < w->contours; k++) w->reach = real_max(w->reach, w->contour[k].outer);
 }
 
-/* Returns the index of the tip of the run that a request refers to, -1 if none. */
+/* Returns the index of the crack tip that a request refers to: the tip nearest to the position `at`, or the first tip
+ * if there is no `at`; -1 if there is none. */
 static int tip_meant(const struct probe_request *r, const struct observed *o)
 {
     int nearest = -1;
@@ -69,7 +70,7 @@ static int tip_meant(const struct probe_request *r, const struct observed *o)
     return nearest;
 }
 
-/* Returns the index of the growth that starts at the tip, -1 if none. */
+/* Returns the index of the growing crack that starts at the tip of the probe; -1 if none. */
 static int growth_meant(const struct sif_tracked *w, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -79,8 +80,8 @@ static int growth_meant(const struct sif_tracked *w, const struct observed *o)
     return -1;
 }
 
-/* Returns REFUSED if the probe controls a crack other than that of its tip: without `at`, all probes take the first
- * tip. */
+/* Returns REFUSED if this probe controls the growth of another crack than the one whose tip it measures; the key `at`
+ * must then be given. */
 static status own_growth(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
     for (int k = 0; k < o->growths; k++) {
@@ -115,8 +116,8 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     return own_growth(w, r, o);
 }
 
-/* Lists the cracks that separate particles: the pre-cracks, and a straight crack behind a tip that is not the end of
- * one. Particles on a crack are on the side of its normal (crack_cuts). */
+/* Lists the cracks across which particles do not see each other: the pre-cracks and, unless one of them ends at the
+ * tip, a straight crack behind the tip. Sets on which face of the crack particles exactly on it are. */
 static void make_cracks(struct sif_tracked *w, const struct observed *o)
 {
     const struct sif_tip *t = &w->tip;
@@ -141,7 +142,8 @@ static void make_cracks(struct sif_tracked *w, const struct observed *o)
     w->rule.sight = (struct sight){.crack = w->crack, .cracks = o->cracks + !ends, .bonds = o->bonds};
 }
 
-/* Returns true if a ring leaves the body; position is then a point of the ring without a particle. */
+/* Returns true if a circle around the tip is not completely inside the body. position: a point of the circle without
+ * a particle nearby. */
 static bool ring_leaves(const struct sif_tip *t, real radius, const struct observed *o, real position[2])
 {
     const int stations = 16 + (int)real_min(1e4, 4 * radius / o->spacing);
@@ -298,9 +300,9 @@ void sif_probe_store_motion(struct probe *q, const struct observed *o)
     }
 }
 
-/* Computes velocity and acceleration at the time of the sample from the velocities before and after it; the latter
- * is the force over the mass in leap-frog. The velocity is interpolated linearly. No step follows the last sample:
- * its inertia is that of one step earlier. */
+/* Computes velocity and acceleration of all particles at the time of the sample from the velocities before and after
+ * it, which leap-frog provides. After the last sample there is no step, and the values of one step earlier are
+ * used. */
 static void find_inertia(struct sif_tracked *w, const struct particles *p, real t_velocity)
 {
     for (int d = 0; d < 2; d++)
@@ -310,7 +312,8 @@ static void find_inertia(struct sif_tracked *w, const struct particles *p, real 
         }
 }
 
-/* Computes the forces of loads per mass at o->t; returns true if a load acts within the contours. */
+/* Computes the forces of loads divided by the masses [m/s^2] into w->body, with the inertia relief of static bodies.
+ * Returns true if such forces act within the largest contour. */
 static bool find_body_force(struct sif_tracked *w, const struct observed *o)
 {
     const struct particles *p = o->part;

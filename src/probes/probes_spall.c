@@ -47,14 +47,15 @@ static void probes_spall_columns_free(struct columns *c)
     memory_free(c->next);
 }
 
-/* Counts a bond at its ends; prefix sums over the columns give the numbers of bonds across planes. */
+/* Counts a bond between columns a and b: adds 1 at the lower and subtracts 1 at the higher one, so that prefix sums
+ * give the number of bonds across each plane between columns. */
 static void count_across(int32_t *count, int64_t a, int64_t b)
 {
     count[a < b ? a : b]++;
     count[a < b ? b : a]--;
 }
 
-/* Counts the intact and the broken bonds of a body across each plane. */
+/* Counts the intact and the broken bonds of a body across each plane between columns, in c->intact and c->cut. */
 static void columns_bonds(struct columns *c, const struct observed *o, int body)
 {
     const struct bonds *b = o->bonds;
@@ -75,8 +76,8 @@ static void columns_bonds(struct columns *c, const struct observed *o, int body)
     for (int64_t k = 1; k < c->n; k++) c->intact[k] += c->intact[k - 1], c->cut[k] += c->cut[k - 1];
 }
 
-/* Finds the material points nearest to each plane, since the grid connects them. Points that just lost a bond are
- * left out, since they convert next. */
+/* Finds the material points next to each plane between columns, since the grid connects them. Points that have just
+ * lost a bond are ignored, as they are about to become peridynamic. */
 static void columns_points(struct columns *c, const struct particles *p, int body)
 {
     for (int64_t k = 0; k < c->n; k++) c->last[k] = -INFINITY, c->next[k] = INFINITY;
@@ -97,7 +98,8 @@ static bool probes_spall_is_apart(const struct columns *c, int64_t plane)
     return c->intact[plane] == 0 && c->cut[plane] > 0 && !(c->next[plane] - c->last[plane] <= c->longest);
 }
 
-/* Finds the first fracture. Neighbouring planes that separate together are one fracture, at their middle [m]. */
+/* Finds the first fracture along x and stores its position [m]. Neighbouring planes that have separated count as one
+ * fracture, at the middle. Returns false if there is none. */
 static bool columns_apart(const struct columns *c, real *position)
 {
     for (int64_t k = 0; k < c->n - 1; k++) {

@@ -41,7 +41,8 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     warnings_add_and_print(to, text);
 }
 
-/* Removes a profile but keeps a file that is none; returns false if there is no file. */
+/* Removes the profile at `path`; a file of this name that is no profile is left alone. Returns false if there is no
+ * such file or it cannot be removed. */
 static bool profile_remove(const char *path)
 {
     if (!path_exists(path)) return false;

@@ -14,7 +14,8 @@ struct turning {
 /* least scale of angular momentum, over the most that motion of this kinetic energy and inertia can have */
 #define LEAST_TURN 0.01
 
-/* Adds a particle to the moments of its body. */
+/* Adds a particle with its mass, position x and velocity v to the moments of its body: mass, first moments, momentum,
+ * angular momentum about the origin, m x^2 and m v^2. */
 static void turning_add(struct turning *to, real mass, const real *x, const real *v)
 {
     to->mass += mass, to->inertia += mass * dot(x, x, DIM_MAX), to->twice_kinetic += mass * dot(v, v, DIM_MAX);
@@ -25,8 +26,8 @@ static void turning_add(struct turning *to, real mass, const real *x, const real
     }
 }
 
-/* Computes the angular momentum about a position that moves with `velocity`: spin - position x momentum - moment x
- * velocity + mass position x velocity. */
+/* Computes the angular momentum of a body relative to a point that moves with a velocity, from its moments: spin -
+ * position x momentum - moment x velocity + mass position x velocity. */
 static void turning_about(const struct turning *t, const real *position, const real *velocity, real *spin)
 {
     for (int d = 0; d < DIM_MAX; d++) {
@@ -37,9 +38,10 @@ static void turning_about(const struct turning *t, const real *position, const r
     }
 }
 
-/* Computes the angular momentum of all bodies about their common centre of mass [DIM_MAX, kg m^2/s], of particles
- * and of mesh nodes (mesh is NULL if there are none). Returns its scale: the sum of |L| of each body, at least
- * LEAST_TURN of the most that its motion can have. Velocity gradients of APIC are left out. */
+/* Computes the angular momentum of all bodies about their common centre of mass in spin[DIM_MAX] [kg m^2/s], from
+ * particles and mesh nodes (mesh may be NULL), without the velocity gradients of APIC. Returns a scale for it: the
+ * sum of the magnitudes of the bodies, but at least LEAST_TURN of the largest value that is possible with their
+ * kinetic energy. */
 static real diagnostics_spin_of(const struct particles *p, const struct mesh *mesh, int bodies, real *spin)
 {
     struct turning *body = NEW("probes.spin", bodies + 1, struct turning), all = {0};

@@ -197,6 +197,8 @@ status fill_lattice_site(const struct scene *s, int body, real *X)
 
 /* ---- all ------------------------------------------------------------------------------------------------------- */
 
+/* Returns REFUSED with the message that a body has no particles. listed: they would come from a list; otherwise the
+ * message gives the size of the body's shape. */
 static status draft_empty(const struct draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -224,6 +226,7 @@ static status draft_make(struct draft *d)
 
 /* ---- particles --------------------------------------------------------------------------------------------------- */
 
+/* Returns the volume of particle i, as a term of a sum. */
 static real volume_term(const void *volume, int64_t i) { return ((const real *)volume)[i]; }
 
 /* Returns the spacing of the scene [m], or the edge of a particle of mean volume if the scene has none because all
@@ -235,7 +238,8 @@ static real spacing_of(const struct draft *d)
     return pow(reproducible_sum(d->n, volume_term, d->volume) / ((real)d->n * scene_section(s)), 1.0 / s->dim);
 }
 
-/* Copies the draft to the particles, and sets velocity, mass and method from their bodies. optional: sum of WITH_*. */
+/* Creates the particles from the draft, with velocity, mass and method from their bodies where the draft has none.
+ * optional: arrays to be created (WITH_*). */
 static void take_draft(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;
@@ -268,7 +272,8 @@ static void take_skipped(struct particles *p, const struct draft *d)
     p->n_body = p->n + d->skipped;
 }
 
-/* REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite number. */
+/* Returns REFUSED if a particle is farther than FILL_FARTHEST from the origin or its mass is not a positive finite
+ * number. */
 static status check_values(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -283,8 +288,8 @@ static status check_values(const struct particles *p, const struct draft *d, rea
     return OK;
 }
 
-/* REFUSED if the initial state moves a particle farther than FILL_FARTHEST, makes its volume negative or 0, or makes a
- * velocity or stress that is not finite. */
+/* Returns REFUSED if the initial state moves a particle farther than FILL_FARTHEST, makes its volume negative or 0,
+ * or makes a velocity or stress that is not finite. */
 static status check_start(const struct particles *p, const struct draft *d, real spacing)
 {
     for (int64_t i = 0; i < p->n; i++) {
@@ -302,8 +307,8 @@ static status check_start(const struct particles *p, const struct draft *d, real
     return OK;
 }
 
-/* REFUSED if two particles are closer than too_close. The message names the first pair in the sorted order, which does
- * not depend on the number of threads. */
+/* Returns REFUSED if two particles are closer than too_close. The message names the first pair in the sorted order,
+ * which does not depend on the number of threads. */
 static status check_distances(const struct particles *p, const struct draft *d, real spacing)
 {
     struct cells cells;
@@ -414,7 +419,7 @@ static void start_pulse(struct particles *p, int64_t i, const struct wave_pulse 
     p->volume[i] *= 1 + wave.strain * dot(along, moved, dim);
 }
 
-/* REFUSED if an initial displacement gradient inverts the body. */
+/* Returns REFUSED if an initial displacement gradient inverts the body. */
 static status check_initial(const struct scene *s, const struct scene_initial *initial)
 {
     real growth = 1;
@@ -452,7 +457,8 @@ static void start_at_rest(struct particles *p, int64_t i)
     for (int k = 0; k < p->dim * p->dim && p->gradient[k] != NULL; k++) p->gradient[k][i] = 0;
 }
 
-/* Creates the particles of a draft, checks them, applies the initial state and sorts them. */
+/* Creates the particles of a draft, checks them, applies the initial states and sorts them. optional: arrays to be
+ * created (WITH_*). REFUSED for invalid values, lists or positions. */
 static status fill_made(struct particles *p, const struct draft *d, int optional)
 {
     const struct scene *s = d->scene;

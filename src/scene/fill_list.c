@@ -46,7 +46,7 @@ static status refuse_material(const struct scene *s, const struct particle_list 
                       l->head.block ? "of block_id " : "", (int)given + l->head.block, l->head.block, names);
 }
 
-/* Returns true if body k takes its particles from this file. */
+/* Returns true if body k takes its particles from the list in `file`. */
 static bool shares_file(const struct scene *s, int k, const char *file)
 {
     return k < s->bodies && s->body[k].file != NULL && strcmp(s->body[k].file, file) == 0;

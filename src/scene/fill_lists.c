@@ -50,7 +50,8 @@ struct verdict {
     real filled; /* median volume over space up to the nearest [1]             */
 };
 
-/* Copies the positions and volumes of the particles of a body to packed arrays, and sets one_place. */
+/* Copies the positions and volumes of the particles of body c->body to new arrays of c, and sets their number and the
+ * distance below which positions count as equal. */
 static void crowd_take(struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -100,9 +101,9 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Computes the statistics of a body. The sampled entries are spread evenly over the list at positions that match no
- * pattern of the list (Weyl sequence of the golden ratio). Particles of other bodies count as neighbours of material
- * points, which interact with them on the grid; bonds do not cross bodies. */
+/* Computes the statistics of a body from a sample of its particles, spread over its list by a Weyl sequence of the
+ * golden ratio, so that no pattern of the list matters. Particles of other bodies count as neighbours unless the
+ * whole scene is peridynamic, as bonds do not join bodies. */
 static struct verdict crowd_look(const struct crowd *c)
 {
     const struct particles *p = c->p;
@@ -166,7 +167,7 @@ static status refuse_list(const struct crowd *c, const char *format, ...)
                       why);
 }
 
-/* REFUSED if the statistics show units that do not match, or bonds that exceed the memory. */
+/* Returns REFUSED if the statistics show units that do not match, or bonds that exceed the memory. */
 static status crowd_judge(const struct crowd *c, const struct verdict *v)
 {
     const real spacing = c->s->spacing, bytes = BYTES_PER_BOND * v->family * (real)c->n;
@@ -209,7 +210,8 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
 
 /* ---- all lists --------------------------------------------------------------------------------------------------- */
 
-/* Returns the reach of forces [spacings]: the horizon of bonds, about one cell on the grid, at least REACH_LEAST. */
+/* Returns the distance over which particles interact [spacings]: the horizon of bonds, or about one cell of the grid,
+ * at least REACH_LEAST. */
 static real fill_lists_reach_of(const struct scene *s)
 {
     const real bonds = s->method == METHOD_MPM ? 0 : s->horizon, grid = s->method == METHOD_PD ? 0 : s->cell;

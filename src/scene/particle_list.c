@@ -132,7 +132,7 @@ static bool table_shape(hid_t set, struct table *t)
  * compress equal numbers further. */
 enum { ROWS_PER_BYTE_MOST = 1024 };
 
-/* REFUSED if a dataset claims more rows than its file can hold or the memory allows. */
+/* Returns REFUSED if a dataset claims more rows than its file can hold or the memory allows. */
 static status table_check(const struct table *t, const char *path, const char *name)
 {
     struct stat about;
@@ -142,7 +142,8 @@ static status table_check(const struct table *t, const char *path, const char *n
     return list_check_memory(path, t->rows);
 }
 
-/* Returns true if the numbers of a dataset are in this file, not in external or virtual ones. */
+/* Returns true if the data of a dataset are stored in this file, neither in an external file nor as a virtual
+ * dataset. */
 static bool lies_inside(hid_t set)
 {
     hid_t made = H5Dget_create_plist(set);
@@ -279,6 +280,7 @@ static status hdf5_read(struct particle_list *l, const char *path)
 
 /* ---- choice of the format ---------------------------------------------------------------------------------------- */
 
+/* Returns true if a path has the given ending, in capital or small letters. */
 static bool ends_with(const char *path, const char *ending)
 {
     size_t length = strlen(path), tail = strlen(ending);

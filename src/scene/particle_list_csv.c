@@ -20,8 +20,8 @@ struct csv {
     int64_t room;
 };
 
-/* Returns the component of a vector that ParaView writes as `Points:0`, or in other versions as `Points_0`; -1 for
- * other names. */
+/* Returns k for a column name `vector:k` or `vector_k`, the two forms in which ParaView writes component k of a
+ * vector; -1 for other names. Capitals are equal to small letters. */
 static int component_named(const char *name, const char *vector)
 {
     const size_t length = strlen(vector);
@@ -30,14 +30,14 @@ static int component_named(const char *name, const char *vector)
     return name[length + 1] >= '0' && name[length + 1] < '0' + DIM_MAX ? name[length + 1] - '0' : -1;
 }
 
-/* Returns true for names of the block of Peridigm and PeriLab, counted from 1. It is the material here: bonds join
- * blocks, but not bodies. */
+/* Returns true for the column names of mesh blocks in Peridigm and PeriLab, which count from 1. A block is read as a
+ * material, not as a body, because bonds join blocks but not bodies. */
 static bool names_block(const char *name)
 {
     return strcasecmp(name, "block_id") == 0 || strcasecmp(name, "block") == 0;
 }
 
-/* Returns the column with this name, or COLUMN_NONE if columns of this name are not read. */
+/* Returns the column of a list that a name in the header stands for; COLUMN_NONE if there is none. */
 static int column_named(const char *name, int dim)
 {
     const int place = component_named(name, "points"), velocity = component_named(name, "velocity");
@@ -60,7 +60,8 @@ static status weight_column(struct csv *c, const char *name, const char *unit, i
     return csv_fault(&c->in, name, "weight: a mass or a volume? its unit says it, as weight [kg]");
 }
 
-/* Appends a column named in the header. REFUSED if it is given twice, or its unit is of another quantity. */
+/* Appends a column of the file from its name with unit. Columns of unknown names are noted and ignored. has[]:
+ * columns named so far. REFUSED if a column is named twice or its unit is of another quantity. */
 static status csv_column(struct csv *c, char *name, struct particle_list *l, bool *has)
 {
     char what[160];
@@ -168,8 +169,8 @@ static bool comment_names(const char *comment, int dim)
     return by_tabs || by_blanks;
 }
 
-/* Replaces the tabs of a header by blanks if tabs and blanks both separate its fields: the header has then as many
- * names, with all coordinates, as the first entry has values. Otherwise each tab ends a field, which may be empty. */
+/* Replaces the tabs in a header by blanks if both separate the names; then the header has as many names as the first
+ * entry has values. If it does not, the header is left as it is, and each tab ends a field, which may be empty. */
 static void header_unify(char *names, const char *entry, int dim)
 {
     char blank[CSV_LINE_LENGTH], values[CSV_LINE_LENGTH], *rest = values;
@@ -200,7 +201,8 @@ static bool line_of_mesh(const char *text)
     return n == 5 && text[strspn(text, " \t\r\n")] == '\0';
 }
 
-/* Reads the header from `names`, a line other than the current one, which is the first entry. */
+/* Reads the header from the text `names`, which is from line `line` of the file. The current line is the first entry
+ * and is read as such afterwards. */
 static status header_elsewhere(struct csv *c, struct particle_list *l, const char *names, int64_t line)
 {
     char entry[CSV_LINE_LENGTH];
@@ -216,7 +218,8 @@ static status header_elsewhere(struct csv *c, struct particle_list *l, const cha
     return OK;
 }
 
-/* Reads a header with tabs from the current line, and the first entry after it. */
+/* Reads a header that contains tabs from the current line. Reads the next line, the first entry, too, since it shows
+ * whether blanks separate fields as well. */
 static status header_of_tabs(struct csv *c, struct particle_list *l)
 {
     char names[CSV_LINE_LENGTH];
@@ -229,8 +232,9 @@ static status header_of_tabs(struct csv *c, struct particle_list *l)
     return header_read(c, l);
 }
 
-/* Reads the header: the first line that is no comment; if it contains numbers, the first comment that names columns;
- * if there is none, the columns of a Peridigm text mesh. */
+/* Reads the column names. They are in the first line that is not a comment; if this line has numbers, in the first
+ * comment before it that names all coordinates. Without names, a line of five numbers is read as a Peridigm text
+ * mesh. REFUSED otherwise. */
 static status csv_header(struct csv *c, struct particle_list *l)
 {
     static const char mesh[] = "x y z block_id volume";
@@ -272,7 +276,8 @@ static status csv_grow(struct csv *c, struct particle_list *l)
     return OK;
 }
 
-/* Writes -1 - (index of a material name in the list of names), and adds new names. REFUSED for too many names. */
+/* Stores a material name in the list of names unless it is there, and sets *value to -1 minus its index; negative
+ * values thus distinguish names from material numbers. REFUSED for too many or too long names. */
 static status csv_name(const struct csv *c, struct particle_list *l, const char *field, real *value)
 {
     int k = 0;
@@ -285,7 +290,7 @@ static status csv_name(const struct csv *c, struct particle_list *l, const char 
     return OK;
 }
 
-/* Reads field k of a line into its column. */
+/* Reads field k of a line into the column of the list to which it belongs. REFUSED for an invalid value. */
 static status csv_value(const struct csv *c, struct particle_list *l, int k, const char *field)
 {
     const int column = c->column[k];

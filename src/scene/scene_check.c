@@ -15,8 +15,8 @@ static const struct node *scene_check_below(const struct node *root, const char 
     return node_find(node_find(root, group), leaf);
 }
 
-/* REFUSED if thickness is missing in a plane space or given elsewhere, or section is given outside space line. A
- * thickness without meaning is 1. */
+/* Returns REFUSED if thickness is missing in a plane space or given elsewhere, or section is given outside space
+ * line. A thickness without meaning is 1. */
 static status check_measure(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -64,7 +64,8 @@ status check_particle_count(struct reader *r, const struct node *root)
                  node_shown(r, spacing), total, longest);
 }
 
-/* REFUSED for friction where there is none. */
+/* Returns REFUSED if the scene has friction where it is not supported: with the contact law between pairs of
+ * particles, or together with planes of symmetry. */
 status check_friction(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -80,7 +81,7 @@ status check_friction(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for absorbing faces of a static problem. */
+/* Returns REFUSED for absorbing faces of a static problem. */
 status check_absorbing(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -93,7 +94,7 @@ status check_absorbing(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for damping in a static problem, or with local time steps of cells. */
+/* Returns REFUSED for damping in a static problem, or with local time steps of cells. */
 static status check_damping(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -107,7 +108,8 @@ static status check_damping(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for loads that a static problem, or scattered particles, do not bear. */
+/* Returns REFUSED for loads that the rest of the scene does not support: pressures on very irregular particles, and
+ * following loads, rotations and unknown displacements with static solvers. */
 status check_supported_loads(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -137,7 +139,7 @@ status check_supported_loads(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for more than 1e12 time steps. */
+/* Returns REFUSED for more than 1e12 time steps. */
 static status check_steps(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -147,7 +149,7 @@ static status check_steps(struct reader *r, const struct node *root)
                  s->duration / s->time_step);
 }
 
-/* REFUSED if mpm.origin is farther from 0 than particles may be. */
+/* Returns REFUSED if mpm.origin is farther from 0 than particles may be. */
 static status check_origin(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -160,7 +162,7 @@ static status check_origin(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for APIC with linear shape functions. */
+/* Returns REFUSED for APIC with linear shape functions. */
 static status check_transfer(struct reader *r, const struct node *root)
 {
     const struct node *transfer = scene_check_below(root, "mpm", "transfer");
@@ -170,9 +172,8 @@ static status check_transfer(struct reader *r, const struct node *root)
                  "mapped again); flip, or shape gimp, is expected");
 }
 
-/* The default of time.safety is 0.5 if bonds can break, else 0.8. Crack lengths and most angles agree at both. A
- * scene between two crack paths takes one path for factors up to 0.3 to 0.5, and cracks of mospd become shorter
- * above 0.2 (`cleave bench steps`). */
+/* Sets the default of time.safety, the time step over the critical one: 0.5 if bonds can break, else 0.8. Crack
+ * lengths and most angles are equal at both; a scene between two crack paths can change its path above 0.3 to 0.5. */
 void resolve_safety(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -180,7 +181,8 @@ void resolve_safety(struct reader *r, const struct node *root)
         s->safety = scene_bonds_break(s) && s->method != METHOD_MPM ? 0.5 : 0.8;
 }
 
-/* Rigid bodies, several bodies and cracks need contact, except with static solvers. */
+/* Sets the default of contact.between: contact is needed if there are several bodies, rigid bodies or cracks, except
+ * with static solvers. REFUSED for contact settings that contradict the solver or the model. */
 status resolve_contact(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;
@@ -222,8 +224,8 @@ static void resolve_surface(struct scene *s, const struct node *root)
         s->bulk = (s->model == MODEL_MOSPD && s->irregularity == 0) || s->surface == SURFACE_MOMENTS;
 }
 
-/* Returns true if the list of a body is a lattice of the spacing. A list that cannot be read is refused later, when
- * particles are created. */
+/* Returns true if the particles of a body's list are a lattice with the spacing of the scene. Lists that cannot be
+ * read return false and are refused later. */
 static bool list_lattice(const struct scene *s, int body)
 {
     struct particle_list list;
@@ -262,6 +264,7 @@ static void resolve_defaults(struct reader *r, const struct node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
+/* Returns the reason why a body cannot be in the reference frame; NULL if it can. */
 const char *scene_frame_unsupported(const struct scene *s, int body)
 {
     if (s->method == METHOD_PD) return "method pd has no material points";
@@ -289,8 +292,7 @@ const char *scene_frame_not_default(const struct scene *s, int body)
     return NULL;
 }
 
-/* Returns the reason why a key of the scene has no meaning in the reference frame and so requires the current one;
- * NULL if there is no such key. */
+/* Returns the reason, for a message, why a key of the scene requires the current frame; NULL if no key does. */
 static const char *current_frame_key(const struct scene *s)
 {
     if (s->has_shape) return "the scene gives mpm.shape, which the reference frame does not have";
@@ -340,16 +342,16 @@ static status check_times(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for the key accuracy, which only `method: auto` uses (scene_wish.c). */
+/* Returns REFUSED for the key accuracy, which only `method: auto` uses (scene_wish.c). */
 static status check_accuracy(struct reader *r, const struct node *root)
 {
     const struct node *n = node_find(root, "accuracy");
     return n ? fault(r, n, "has no meaning without method: auto") : OK;
 }
 
-/* REFUSED for state-based models in space line, for pd.surface volume with these models, and for weights of bonds
- * near faces together with constants by family, which are another correction, or in space line, where the weights
- * have no effect. */
+/* Returns REFUSED for combinations of material model and surface correction that have no meaning: state-based models
+ * in space line; pd.surface: volume with these models; pd.surface: moments on irregular lattices, in space line, or
+ * with state-based models that normalise each family. */
 static status check_model(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -368,7 +370,7 @@ static status check_model(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for keys that the static solvers do not support. Called after materials and probes are read. */
+/* Returns REFUSED for keys that the static solvers do not support. Called after materials and probes are read. */
 status check_solver(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;

@@ -10,6 +10,7 @@ enum { POWER_MOST = 18 }; /* twice the largest power of a unit */
 
 /* ---- complaints -------------------------------------------------------------------------------------------------- */
 
+/* Returns the number of the character at a position in the text, from 1. */
 int character_of(const struct compile *c, const char *place)
 {
     int characters = 1;
@@ -42,6 +43,8 @@ bool is_dimensionless(const struct quantity *q) { return same_unit(q, &(struct q
 
 /* ---- steps ------------------------------------------------------------------------------------------------------- */
 
+/* Appends a step to the expression: an operation, or the number `value`. Returns false with a message if there are
+ * too many. */
 static bool add_step(struct compile *c, enum expression_op op, real value)
 {
     if (c->steps == EXPRESSION_STEPS)
@@ -59,7 +62,9 @@ bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q
 
 struct operand *operand_from_top(struct compile *c, int below) { return &c->operand[c->operands - 1 - below]; }
 
-/* The result replaces the operands. It is evaluated here, without a step, if all operands are constant. */
+/* Replaces the topmost operands (one or two) by the result of an operation, whose unit the caller gives, and appends
+ * a step to the expression. If the operands are constant, evaluates the result now and appends it as a number.
+ * Returns false with a message if it is not finite or the expression is too long. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit)
 {
     const bool two = expression_has_two(op);
@@ -76,10 +81,11 @@ bool add_operation(struct compile *c, enum expression_op op, const struct quanti
     return add_step(c, EXPRESSION_NUMBER, a->q.value);
 }
 
-/* Returns true for a constant 0 without unit, which has every unit. */
+/* Returns true if an operand is a constant 0 written without a unit, which is compatible with every unit. */
 static bool is_nothing(const struct operand *o) { return o->constant && o->q.bare && o->q.value == 0; }
 
-/* Gives the two topmost operands one unit. */
+/* Checks that the two topmost operands have the same unit; a plain 0 takes the unit of the other operand. Returns
+ * false with a message that names the word at `at` in the text. */
 bool equal_units(struct compile *c, const char *word, const char *at)
 {
     struct quantity *a = &operand_from_top(c, 1)->q, *b = &operand_from_top(c, 0)->q;
@@ -122,7 +128,8 @@ bool add_product(struct compile *c, char sign, const char *at)
     return unit_in_bounds(c, &unit) && add_operation(c, sign == '*' ? EXPRESSION_TIMES : EXPRESSION_OVER, &unit);
 }
 
-/* Raises `unit` to a power. Returns false with a message unless its exponents stay whole or half and small enough. */
+/* Replaces `unit` by its power. Returns false with a message if a resulting exponent of m, kg or s is neither whole
+ * nor half, or is too large. place: number of the character in the text, for the message. */
 static bool power_of_unit(struct compile *c, struct quantity *unit, real power, int place)
 {
     for (int k = 0; k < 3; k++) {
@@ -137,7 +144,8 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
     return true;
 }
 
-/* b must have no unit, and must be constant if a has a unit. */
+/* Appends the operation a^b on the two topmost operands. Returns false with a message if the exponent b has a unit,
+ * or if a has a unit and b is not constant. at: position of the operator in the text. */
 bool add_power(struct compile *c, const char *at)
 {
     const struct operand *b = operand_from_top(c, 0);

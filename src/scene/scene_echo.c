@@ -57,7 +57,8 @@ static int letter_of(const unsigned char *c, unsigned *code)
     return more + 1;
 }
 
-/* Characters other than printable ASCII are written as \U escapes. */
+/* Writes a text in double quotes, as YAML. Quotes and backslashes are escaped; characters other than printable ASCII
+ * become \U escapes. */
 void write_quoted(struct writer *w, const char *text)
 {
     fputc('"', w->out);
@@ -88,7 +89,7 @@ static void write_choice(struct writer *w, const struct key *k, const void *plac
     write_word(w, k->words, word);
 }
 
-/* Writes the words of the set bits as a list, or none. */
+/* Writes the words of a key whose bits are set as a list, or `none`. */
 static void write_set(struct writer *w, const struct key *k, unsigned bits)
 {
     const char *between = "[";
@@ -158,7 +159,8 @@ void write_value(struct writer *w, const struct key *k, const void *place)
     }
 }
 
-/* Returns true if the key has a value to write: the scene gives it, or it has a default. */
+/* Returns true if the echo of the scene writes the key: it has a plain value, given or by default, that is not empty.
+ * place: the value; base: the struct of the key's group. */
 static bool has_value(const struct key *k, const void *base, const void *place)
 {
     if (k->of_process || k->type >= KEY_MAP || (!k->place && k->type != KEY_CHOICE)) return false;
@@ -176,8 +178,9 @@ const void *key_value_address(const struct key *k, const void *base)
     return k->place ? (const char *)base + (k->place - 1) : NULL;
 }
 
-/* Returns true for keys of a body that its kind does not have. A rigid body has neither material nor frame; only
- * rigid bodies have a mass and a force (free ones) or a ramp (driven ones). */
+/* Returns true for keys of a body that have no meaning for its kind: material and frame of rigid bodies, and mass,
+ * force and ramp of other bodies; of rigid bodies, those that move freely have no ramp and driven ones no mass and
+ * force. base: the body. */
 static bool is_left_out(const struct key *k, const char *group, const void *base)
 {
     static const char *const words[] = {"material", "frame", "rigid", "mass", "force", "ramp"};
@@ -228,13 +231,14 @@ void write_group(struct writer *w, const char *group, const void *base)
 
 /* ---- lists ------------------------------------------------------------------------------------------------------- */
 
+/* Begins an item of a list; the dash is written with its first key. */
 void write_item(struct writer *w)
 {
     w->indent = 4;
     w->dash = true;
 }
 
-/* Writes a mapping below an item of a list. */
+/* Writes `key` and below it, indented, the keys of a group whose values are in the struct `base`. */
 void write_mapping(struct writer *w, const char *key, const char *group, const void *base)
 {
     write_key(w, key);
@@ -261,8 +265,9 @@ static void write_materials(struct writer *w)
     }
 }
 
-/* The absolute path lets the echo run from any folder. The checksum is needed since a run resumes with identical
- * contents only. */
+/* Writes a file name with its absolute path, so that the echo runs from any folder, and the checksum of the contents
+ * as a comment, since a run resumes only with identical contents. contents 0: the file has not been read; writes the
+ * name as it is. */
 void write_file_name(struct writer *w, const char *key, const char *file, uint64_t contents)
 {
     char *whole = contents ? realpath(file, NULL) : NULL;

@@ -40,7 +40,7 @@ static void write_extrusion(struct writer *w, const struct solid *s)
     write_keys(w, "solid.extrude", s, ", ");
 }
 
-/* Writes the shape of a solid, such as `box: {..}`. */
+/* Writes the shape of a solid with its keys, such as `box: {..}`. */
 static void write_shape(struct writer *w, const struct solid *s)
 {
     static const char *const words[] = {[SOLID_BOX] = "box",           [SOLID_BALL] = "ball",

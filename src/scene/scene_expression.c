@@ -44,11 +44,14 @@ static const struct function functions[] = {
 
 /* ---- text -------------------------------------------------------------------------------------------------------- */
 
+/* Skips blanks. */
 static void skip(struct compile *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\n') c->at++;
 }
 
+/* Appends `length` characters to the text of the expression that is stored for the echo. Returns false with a message
+ * if the text becomes too long. */
 static bool keep(struct compile *c, const char *text, size_t length)
 {
     if (c->used + length > EXPRESSION_TEXT) return compile_fail(c, "is longer than %d characters", EXPRESSION_TEXT);
@@ -58,7 +61,7 @@ static bool keep(struct compile *c, const char *text, size_t length)
     return true;
 }
 
-/* Copies the text up to `here` to c->kept. */
+/* Appends the part of the source text up to `here` that has not been copied yet to the stored text. */
 static bool keep_to(struct compile *c, const char *here)
 {
     const char *from = c->copied;
@@ -66,7 +69,8 @@ static bool keep_to(struct compile *c, const char *here)
     return keep(c, from, (size_t)(here - from));
 }
 
-/* Copies a number to c->kept in place of the word that ends at c->at. */
+/* Appends the value of a variable in brackets to the stored text, in place of the variable's name, which begins at
+ * `word` and ends at c->at. */
 static bool keep_value(struct compile *c, const char *word, const struct quantity *q)
 {
     char number[32], unit[200], text[240];
@@ -85,6 +89,8 @@ static size_t name_length(const char *c)
     return n;
 }
 
+/* Sets the message that `expected` was expected at the current position, where the text ends or continues otherwise;
+ * returns false. */
 static bool missing(struct compile *c, const char *expected)
 {
     if (*c->at == '\0')
@@ -220,7 +226,8 @@ static bool compile_number(struct compile *c, bool power)
                         letters < 30 ? letters : 30, rest, character_of(c, rest));
 }
 
-/* Compiles a number, a name with or without brackets, or a bracketed expression. */
+/* Compiles a number, a variable, a function call or an expression in brackets. power: in an exponent, where a number
+ * has no unit. */
 static bool compile_primary(struct compile *c, bool power)
 {
     struct quantity q;
@@ -276,7 +283,8 @@ static bool compile_sum(struct compile *c)
     return true;
 }
 
-/* Compiles the whole text; the result is operand[0]. */
+/* Compiles the whole text into steps and checks that nothing follows the expression. Returns false with a message if
+ * it is invalid; otherwise its unit is the one of operand[0]. */
 static bool compile_text(struct compile *c)
 {
     c->at = c->copied = c->text;
@@ -287,6 +295,8 @@ static bool compile_text(struct compile *c)
 
 /* ---- for the reader ---------------------------------------------------------------------------------------------- */
 
+/* Evaluates an expression without x, y, z and t, with its unit. Returns false with a message in what[room] if it is
+ * invalid. */
 bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room)
 {
     struct compile c = {.r = r, .text = text, .what = what, .room = room};
@@ -295,8 +305,8 @@ bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, ch
     return true;
 }
 
-/* Reads a text that is a number of the form `1/3 mm`, as every key reads it; as an expression it would mean 1/(3
- * mm). */
+/* Reads a text of the form `1/3 mm` as a constant, as keys without formulas do; as a formula it would mean 1/(3 mm).
+ * Returns false if the text is not such a number. */
 static bool number_constant(const struct node *n, const struct key *k, struct expression *e)
 {
     char what[256];

@@ -174,7 +174,8 @@ static const struct foreign {
      "units`)"},
 };
 
-/* Compares two words, with - and a blank equal to _; words longer than two letters without regard to case. */
+/* Returns true if `word` equals the first `length` characters of text. A hyphen, a blank and an underscore are equal,
+ * and capitals equal small letters in words of more than two letters. */
 static bool word_is(const char *word, const char *text, size_t length)
 {
     if (strlen(word) != length) return false;
@@ -186,7 +187,7 @@ static bool word_is(const char *word, const char *text, size_t length)
     return true;
 }
 
-/* Returns the row of the table that holds a word, or NULL. */
+/* Returns the row of the table that explains a word of other programs; NULL if the word is not in the table. */
 static const struct foreign *foreign_row(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(foreign); k++)

@@ -7,6 +7,7 @@
 
 /* ---- facts of a key ---------------------------------------------------------------------------------------------- */
 
+/* Returns the description of the type of a key, such as `whole number`. */
 static const char *type_text(const struct key *k)
 {
     switch (k->type) {
@@ -166,7 +167,7 @@ static void print_key(FILE *out, const struct key *k)
     fprintf(out, "%-30s %s\n%-30s   %s\n", k->path, facts, "", k->help);
 }
 
-/* Prints the equivalent of a word that is no key, and the keys that concern it. */
+/* Prints the key that corresponds to a word of other programs, and the keys that are related to it. */
 static void help_foreign(FILE *out, const char *word)
 {
     char text[400], path[64];

@@ -41,9 +41,10 @@ status read_grey_values(struct reader *r, const struct node *n, struct voxel_par
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
+/* Returns true if a node is the word `void`, for grey values without material. */
 static bool is_void(const struct node *n) { return n->kind == NODE_SCALAR && strcmp(n->text, "void") == 0; }
 
-/* REFUSED if a voxel has a grey value that is in no range of `in`. */
+/* Returns REFUSED if a voxel has a grey value that is in no range of `in`. */
 static status check_covered(struct reader *r, const struct node *n, const struct voxels *v, const bool *in)
 {
     const int64_t all = v->n[0] * v->n[1] * v->n[2];
@@ -83,7 +84,8 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
     return s;
 }
 
-/* Returns a copy of a node with its descendants of the next `deep` levels, in the arena. */
+/* Returns a copy of a node and its descendants in the arena, without entries with the key `without`. parent: parent
+ * of the copy. */
 static struct node *node_copy(struct reader *r, const struct node *n, struct node *parent, const char *without)
 {
     struct node *copy = arena_new(r, sizeof *copy);

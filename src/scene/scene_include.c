@@ -19,6 +19,8 @@ struct chain {
 
 /* ---- one mapping over another ------------------------------------------------------------------------------------ */
 
+/* Returns true if the value of the key at a path is a mapping that is merged key by key; other values are
+ * replaced. */
 bool group_is_merged(const char *path)
 {
     if (*path == '\0') return true;
@@ -32,7 +34,7 @@ bool group_is_merged(const char *path)
 
 static bool is_empty(const struct node *n) { return n->kind == NODE_SCALAR && *n->text == '\0'; }
 
-/* REFUSED for a mapping with two equal keys, one of which would be lost. */
+/* Returns REFUSED for a mapping with two equal keys, one of which would be lost. */
 static status check_twins(const struct reader *r, const struct node *map)
 {
     if (map->n > KEYS_MOST) return fault(r, map, "has %d keys; no mapping of a scene has so many", map->n);
@@ -43,7 +45,8 @@ static status check_twins(const struct reader *r, const struct node *map)
     return OK;
 }
 
-/* Merges the entries of `over` into `under`; values of `over` take precedence. group: path of both in the scene. */
+/* Merges the mapping `over` into `under`: values of `over` take precedence, mappings that may be merged are merged
+ * entry by entry, and an empty value removes the entry. group: path of both mappings in the scene. */
 static status merge(struct reader *r, struct node *under, struct node *over, const char *group)
 {
     char path[64];
@@ -66,6 +69,7 @@ static status merge(struct reader *r, struct node *under, struct node *over, con
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Returns true if a file is among those that are being read, so that it would include itself. */
 static bool is_open(const struct chain *chain, const struct stat *file)
 {
     for (; chain; chain = chain->up)
@@ -124,7 +128,8 @@ static status include_file(struct reader *r, const struct node *n, const struct 
     return include_all(r, *root, &(struct chain){chain, file.st_dev, file.st_ino});
 }
 
-/* Merges a scene over the files that it includes. */
+/* Reads the files in the list `include` of a scene in order, merges each over the previous ones, and the scene over
+ * all of them. chain: the files that are being read. */
 static status include_all(struct reader *r, struct node *root, const struct chain *chain)
 {
     struct node *list = node_find(root, "include"), *file;

@@ -32,7 +32,8 @@ static status interface_bodies(struct reader *r, const struct node *n, struct sc
     return OK;
 }
 
-/* Gives a body a copy of its material: bonds distinguish joined bodies by their materials. */
+/* Gives a body its own copy of its material, named material_body, because bonds between joined bodies are
+ * distinguished by material. REFUSED if there are 255 materials already. */
 static status material_apart(struct reader *r, const struct node *n, struct scene_body *b)
 {
     struct scene *s = r->scene;

@@ -29,6 +29,7 @@ static status read_profile(struct reader *r, const struct node *n, struct profil
 
 /* ---- boundary conditions ----------------------------------------------------------------------------------------- */
 
+/* Reads the name of an axis, x, y or z, as its number. REFUSED for axes that the space does not have. */
 static status read_axis(struct reader *r, const struct node *n, const char *text, int *axis)
 {
     *axis = word_index("x|y|z", text);
@@ -59,7 +60,8 @@ static status read_fixed(struct reader *r, const struct node *n, struct boundary
     return OK;
 }
 
-/* Reads one component of a vector: a number, or a formula of the arguments in `of`; the value is 1 then. */
+/* Reads one component of a vector as a number into *value, or as a formula of position and time into *f, with *value
+ * = 1. of: the variables allowed in the formula (EXPRESS_*). */
 static status read_formula(struct reader *r, const struct key *k, const struct node *n, unsigned of, real *value,
                            struct expression *f)
 {
@@ -96,6 +98,7 @@ static status read_pressure(struct reader *r, const struct node *n, struct bound
     return OK;
 }
 
+/* Reads component d of a prescribed velocity or displacement; `free` leaves the component unconstrained. */
 static status read_component(struct reader *r, const struct node *n, struct boundary *b, int d)
 {
     if (n->kind == NODE_SCALAR && strcmp(n->text, "free") == 0) return OK;
@@ -208,7 +211,8 @@ static status read_layer(struct reader *r, const struct node *map, struct bounda
     return read_face(r, map, b);
 }
 
-/* Finds the one key that gives the kind of a boundary condition. REFUSED for none or two. */
+/* Finds the entry of a boundary condition that gives its kind, such as velocity or pressure. REFUSED if there is none
+ * or more than one. */
 static status kind_of_boundary(struct reader *r, const struct node *map, const struct node **kind)
 {
     const char *const words = "fixed|velocity|displacement|rotation|traction|pressure|body_force|mirror|absorbing";
@@ -221,7 +225,7 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
 }
 
-/* Returns true for a value with a unit that is not 0. */
+/* Returns true if a node is a number with a unit or a formula with one, other than 0. value: its value. */
 static bool carries_unit(struct reader *r, const struct node *n, real value)
 {
     struct key plain = *key_find("boundary", "traction");
@@ -233,8 +237,8 @@ static bool carries_unit(struct reader *r, const struct node *n, real value)
     return unit;
 }
 
-/* REFUSED for a value with a unit beside a file column with a unit: only one of both can give the magnitude of the
- * load. */
+/* Returns REFUSED if a boundary takes its function of time from a file column with a unit and also has a value with a
+ * unit: only one of them can give the magnitude of the load. */
 static status check_time_unit(struct reader *r, const struct node *kind, const struct boundary *b)
 {
     real most = 0;
@@ -361,7 +365,7 @@ static status kind_of_probe(struct reader *r, const struct node *n, enum probe_k
     return OK;
 }
 
-/* REFUSED for a reaction probe of a boundary that the scene does not have. */
+/* Returns REFUSED for a reaction probe of a boundary that the scene does not have. */
 static status check_probe_boundary(struct reader *r, const struct node *n, const struct probe_request *p)
 {
     const struct scene *s = r->scene;
@@ -376,7 +380,8 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
     return fault(r, n, "there is no boundary %s; the nearest is %s", p->boundary, s->boundary[nearest].name);
 }
 
-/* REFUSED for a closed form outside space line, and for numbers that are missing or have no meaning. */
+/* Returns REFUSED for a probe with a closed-form solution unless the scene is in space line. REFUSED if a number of
+ * the manufactured solution is missing, or is given with another solution. */
 static status check_exact(struct reader *r, const struct node *n, const struct node *map, const struct probe_request *p)
 {
     const char *const numbers[] = {"amplitude", "period", "wavelength", "origin"};
@@ -398,7 +403,8 @@ static status check_rigid(struct reader *r, const struct node *n, const struct n
     return fault(r, map ? map : n, "plane spaces only in this version");
 }
 
-/* Sets the outer radius from the contours, and checks radii and direction of a sif probe. */
+/* Sets the outer radius of a probe of stress-intensity factors to its last contour, if it is not given. REFUSED if
+ * its radii or its direction are not valid. */
 static status check_sif(struct reader *r, const struct node *n, const struct node *map, struct probe_request *p)
 {
     enum { CONTOURS_MAX = 16 };
@@ -417,7 +423,7 @@ static status check_sif(struct reader *r, const struct node *n, const struct nod
     return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");
 }
 
-/* Reads one probe in any of its forms; keys without a default are NaN if not given. */
+/* Reads one probe in any of its forms. Numbers without a default that are not given become NaN. */
 static status read_probe(struct reader *r, const struct node *n, struct probe_request *p)
 {
     const struct node *map;

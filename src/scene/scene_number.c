@@ -68,7 +68,7 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 
 static bool is_letter(char c) { return isalnum((unsigned char)c) || c == '_'; }
 
-/* REFUSED for a text that is no name, and for a name with a meaning in expressions. */
+/* Returns REFUSED for a text that is no name, and for a name with a meaning in expressions. */
 static status check_variable_name(struct reader *r, const struct node *n)
 {
     size_t length = 0;
@@ -91,6 +91,7 @@ static bool has_word(const char *text, const char *name)
     return false;
 }
 
+/* Returns true if a value in the tree below n, other than its own, contains the name of the variable. */
 static bool is_used(const struct node *n, const struct node *variable)
 {
     if (n->kind == NODE_SCALAR) return n != variable && has_word(n->text, variable->key);
@@ -99,7 +100,7 @@ static bool is_used(const struct node *n, const struct node *variable)
     return false;
 }
 
-/* REFUSED for an override of a variable that no value contains: a misspelt name would have no effect. */
+/* Returns REFUSED for an override of a variable that no value contains: a misspelt name would have no effect. */
 static status check_overrides(struct reader *r, const struct node *root)
 {
     for (const struct variable *v = r->variable; v < r->variable + r->variables; v++) {
@@ -141,6 +142,8 @@ status read_variables(struct reader *r, const struct node *root)
 
 /* ---- numbers ----------------------------------------------------------------------------------------------------- */
 
+/* Reads a number, or an expression of variables, with a unit of the given kind. Returns false with a message in
+ * what[room] if it is invalid. */
 bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
                     size_t room)
 {

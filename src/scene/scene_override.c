@@ -30,6 +30,8 @@ static bool step_of_path(const char **path, const char **key, size_t *length, in
     return true;
 }
 
+/* Appends an empty mapping with the given key to `map` and returns it. origin: number of the override, for
+ * messages. */
 static struct node *new_entry(struct reader *r, struct node *map, const char *key, size_t length, int origin)
 {
     struct node *n = arena_new(r, sizeof *n);
@@ -39,8 +41,8 @@ static struct node *new_entry(struct reader *r, struct node *map, const char *ke
     return n;
 }
 
-/* Returns the name of an item of a list: its `name`; for a probe the `name` below its kind, else the kind. NULL: no
- * name. */
+/* Returns the name by which an item of a list is addressed: the value of its key `name`; for a probe the `name` below
+ * its kind, or else the kind. NULL if it has none. */
 static const char *item_name(const struct node *list, const struct node *item)
 {
     const bool probe = list->key && strcmp(list->key, "probes") == 0;
@@ -53,7 +55,8 @@ static const char *item_name(const struct node *list, const struct node *item)
     return name && name->kind == NODE_SCALAR ? name->text : NULL;
 }
 
-/* Marks a node with the override `origin`, for a message about this override; the tree must not be used afterwards. */
+/* Sets the origin of a node to an override, so that a following error message names the override. The tree must not
+ * be used afterwards. */
 static const struct node *blamed(struct node *n, int origin)
 {
     n->origin = origin;
@@ -74,7 +77,8 @@ static status item_of(struct reader *r, struct node *list, int index, int origin
     return OK;
 }
 
-/* Returns the names of a list's items for a message: ` or by name (pull, hold)`. */
+/* Returns the names of the items of a list as part of a message, such as ` or by name (pull, hold)`; "" if no item
+ * has a name. */
 static const char *names_text(struct reader *r, const struct node *list)
 {
     char text[192] = "";
@@ -89,8 +93,8 @@ static const char *names_text(struct reader *r, const struct node *list)
     return arena_text(r, text, strlen(text));
 }
 
-/* Finds an item of a list by index or name. Items are also addressed by the key of their list and their index, as in
- * boundary0. */
+/* Finds an item of a list. The key is its index, its name, or the name of the list with the index, as in boundary0.
+ * REFUSED with the names of all items if there is no such item. origin: number of the override, for messages. */
 static status item_called(struct reader *r, struct node *list, const char *key, size_t length, int origin,
                           struct node **out)
 {
@@ -116,7 +120,8 @@ static bool is_key(const struct node *n, const char *key, size_t length)
     return strlen(n->key) == length && memcmp(n->key, key, length) == 0;
 }
 
-/* Expands the short forms `tip` and `exact: step bar` to {tip: {}} and {exact: {form: step bar}}. */
+/* Turns a node with a word as its value into a mapping with the entry `key`, whose value is `text` (NULL: empty); for
+ * example `exact: step bar` into `exact: {form: step bar}`. Does nothing to other nodes. */
 static void write_out(struct reader *r, struct node *n, const char *key, const char *text, int origin)
 {
     if (n->kind != NODE_SCALAR || *n->text == '\0') return;
@@ -125,8 +130,8 @@ static void write_out(struct reader *r, struct node *n, const char *key, const c
     if (text) entry->kind = NODE_SCALAR, entry->text = (char *)text;
 }
 
-/* Returns the node with the keys of an item. Keys of a probe are below its kind, which a path may omit: probes.0.at
- * is probes.0.point.at. */
+/* Returns the node below which `key` of an item is found. This is the item itself; for a probe, whose keys are below
+ * its kind, it is the mapping of the kind, so that a path can omit the kind: probes.0.at is probes.0.point.at. */
 static struct node *probe_keys(struct reader *r, struct node *item, const char *key, size_t length, int origin)
 {
     const struct node *list = item->parent;
@@ -137,8 +142,8 @@ static struct node *probe_keys(struct reader *r, struct node *item, const char *
     return item->first;
 }
 
-/* Finds the node `key` in a mapping, which is created if it is missing, or the item of a list with this index or
- * name. */
+/* Finds the node that one part of a path addresses: in a mapping the entry `key`, created if it is missing; in a list
+ * the item with this index or name. origin: number of the override, for messages. */
 static status scene_override_entry_of(struct reader *r, struct node *map, const char *key, size_t length, int origin,
                                       struct node **out)
 {

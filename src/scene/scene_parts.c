@@ -9,7 +9,8 @@
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
 
-/* Reads the fracture strength from at most one of three keys, since two could contradict each other. */
+/* Reads the fracture strength of a material from one of three keys. REFUSED if more than one is given, since they
+ * could contradict each other. */
 static status read_strength(struct reader *r, const struct node *n, struct material *m)
 {
     const char *const ways[] = {"energy_release_rate", "critical_stretch", "toughness"};
@@ -29,7 +30,7 @@ static status read_strength(struct reader *r, const struct node *n, struct mater
     return OK;
 }
 
-/* REFUSED for a Poisson's ratio that bonds cannot have: bond-based peridynamics has one elastic constant, an
+/* Returns REFUSED for a Poisson's ratio that bonds cannot have: bond-based peridynamics has one elastic constant, an
  * isotropic solid two. */
 static status check_poisson(struct reader *r, const struct node *n, const struct material *m)
 {
@@ -58,7 +59,8 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
                  node_shown(r, tangent ? tangent : hardening));
 }
 
-/* Uses a closed form, or for the model with rotations (mospd) the work that separates the lattice. */
+/* Computes the critical stretch of bonds from the energy release rate: in closed form, or for model mospd from the
+ * energy that separates the lattice. */
 real scene_critical_stretch(const struct scene *s, const struct material *m)
 {
     const enum stretch_of model = s->model == MODEL_BOND ? STRETCH_BOND : STRETCH_OSPD;
@@ -91,8 +93,8 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     return OK;
 }
 
-/* REFUSED if viscosity has no effect. Sets the number of levels to 0 if it is automatic: with viscosity all cells
- * have one time step. Switches the active set off: a region at rest beside a moving one has viscous forces. */
+/* Reads the viscosity of a material. With viscosity all cells have one time step, and the active set is off, because
+ * viscous forces act between moving regions and regions at rest. REFUSED where viscosity has no effect. */
 static status read_viscosity(struct reader *r, const struct node *n, struct material *m)
 {
     struct scene *s = r->scene;
@@ -167,7 +169,7 @@ static status read_file(struct reader *r, const struct node *n, struct scene_bod
     return r->files ? particle_list_read_head(&b->list, b->file, r->dim) : OK;
 }
 
-/* REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
+/* Returns REFUSED for keys that a rigid body does not have, and for keys that only a rigid body has. */
 static status check_rigid_body(struct reader *r, const struct node *n, const struct scene_body *b)
 {
     static const char *const own[] = {"mass", "ramp", "force"};
@@ -392,7 +394,7 @@ static status read_growth(struct reader *r, const struct node *n, struct growth_
     return g->probe[0] ? fault(r, node_find(n, "probe"), "there is no sif probe %s", g->probe) : OK;
 }
 
-/* REFUSED for a growth probe of a crack that the scene does not have. */
+/* Returns REFUSED for a growth probe of a crack that the scene does not have. */
 static status check_growth_probes(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -410,7 +412,8 @@ static status check_growth_probes(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* Called after the probes are read, since a sif probe can control growth. */
+/* Reads the rules of crack growth. Must be called after the probes are read, since a probe of stress-intensity
+ * factors can control the growth. */
 status read_growths(struct reader *r, const struct node *root)
 {
     struct scene *s = r->scene;

@@ -30,7 +30,8 @@ static const struct node *auto_method(const struct node *root)
     return method && method->kind == NODE_SCALAR && strcmp(method->text, "auto") == 0 ? method : NULL;
 }
 
-/* Creates the tree of nodes, the scene and its echo; for a scene with `method: auto` only the wish. */
+/* Parses a text, fills the scene and writes its echo to s->text. With `method: auto` only fills *wish, or is REFUSED
+ * if wish is NULL. */
 static status scene_read_all(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -47,8 +48,9 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);
 }
 
-/* Reads a scene from text in the C locale. Frees the nodes, and the scene on failure or if the wish is wanted. wish
- * NULL: `method: auto` is REFUSED. */
+/* Reads a scene from a text of `length` bytes in the C locale. With `method: auto` only the request for pilot runs is
+ * stored, in *wish; if wish is NULL, `method: auto` is REFUSED. The scene is freed on failure and if a request is
+ * stored. */
 static status read_scene(struct reader *r, const char *text, size_t length, struct pilot_wish *wish)
 {
     struct scene *s = r->scene;
@@ -74,7 +76,8 @@ status scene_read_text(struct scene *s, const char *text, size_t length, const c
     return read_scene(&r, text, length, NULL);
 }
 
-/* Reads a scene from a file. wish: as in read_scene. */
+/* Reads a scene from a file, with overrides. With `method: auto` stores the request for pilot runs in *wish; if wish
+ * is NULL, this is REFUSED. */
 static status scene_file_read(struct scene *s, const char *path, const struct scene_override *override, int overrides,
                               struct pilot_wish *wish)
 {

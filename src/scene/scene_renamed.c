@@ -24,7 +24,7 @@ static const struct {
     {"accuracy_chart", TABLE_REMOVED},
 };
 
-/* Adds a pair of names to the note that engine_warn_of_input prints. */
+/* Adds the old and new name of key k to a text of the scene, which is printed later as a warning. */
 static void renamed_note(struct scene *s, int k)
 {
     const size_t used = strlen(s->renamed);

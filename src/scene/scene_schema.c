@@ -9,6 +9,7 @@
 
 /* ---- pieces ------------------------------------------------------------------------------------------------------ */
 
+/* Writes a JSON string with escapes. */
 static void write_string(FILE *out, const char *text, size_t length)
 {
     fputc('"', out);
@@ -70,6 +71,7 @@ static void write_object(FILE *out, const char *group);
 
 /* ---- values ------------------------------------------------------------------------------------------------------ */
 
+/* Returns true if the table has keys in this group. */
 static bool has_children(const char *group)
 {
     bool any = false;
@@ -77,7 +79,8 @@ static bool has_children(const char *group)
     return any;
 }
 
-/* Writes the type of a key that a function reads, by its form in the table; any value if the form is unknown here. */
+/* Writes the type of a key whose value is read by a function of its own, from the description of its form in the
+ * table of keys. Writes that any value is allowed if the description is not recognised. */
 static void write_by_hand(FILE *out, const struct key *k)
 {
     const char *form = k->words ? k->words : "";
@@ -119,8 +122,8 @@ static void write_probe(FILE *out)
     fputs("]}", out);
 }
 
-/* Returns the group of the items of a list: bodies.parts for `parts`, material for `materials`, else the list
- * itself. */
+/* Returns the group of the keys that an item of a list has: material for `materials`, bodies.parts for `parts`, else
+ * the path of the list. */
 static const char *items_group(const struct key *k)
 {
     if (strcmp(k->path, "materials") == 0) return "material";
@@ -142,7 +145,7 @@ static void write_list_items(FILE *out, const struct key *k)
     fputc('}', out);
 }
 
-/* Writes the alternative types of the value of a key. */
+/* Writes the list of JSON types that the value of a key may have. */
 static void write_alternatives(FILE *out, const struct key *k)
 {
     static const char *const definition[] = {
@@ -175,8 +178,8 @@ static void write_alternatives(FILE *out, const struct key *k)
     }
 }
 
-/* Returns true if the mapping with this key is merged with the mappings of other scenes, where an empty value
- * removes a key. */
+/* Returns true if the key is in a mapping that is merged when a scene includes other scenes. An empty value removes
+ * such a key. */
 static bool is_in_merged(const struct key *k)
 {
     char group[64];

@@ -74,6 +74,7 @@ static status paths_read(struct reader *r, const struct node *n, struct shape_fi
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
+/* Releases a file of solids with all that was read from it. */
 static void shape_file_free(struct shape_file *f)
 {
     for (int k = 0; k < f->files; k++) memory_free(f->path[k]);
@@ -107,7 +108,7 @@ static bool same_words(const struct shape_file *a, const struct shape_file *b)
 
 #define CURVE_FINE 0.01 /* largest distance of chords from curved element edges [spacings] */
 
-/* Returns one spacing: the largest depth of the outermost particles of a lattice below a face [m]. */
+/* Returns the spacing that the scene gives [m]; NAN if it gives none. n: any node of the tree. */
 static real spacing_given(struct reader *r, const struct node *n)
 {
     real spacing = NAN;
@@ -118,8 +119,8 @@ static real spacing_given(struct reader *r, const struct node *n)
     return NAN;
 }
 
-/* Reads the file of solid n, unless an earlier solid has read it. Takes ownership of f, and frees it if it is not
- * needed. */
+/* Reads the file f of a solid, or finds the same file with the same settings among those already read. *known points
+ * to the result, which the scene owns. Takes ownership of f, and frees it if it is not needed or cannot be read. */
 static status shape_take(struct reader *r, const struct node *n, struct shape_file *f, struct shape_file **known)
 {
     struct shape_file **last = &r->scene->shapes;
@@ -140,7 +141,7 @@ static status shape_take(struct reader *r, const struct node *n, struct shape_fi
     return OK;
 }
 
-/* REFUSED if the scene gives the hash of the contents, and the file has another. */
+/* Returns REFUSED if the scene gives the hash of the contents, and the file has another. */
 static status check_contents(struct reader *r, const struct node *n, const struct shape_words *words, uint64_t contents)
 {
     char found[NAME_MAX_LENGTH];
@@ -244,7 +245,8 @@ static status read_voxels(struct reader *r, const struct node *n, struct shape_f
     return shape_take(r, n, f, known);
 }
 
-/* Returns the voxels with the given grey values; solids with equal grey values share them. */
+/* Returns the voxels of an image that have the grey values in `wanted`. They are computed once; solids with the same
+ * grey values share them. Owned by f. */
 static const struct voxel_part *grey_part_of(struct shape_file *f, const struct voxel_part *wanted)
 {
     for (int k = 0; k < f->parts; k++)

@@ -39,7 +39,7 @@ static status check_box(struct reader *r, const struct node *n, const struct sol
     return OK;
 }
 
-/* REFUSED for an axis without length, and for a hole or section that does not fit. */
+/* Returns REFUSED for an axis without length, and for a hole or section that does not fit. */
 static status check_round(struct reader *r, const struct node *n, const struct solid *s)
 {
     const bool has_ends = s->kind == SOLID_CYLINDER || s->kind == SOLID_TUBE || s->kind == SOLID_CONE;
@@ -96,7 +96,8 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
     }
 }
 
-/* Reads an extrusion. Its section is in the plane of the other two axes. */
+/* Reads an extrusion along an axis from `begin` to `end`; its section is read as a region in the plane of the other
+ * two axes. REFUSED if the section is missing or begin is not below end. */
 static status read_extrusion(struct reader *r, const struct node *n, struct solid *s)
 {
     const struct node *shape = node_find(n, "shape");
@@ -155,7 +156,8 @@ static status region_called(struct reader *r, const struct node *n, const struct
     return fault(r, n, "there is no %s %s; the nearest is %s", word, node_shown(r, n), nearest->key);
 }
 
-/* Reads the region of a name in place of the reference. REFUSED if the region refers to itself. */
+/* Reads the solids of the region whose name is the value of n into `region`. REFUSED if there is no such region or it
+ * contains itself. */
 static status read_called(struct reader *r, const struct node *n, struct region *region)
 {
     struct naming here = {.outer = r->naming};
@@ -168,7 +170,7 @@ static status read_called(struct reader *r, const struct node *n, struct region 
     return read;
 }
 
-/* Reads a named region as one solid: as the only solid of the region, or as a group. */
+/* Reads the region whose name is the value of n as one solid: the region's only solid, or a group of its solids. */
 static status read_named(struct reader *r, const struct node *n, struct solid *s)
 {
     s->kind = SOLID_GROUP;
@@ -197,7 +199,8 @@ static status read_names(struct reader *r, const struct node *map, struct named_
     return OK;
 }
 
-/* Finds the mapping of a key; NULL if it is not given. */
+/* Finds the mapping of a key with names and solids; *map is NULL if the key is missing. REFUSED if its value is no
+ * mapping or is empty. */
 static status names_find(struct reader *r, const struct node *root, const char *key, const struct node **map)
 {
     *map = node_find(root, key);
@@ -255,8 +258,8 @@ static status read_operation(struct reader *r, const struct node *n, const struc
     return read;
 }
 
-/* Reads one solid with its motions, possibly below add, subtract or intersect. signed_before: the solid is below one
- * of these already. */
+/* Reads one solid with its motions, which may be the operand of add, subtract or intersect. signed_before: it is such
+ * an operand already, so that another operation is REFUSED. */
 static status read_solid(struct reader *r, const struct node *n, struct solid *s, bool signed_before)
 {
     const struct node *child = NULL;
@@ -310,6 +313,7 @@ status read_region(struct reader *r, const struct node *n, struct region *region
 
 /* ---- cracks ------------------------------------------------------------------------------------------------------ */
 
+/* Allocates the corners of a crack without width. */
 static void crack_make(struct crack *c, int n)
 {
     c->corner = memory_new("cracks", n, sizeof *c->corner);
@@ -325,7 +329,8 @@ static void cross_at(const real *a, const real *b, const real *c, real n[DIM_MAX
     }
 }
 
-/* REFUSED unless every corner is in the plane, and on the inner side of every edge, to a millionth of the size. */
+/* Returns REFUSED unless every corner is in the plane, and on the inner side of every edge, to a millionth of the
+ * size. */
 static status check_polygon(struct reader *r, const struct node *n, const struct crack *c)
 {
     real normal[DIM_MAX] = {0}, part[DIM_MAX];
@@ -390,7 +395,7 @@ static status read_crack(struct reader *r, const struct node *n, struct crack *c
     return width ? read_key(r, key_find("cracks", "width"), width, c) : OK;
 }
 
-/* Appends the slits of the meshes of a shape to the cracks, for each copy of a mesh. */
+/* Appends the slits of all meshes in a shape to the cracks of the scene, at the position of each copy of a mesh. */
 static void take_slits(struct scene *s, const struct region *shape)
 {
     const struct placement there = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

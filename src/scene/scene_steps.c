@@ -3,7 +3,7 @@
 
 #include "scene_internal.h"
 
-/* REFUSED for keys that need a run in time. */
+/* Returns REFUSED for keys that require inertia or time, which load steps do not have. */
 static status check_steps_motion(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -32,7 +32,7 @@ static status check_steps_motion(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED for loads that load steps do not support. */
+/* Returns REFUSED for loads that load steps do not support. */
 static status check_steps_loads(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -46,7 +46,7 @@ static status check_steps_loads(struct reader *r, const struct node *root)
     return OK;
 }
 
-/* REFUSED if no boundary loads or displaces the body. */
+/* Returns REFUSED if no boundary loads or displaces the body. */
 static status check_steps_loaded(struct reader *r, const struct node *root)
 {
     const struct scene *s = r->scene;
@@ -86,7 +86,8 @@ status check_load_steps(struct reader *r, const struct node *root)
                  "distance grows");
 }
 
-/* Default values are accepted with any solver, since the echo of a scene has all keys. */
+/* Returns REFUSED if the scene has settings of load steps but another solver. Default values are accepted, because
+ * the echo of every scene writes all keys. */
 status check_steps_given(struct reader *r, const struct node *root)
 {
     const struct scene_steps *s = &r->scene->steps;

@@ -46,7 +46,7 @@ struct time_columns {
     const char *second;                                               /* name of another column of values; NULL: none */
 };
 
-/* Returns the kind of unit of a boundary's value, which a column of a file can have. */
+/* Returns the kind of unit that the value of a boundary has, which a column of a file may have instead. */
 static enum unit unit_of_boundary(const struct boundary *b)
 {
     switch (b->kind) {
@@ -60,8 +60,8 @@ static enum unit unit_of_boundary(const struct boundary *b)
     }
 }
 
-/* Evaluates the name of column k in the header: the time, or the requested values. REFUSED for units that do not
- * fit. */
+/* Examines the name of column k in the header, and stores k if it is the time or the column `wanted` (or any other
+ * one if wanted is ""). REFUSED if its unit does not fit or the time is given twice. */
 static status column_take(struct time_columns *c, int k, char *name, const char *wanted)
 {
     char what[160];
@@ -180,6 +180,7 @@ static status read_time_file(struct reader *r, const struct node *map, struct bo
 
 /* ---- functions of time ------------------------------------------------------------------------------------------- */
 
+/* Reads the function of time of a boundary; it is 1 if n is NULL or `constant`. */
 status read_time(struct reader *r, const struct node *n, struct boundary *b)
 {
     static const char *const groups[] = {"boundary.time.step", "boundary.time.pulse", "boundary.time.ramp"};

@@ -60,7 +60,8 @@ static const struct symbol *symbol_named(const char *name, size_t length)
     return NULL;
 }
 
-/* Reads a symbol, or a prefix and a symbol: `mm`, `GPa`, `kg`, `%`. */
+/* Reads the symbol of a unit with or without a prefix, such as mm, GPa, kg or %, into *m. Returns false for unknown
+ * symbols. */
 static bool symbol_read(struct measure *m, const char *name, size_t length)
 {
     const struct symbol *symbol = symbol_named(name, length);
@@ -164,8 +165,8 @@ static bool is_unit_word(const char *c)
     return !isalnum((unsigned char)*c) && *c != '_';
 }
 
-/* Returns the length of the unit at the beginning of a text, 0 if there is none: as many factors as possible,
- * separated by spaces, `*` or `/`, with no separator before the first. */
+/* Returns the length of the unit at the beginning of a text and stores it in *sum. The unit is the longest product of
+ * factors separated by spaces, `*` or `/`. Returns 0 if there is none. */
 static size_t unit_length(struct measure *sum, const char *text)
 {
     const char *end = text;
@@ -247,8 +248,8 @@ static real number_value(const char *c, size_t length, int ten)
     return strtod(text, NULL);
 }
 
-/* Returns the fault of a number in a form that other languages accept (grouped digits, decimal comma, base 60,
- * hexadecimal, octal); NULL: none. */
+/* Returns a message if the text after or in a number shows a notation of other languages: grouped digits, decimal
+ * comma, base 60, hexadecimal or octal. Returns NULL otherwise. length: number of characters read as a number. */
 static const char *trap(const char *c, size_t length)
 {
     const char *digits = c + (*c == '+' || *c == '-');
@@ -268,7 +269,7 @@ struct complaint {
     size_t room;
 };
 
-/* Writes the fault and the expected unit; returns false. */
+/* Writes the message `wrong` with the expected kind of unit and an example to c.what. Returns false. */
 static bool complain(struct complaint c, const char *wrong, enum unit unit)
 {
     snprintf(c.what, c.room, "%s; %s is expected, as %s", wrong, unit_rows[unit].name, unit_rows[unit].example);
@@ -320,7 +321,8 @@ static bool infinite_read(real *value, const char *text)
     return true;
 }
 
-/* Reads the divisor of a fraction and returns its length; 1 and 0 if there is none. */
+/* Reads `/ number` at the beginning of a text into *divisor and returns its length. Returns 0 and sets *divisor to 1
+ * if there is none. */
 static size_t divisor_read(const char *c, real *divisor)
 {
     const char *start = c;
@@ -380,8 +382,8 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     return in_bounds(c, *value, unit);
 }
 
-/* Returns the length of min, h, rad or deg at the beginning of a text, and sets *factor to its seconds or radians; 0
- * if there is no such unit. */
+/* Returns the length of a unit min, h, rad or deg at the beginning of a text and stores its factor to s or rad in
+ * *factor. Returns 0 and stores 1 if there is none. */
 static size_t factor_length(const char *text, real *factor, bool *is_time)
 {
     const size_t letters = symbol_length(text);
@@ -471,6 +473,7 @@ const char *number_text(char text[32], real value)
 
 /* ---- cleave help units ------------------------------------------------------------------------------------------- */
 
+/* Prints the page about units of `cleave help`. */
 void scene_print_units(FILE *out)
 {
     fputs(

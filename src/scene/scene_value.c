@@ -96,7 +96,7 @@ status fault_both(const struct reader *r, const struct node *a, const struct nod
     return fault(r, late, "given beside %s; keep one of the two", late == a ? b->key : a->key);
 }
 
-/* Returns the form of the value of a key, for messages about missing keys. */
+/* Returns a description of the value that a key expects, for the message that the key is missing. */
 static const char *form_text(struct reader *r, const struct key *k)
 {
     switch (k->type) {
@@ -174,7 +174,7 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 
-/* All keys before the current one are known and different, so the search for a twin is short. */
+/* Returns REFUSED if a key of a mapping is unknown in its group or given twice. */
 status check_keys(struct reader *r, const struct node *map, const char *group)
 {
     for (const struct node *n = map->first; n; n = n->next) {
@@ -202,7 +202,7 @@ status expect_list(struct reader *r, const struct key *k, const struct node *n)
 
 /* ---- scalars ----------------------------------------------------------------------------------------------------- */
 
-/* REFUSED with the expected range if the value is outside it. */
+/* Returns REFUSED with the expected range if the value is outside it. */
 static status check_range(struct reader *r, const struct key *k, const struct node *n, real value)
 {
     const struct range *range = &k->range;
@@ -250,7 +250,7 @@ static status read_whole(struct reader *r, const struct node *n, real *value)
     return fault(r, n, "%s is %g; a whole number is expected", node_shown(r, n), number);
 }
 
-/* Reads a whole number in decimal digits; out of 32 bits it is clamped, and the range refuses it. */
+/* Reads a whole number. Numbers beyond 32 bits are clamped and then refused by the range of the key. */
 static status read_int(struct reader *r, const struct key *k, const struct node *n, int *value)
 {
     const char *c = n->text + (*n->text == '-');
@@ -317,7 +317,7 @@ static const char *word_near(struct reader *r, const char *words, const char *te
     return nearest;
 }
 
-/* Reads a list of words, or none, as bits in the order of the words. */
+/* Reads a list of words, `none` or `all` as bits in the order of the words. REFUSED for unknown words. */
 static status read_set(struct reader *r, const struct key *k, const struct node *n, unsigned *bits)
 {
     const char *words = word_list(r, k->words);
@@ -340,7 +340,7 @@ static status read_set(struct reader *r, const struct key *k, const struct node 
     return OK;
 }
 
-/* Reads any text into name[NAME_MAX_LENGTH]: a name from another file. */
+/* Reads a text of fewer than NAME_MAX_LENGTH characters into name, for names that another file defines. */
 static status read_any_text(struct reader *r, const struct node *n, char *name)
 {
     const size_t length = strlen(n->text);

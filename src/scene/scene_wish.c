@@ -13,7 +13,8 @@
 
 /* ---- the key accuracy -------------------------------------------------------------------------------------------- */
 
-/* Reads the name of a figure of summary.json: names joined by points. */
+/* Reads the name of a quantity in summary.json, parts joined by points as in crack.start_time, into figure[room].
+ * REFUSED for texts that cannot be such a name. */
 static status figure_read(struct reader *r, const struct node *of, char *figure, size_t room)
 {
     if (of->kind != NODE_SCALAR || !*of->text || strlen(of->text) >= room || strpbrk(of->text, " ,/"))
@@ -23,7 +24,8 @@ static status figure_read(struct reader *r, const struct node *of, char *figure,
     return OK;
 }
 
-/* Reads `accuracy`, a share or {of, within, budget}, into figure, within and budget. */
+/* Reads the key `accuracy`, a number or a mapping {of, within, budget}, into figure, within and budget of w; missing
+ * entries get defaults. REFUSED for invalid entries. */
 static status accuracy_read(struct reader *r, const struct node *root, struct pilot_wish *w)
 {
     const struct node *n = tree_find(root, "accuracy");
@@ -48,8 +50,8 @@ static bool material_key(const struct node *root, const char *key)
     return has;
 }
 
-/* Reads the scene with provisional values for the choices of the pilot runs; these values contradict no other key.
- * spacing: for a scene without one [m]. */
+/* Reads the scene with a given method, and with provisional values for the other choices of the pilot runs, which
+ * contradict no key of the scene. spacing: used if the scene has none [m]. The scene s is freed on failure. */
 static status provisional_read(struct reader *r, const char *text, size_t length, struct scene *s, const char *method,
                                real spacing)
 {
@@ -82,7 +84,8 @@ static status provisional_read_any(struct reader *r, const char *text, size_t le
     return read == REFUSED ? provisional_read(r, text, length, s, "pd", spacing) : read;
 }
 
-/* Reads the scene at its own spacing, or at one that suits its lengths, which follow from a first reading at 1 m. */
+/* Reads the scene with its own spacing if it is given; otherwise with 1 m at first and then with a coarse spacing
+ * that suits the lengths of the scene. */
 static status provisional_scene(struct reader *r, const char *text, size_t length, struct scene *s, bool given)
 {
     TRY(provisional_read_any(r, text, length, s, 1));
@@ -99,6 +102,7 @@ static status provisional_scene(struct reader *r, const char *text, size_t lengt
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Reads what a scene with `method: auto` requires of its pilot runs into *w. */
 status pilot_wish_read(struct reader *r, const struct node *root, const char *text, size_t length, struct pilot_wish *w)
 {
     const struct node *model = tree_find(root, "model"), *solver = tree_find(root, "solver");

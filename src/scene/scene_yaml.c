@@ -50,6 +50,7 @@ void arena_free(struct reader *r)
 
 /* ---- nodes ------------------------------------------------------------------------------------------------------- */
 
+/* Appends a node to the entries of a list or mapping. */
 void node_append(struct node *parent, struct node *child)
 {
     child->parent = parent;
@@ -215,7 +216,7 @@ static status read_entries(struct parse *p, struct node *map, int depth)
     }
 }
 
-/* Reads the node that begins with this event, and deletes the event. */
+/* Reads the node that begins with `event` into *out, and deletes the event. depth: levels of nesting above it. */
 static status read_value(struct parse *p, yaml_event_t *event, int depth, struct node **out)
 {
     const char *refusal = event_refusal(event, depth);

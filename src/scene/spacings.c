@@ -65,6 +65,7 @@ static void lengths_collect(struct lengths *l, const struct scene *s)
 /* Returns the least number of equal spacings <= h in a length. */
 static real spacings_in(real length, real h) { return real_max(1, ceil(length / h * (1 - DIGITS))); }
 
+/* Returns true if a length is a whole number of units. */
 static bool length_divides(real unit, real length)
 {
     const real count = length / unit;
@@ -110,6 +111,7 @@ real spacing_fit(const struct scene *s, real h, bool even)
 static const double particles_usual[] = {0, 200, 3000,
                                          8000}; /* number of particles in 1D, 2D, 3D; lengths can require more */
 
+/* Returns the spacing that resolves the extent of a body and the radii of its round solids [m]. */
 static double body_spacing(const struct scene *s, const struct region *shape)
 {
     real from[DIM_MAX], to[DIM_MAX];
@@ -137,6 +139,8 @@ static double distance_to_face(const struct scene *s, const real *X)
     return least;
 }
 
+/* Returns the spacing that resolves the length of a crack and the distances of its ends from the faces of the body
+ * [m]; INFINITY in 1D. */
 static double crack_spacing(const struct scene *s, const struct crack *c)
 {
     double squares = 0, least = INFINITY;
@@ -150,6 +154,8 @@ static double crack_spacing(const struct scene *s, const struct crack *c)
     return least;
 }
 
+/* Returns the spacing that resolves initial pulses, sinusoidal body forces and pulses in time [m]; INFINITY if there
+ * are none. */
 static double load_spacing(const struct scene *s)
 {
     double least = INFINITY;
@@ -165,6 +171,8 @@ static double load_spacing(const struct scene *s)
     return least;
 }
 
+/* Returns the spacing that resolves the contours of a probe of stress-intensity factors [m]; INFINITY for other
+ * probes. */
 static double probe_spacing(const struct probe_request *p)
 {
     double least = INFINITY;
@@ -174,7 +182,7 @@ static double probe_spacing(const struct probe_request *p)
     return least;
 }
 
-/* Returns the spacing at which the bounding boxes of all bodies contain this number of particles [m]. */
+/* Returns the spacing at which the bounding boxes of all bodies together contain a given number of particles [m]. */
 static double spacing_for(const struct scene *s, double particles)
 {
     real from[DIM_MAX], to[DIM_MAX];

@@ -24,6 +24,8 @@ double student_quantile(int n)
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
+/* Computes mean, scatter and mean spacing of the finite values of the runs of level k. level[n]: level of each run.
+ * The scatter is NAN for a single run. */
 static void level_find(struct level_figures *l, const double *spacing, const double *value, const int *level, int n,
                        int k)
 {
@@ -41,7 +43,8 @@ static void level_find(struct level_figures *l, const double *spacing, const dou
     l->deviation = l->runs > 1 ? sqrt(sum / (l->runs - 1)) : NAN;
 }
 
-/* Computes the error of the mean of each level. A level with a single run is assumed to scatter as the others. */
+/* Computes the 95 % error of the mean of each level from the scatter of its runs; for a level with a single run from
+ * the pooled scatter of the other levels. resolution[levels]: added in quadrature; NULL: none. */
 static void errors_find(struct convergence *c, const double *resolution)
 {
     double sum = 0;
@@ -63,7 +66,8 @@ static void errors_find(struct convergence *c, const double *resolution)
 
 /* ---- order ------------------------------------------------------------------------------------------------------- */
 
-/* Returns the ratio (m2 - m1)/(m1 - m0) of the means at order p. */
+/* Returns the ratio (m2 - m1)/(m1 - m0) that the means of the three finest levels (0 the finest) have if the error is
+ * proportional to h^p. */
 static double ratio_at(const struct level_figures *l, double p)
 {
     const double h0 = l[0].spacing, h1 = l[1].spacing / h0, h2 = l[2].spacing / h0;
@@ -71,8 +75,8 @@ static double ratio_at(const struct level_figures *l, double p)
     return (pow(h2, p) - pow(h1, p)) / (pow(h1, p) - 1);
 }
 
-/* Returns the order p for which the means of the three finest levels are linear in h^p. The ratio grows with p, so that
- * bisection finds it. */
+/* Returns the order p at which the means of the three finest levels lie on a line over h^p, by bisection. ratio:
+ * measured ratio of their differences. */
 static double order_find(const struct level_figures *l, double ratio)
 {
     double low = -10, high = 20;
@@ -92,6 +96,8 @@ struct orders {
     double low, seen, high;
 };
 
+/* Computes the observed order of convergence of the three finest levels, and the range of orders that the errors of
+ * their means allow. Returns false if the means oscillate by more than their errors. */
 static bool orders_find(struct orders *o, const struct level_figures *l)
 {
     const double sign =
@@ -106,6 +112,8 @@ static bool orders_find(struct orders *o, const struct level_figures *l)
     return true;
 }
 
+/* Sets verdict, observed order and grid convergence index of a figure from its three finest levels. Order and index
+ * are NAN where they have no meaning. */
 static void convergence_judge(struct convergence *c)
 {
     const struct level_figures *l = c->level;

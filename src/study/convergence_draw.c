@@ -110,8 +110,8 @@ struct extent {
     double low[2], high[2];
 };
 
-/* Returns the index of the tip at sample i. Between samples a tip moves about as far as its crack grows, and its damage
- * fluctuates by a few spacings: a position farther away belongs to another tip. */
+/* Returns the index of the crack tip at sample i: the earlier tip nearest to its position, if it can have moved there
+ * by the growth of its crack, else a new one. Tolerates fluctuations of a few spacings. */
 static int tip_drawn(const struct longest *l, int64_t i, double spacing)
 {
     bool seen[TIPS_MOST] = {false};

@@ -19,8 +19,8 @@ enum { PRINTED_MOST = 24 };
 
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
-/* Returns the change of a figure for a time step 10 % longer, by least squares over the runs of all levels, relative to
- * the mean of their level. */
+/* Returns the change of a figure if the time step is 10 % longer: the slope of a least-squares fit, over the runs of
+ * all levels, of the deviation from the mean of the level. NAN if the runs do not vary the time step. */
 static double step_moves(const struct convergence_study *s, const struct convergence *c, const double *value)
 {
     double xx = 0, xy = 0;
@@ -34,6 +34,8 @@ static double step_moves(const struct convergence_study *s, const struct converg
     return xx > 0 ? xy / xx * log(1.1) : NAN;
 }
 
+/* Returns the change of a figure if the horizon is longer, from the run at level -1; NAN if the study has no such
+ * run. */
 static double horizon_moves(const struct convergence_study *s, const double *value)
 {
     double longer = NAN, own = NAN;
@@ -47,8 +49,8 @@ static double horizon_moves(const struct convergence_study *s, const double *val
     return longer - own;
 }
 
-/* Computes half the step in which a figure is quantised at each level: one spacing for positions and crack lengths, the
- * corresponding rotation for angles. Returns false if it is not quantised. */
+/* Computes for each level half the step in which a figure can change: half a spacing for positions and crack lengths,
+ * and the rotation of the crack by as much for angles. Returns false for figures that change continuously. */
 static bool resolution_find(double *resolution, const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.'), *own = dot ? dot + 1 : name;
@@ -67,6 +69,8 @@ static bool resolution_find(double *resolution, const struct convergence_study *
     return true;
 }
 
+/* Evaluates the convergence of figure number `at` of the table and its sensitivity to time step, spacing and horizon.
+ * Returns false if there are too few values. */
 static bool figure_make(struct figure_study *f, const struct convergence_study *s, int at)
 {
     double *spacing = NEW("study.spacing", s->study.n, double);
@@ -90,7 +94,7 @@ static bool figure_make(struct figure_study *f, const struct convergence_study *
     return true;
 }
 
-/* Returns false if the figure is equal in all runs, for example an energy that the scene does not have. */
+/* Returns true if the figure differs between runs; energies that the scene does not have do not. */
 static bool figure_moves(const struct figure_study *f)
 {
     bool moves = false;
@@ -101,16 +105,16 @@ static bool figure_moves(const struct figure_study *f)
 
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
-/* Returns true if a study without requested figures reports this one. Single tips are left out: their numbering differs
- * between runs. */
+/* Returns true if a figure is reported by a study that requests none. Figures of single crack tips are not, as the
+ * numbers of tips differ between runs. */
 static bool is_of_interest(const char *name)
 {
     const char *dot = strrchr(name, '.');
     return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
-/* Returns true if the figure is a coordinate of one of several positions that tie in a run: other runs may report
- * another position. */
+/* Returns true if the figure is a coordinate of an event that a run finds at several positions at once. Other runs
+ * may report another of these positions. */
 static bool is_one_of_several(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -123,7 +127,8 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
     return false;
 }
 
-/* Returns the rank of a figure in the output: cracks, then others such as probes, then energies. */
+/* Returns the position of a figure's group in the output: 0 for cracks, 1 for others such as probes, 2 for
+ * energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
 static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
@@ -175,6 +180,7 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */
 
+/* Writes a comma and a number; no number if it is not finite. */
 static void print_cell(FILE *to, double value)
 {
     if (isfinite(value))

@@ -40,8 +40,8 @@ static double range_scale(const struct convergence *c)
     return hypot(most - least, 0.5 * error);
 }
 
-/* Solves the least-squares problem for v and a at order p and misfit t. Stores centre and standard deviation of the
- * posterior of v. Returns the logarithm of the likelihood of the means. */
+/* Fits v and a by least squares for a given order p and misfit t. Stores mean and standard deviation of the posterior
+ * of v, in units of `scale` relative to the finest mean. Returns the logarithm of the likelihood of the means. */
 static double part_fit(const struct convergence *c, double scale, double p, double t, double *centre, double *deviation)
 {
     const double trend = pow(c->level[c->levels - 1].spacing / c->level[0].spacing, p) - 1;
@@ -61,7 +61,8 @@ static double part_fit(const struct convergence *c, double scale, double p, doub
     return -0.5 * (misfit - v * value - a * slope + spread + log(determinant));
 }
 
-/* Computes the mixture. Returns false if all means are equal and exact. */
+/* Computes the mixture of normal distributions of v over all orders and misfits, with normalised weights. Returns
+ * false if scale is 0: all means are equal and have no error. */
 static bool mixture_make(struct mixture *m, const struct convergence *c, double scale)
 {
     double most = -INFINITY, sum = 0;
@@ -84,6 +85,7 @@ static bool mixture_make(struct mixture *m, const struct convergence *c, double 
 
 /* ---- intervals --------------------------------------------------------------------------------------------------- */
 
+/* Returns the probability that a standard normal variable is below z. */
 static double normal_below(double z) { return 0.5 * erfc(-z * 0.70710678118654752); }
 
 /* Returns the probability that v is within half_width of `about`. */
@@ -97,7 +99,8 @@ static double mixture_within(const struct mixture *m, double about, double half_
     return sum;
 }
 
-/* Returns the half-width that contains v with probability `share`, by bisection to 1e-9 S. */
+/* Returns the half-width of the interval around `about` that contains v with the probability `share`, by
+ * bisection. */
 static double mixture_half_width(const struct mixture *m, double about, double share)
 {
     double low = 0, high = 4 * VAGUE;

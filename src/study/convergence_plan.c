@@ -23,6 +23,8 @@ struct places {
 
 /* ---- positions --------------------------------------------------------------------------------------------------- */
 
+/* Adds a distance if it is a whole number of spacings, or of spacings plus one half, at the scene's own spacing [m].
+ * Ignores other distances, distances below one spacing and duplicates. */
 static void place_add(struct places *p, double distance, double spacing)
 {
     const double at = fabs(distance) / spacing, off = fabs(at - round(at));
@@ -34,6 +36,8 @@ static void place_add(struct places *p, double distance, double spacing)
     p->place[p->n++].half = off > 0.5 - MEETS;
 }
 
+/* Collects the distances of faces and cracks from the lower corner of their body that are whole or half numbers of
+ * spacings. */
 static void places_find(struct places *p, const struct scene *s)
 {
     real low[DIM_MAX], high[DIM_MAX];
@@ -55,8 +59,8 @@ static void places_find(struct places *p, const struct scene *s)
     }
 }
 
-/* Returns the largest distance between a position and the lattice position that it should have at this spacing
- * [spacings]. */
+/* Returns the largest deviation of a position from the lattice, at a spacing, if it must be on a lattice plane or
+ * midway between two [spacings]. */
 static double misfit(const struct places *p, double spacing)
 {
     double worst = 0;
@@ -69,8 +73,8 @@ static double misfit(const struct places *p, double spacing)
 
 /* ---- spacings ---------------------------------------------------------------------------------------------------- */
 
-/* Returns the spacing within the relative range `reach` of `wanted` that fits best, the nearest of several equal ones,
- * and none of taken[n]; 0: none. */
+/* Returns the spacing within the relative range `reach` of `wanted` that fits the positions best; of equally good
+ * ones the nearest to `wanted`. Excludes the spacings taken[n]. Returns 0 if there is none. */
 static double spacing_near(const struct places *p, double wanted, double reach, const double *taken, int n)
 {
     double longest = 0, best = 0, least = INFINITY;

@@ -19,8 +19,8 @@ enum { RUNS_LEAST = 3, FINER_MOST = 2, OVERRIDES_OWN = 6, VALUE_ROOM = 40 };
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
 
-/* Returns the factor on the time step of a run: 1 for run 0, then values on alternating sides, the most distant
- * first. */
+/* Returns the factor on the time step of run number `run` of `runs` at a level. Run 0 has the step of the scene; the
+ * others alternate between shorter and longer steps, the most different first. Limited to stable steps. */
 static double step_of(const struct convergence_study *s, int run, int runs)
 {
     const double most = s->scene.time_step > 0 ? INFINITY : SAFETY_MOST / s->scene.safety;
@@ -30,7 +30,8 @@ static double step_of(const struct convergence_study *s, int run, int runs)
     return centre * (1 + (run % 2 ? -1 : 1) * range * (pairs - pair) / pairs);
 }
 
-/* Returns the spacing of a run: the level's own for run 0, then the others in turn. */
+/* Returns the spacing of a run of a level [m]: run 0 has the first spacing of the level, and further runs use its
+ * spacings in turn. */
 static double spacing_in_turn(const struct convergence_study *s, int level, int run)
 {
     return s->spacings.at[level][run % s->spacings.n[level]];
@@ -38,13 +39,15 @@ static double spacing_in_turn(const struct convergence_study *s, int level, int 
 
 static bool has_bonds(const struct scene *s) { return s->method != METHOD_MPM; }
 
-/* Returns the horizon of a run at this spacing [spacings]. */
+/* Returns the horizon of runs at a spacing [spacings]: that of the scene; if the horizon is fixed, the length in
+ * metres that it has at the coarsest level. */
 static double horizon_at(const struct convergence_study *s, double spacing)
 {
     const double coarsest = s->spacings.at[s->spacings.levels - 1][0];
     return s->scene.horizon * (s->fixed_horizon ? coarsest / spacing : 1);
 }
 
+/* Appends the override key = number to o[], with its text in value[*n], and increments *n. */
 static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM], const char *key, double number)
 {
     snprintf(value[*n], VALUE_ROOM, "%.15g", number);
@@ -52,7 +55,8 @@ static void value_put(struct scene_override *o, int *n, char value[][VALUE_ROOM]
     ++*n;
 }
 
-/* Adds a run to the study: the overrides of the user, then its own. */
+/* Adds a run to the study, with the overrides of the user followed by those for spacing, horizon, time step and
+ * random numbers of this run. */
 static void point_add(struct convergence_study *s, struct study_point p)
 {
     char value[OVERRIDES_OWN][VALUE_ROOM], name[CASE_NAME_ROOM];
@@ -90,8 +94,8 @@ static void level_run_add(struct convergence_study *s, int level, int run, int r
 
 /* ---- budget ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the duration of a run at a spacing over that of the first run: ratio of particles, steps, and bonds if the
- * horizon is longer. */
+/* Returns the predicted duration of a run at a spacing [s], from the first run: in proportion to the number of
+ * particles and steps, and of bonds if the horizon in metres is fixed. */
 static double cost_beside(const struct convergence_study *s, double spacing)
 {
     const double first = s->point[s->first].spacing, finer = first / spacing;
@@ -99,7 +103,7 @@ static double cost_beside(const struct convergence_study *s, double spacing)
     return s->spent * pow(finer, s->scene.dim + 1) * longer;
 }
 
-/* Returns the duration of all runs, `jobs` at a time [s]. */
+/* Returns the predicted duration of all planned runs [s], with `jobs` of them at a time. */
 static double cost_of_all(const struct convergence_study *s, int jobs)
 {
     double sum = 0, longest = 0;
@@ -111,8 +115,8 @@ static double cost_of_all(const struct convergence_study *s, int jobs)
     return fmax(sum / jobs, longest);
 }
 
-/* Sets the number of runs of each level. Runs that would be equal are left out: without variation of the time step or
- * random numbers each spacing is run once. */
+/* Sets the number of runs of the finest level to `finest` and of the other levels to `runs`. Without random particles
+ * or varied time steps it is at most the number of spacings of the level, since further runs would be equal. */
 static void runs_set(struct convergence_study *s, int runs, int finest)
 {
     const bool steps = scene_moves(&s->scene) && step_of(s, 1, 3) != step_of(s, 2, 3);
@@ -123,7 +127,9 @@ static void runs_set(struct convergence_study *s, int runs, int finest)
     }
 }
 
-/* Reduces the number of runs to the time left [s]. Returns false if there is not enough time for any. */
+/* Chooses the largest number of runs per level, at most `runs`, that takes no longer than `left` [s] on `jobs`
+ * parallel processes. If there is not enough time, tries one run at the finest level. Returns false if this takes too
+ * long as well. */
 static bool runs_fit(struct convergence_study *s, int runs, int jobs, double left)
 {
     for (int k = runs; k >= RUNS_LEAST; k--) {
@@ -198,8 +204,8 @@ static status first_run_sound(struct convergence_study *s, const struct converge
     return done;
 }
 
-/* Plans levels that start `shift` steps of sqrt(2) above the scene's own spacing, without those at which the scene is
- * invalid. Returns false if too few are left. */
+/* Plans levels of spacings from the scene's own spacing times 2^(shift/2) upwards, without those at which the scene
+ * is invalid. Returns false if no valid plan results. */
 static bool levels_plan(struct convergence_study *s, const struct convergence_request *w, int shift)
 {
     int levels = w->levels - (shift < 0 ? shift : 0);
@@ -263,6 +269,7 @@ static void plan_print(const struct convergence_study *s)
                 1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
 }
 
+/* Plans a convergence study within its budget, runs it and reads the figures of all runs into s->table. */
 static status study_go(struct convergence_study *s, const struct convergence_request *w)
 {
     struct study_options options = w->options;

@@ -9,10 +9,10 @@
 
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
 
-/* Returns true if a run of the scene can have the figures of the group on contact. */
+/* Returns true if runs of the scene have results on contact. */
 static bool of_contact(const struct scene *s) { return s->contact_between != CONTACT_NONE || scene_bodies_meet(s); }
 
-/* Returns true if a run of the scene can have the figures of the group on fragments. */
+/* Returns true if runs of the scene have results on fragments. */
 static bool of_fragments(const struct scene *s) { return scene_moves(s) && scene_cracks(s); }
 
 /* Figures of a group, separated by blanks; group "": of the whole run. `#` in a group stands for a number. had: returns
@@ -80,6 +80,7 @@ struct nearest {
     int distance;
 };
 
+/* Replaces the most similar name found so far by group.leaf, if this is more similar to the wanted name. */
 static void nearest_offer(struct nearest *n, const char *group, const char *leaf)
 {
     char name[NAME_ROOM];
@@ -88,7 +89,8 @@ static void nearest_offer(struct nearest *n, const char *group, const char *leaf
     if (distance < n->distance) n->distance = distance, snprintf(n->name, sizeof n->name, "%s", name);
 }
 
-/* Returns true if `leaf` is one of the leaves; compares each with the wanted name to find the most similar one. */
+/* Returns true if `leaf` is in the list `leaves`, separated by blanks. Each name of the list, joined to `group`, is
+ * also compared with the wanted name, to find the most similar one. */
 static bool leaf_is_known(const char *leaves, const char *group, const char *leaf, struct nearest *n)
 {
     bool known = false;
@@ -114,7 +116,8 @@ static void numbers_hidden(char *to, size_t room, const char *name)
     to[n] = '\0';
 }
 
-/* Returns true if the name is a figure of a probe of the scene. group: name before its last point. */
+/* Returns true if `group` is a probe of the scene (probes.NAME) and its kind has the figure `leaf`. Compares all
+ * names with the wanted one, to find the most similar one. */
 static bool probe_has(const struct scene *s, const char *group, const char *leaf, struct nearest *n)
 {
     char own[NAME_ROOM];
@@ -127,8 +130,8 @@ static bool probe_has(const struct scene *s, const char *group, const char *leaf
     return known;
 }
 
-/* Returns what the scene lacks for a figure with these axes in its name (x, velocity_y, stress_zx_max); NULL:
- * nothing. */
+/* Returns the kind of space that a figure needs because of the axes in its name, such as velocity_y or stress_zx_max,
+ * and that the scene does not have, as a phrase for a message; NULL if none is missing. */
 static const char *axes_lack(const struct scene *s, const char *leaf)
 {
     char axes[LEAF_ROOM];
@@ -144,8 +147,8 @@ static const char *axes_lack(const struct scene *s, const char *leaf)
     return strchr(own, 'z') && s->dim < 3 && !across ? "a solid" : NULL;
 }
 
-/* Returns what the scene lacks for times and speeds of cracks, which runs in load steps do not have, or for numbers of
- * load steps; NULL: nothing. */
+/* Returns the solver that a figure of this name needs and the scene does not have, as a phrase for a message: times
+ * and speeds of cracks need a run in time, numbers of steps need load steps. NULL if none is missing. */
 static const char *clock_lacks(const struct scene *s, const char *leaf)
 {
     const char *end = strrchr(leaf, '_');
@@ -154,7 +157,8 @@ static const char *clock_lacks(const struct scene *s, const char *leaf)
     return (time || speed) && scene_in_steps(s) ? "a solver in time: load steps have no speed" : NULL;
 }
 
-/* Returns what the scene lacks for a figure of a known name; NULL: nothing. */
+/* Returns what the scene does not have but a figure of a known name needs, as a phrase for a message; NULL if the
+ * figure exists. */
 static const char *figure_lacks(const struct scene *s, const char *group, const char *name, const char *leaf)
 {
     const bool crack = strncmp(group, "crack", 5) == 0, probe = strncmp(group, "probes.", 7) == 0;

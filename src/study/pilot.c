@@ -21,6 +21,7 @@ enum { REFUSED_MOST = 4 };
 
 /* ---- one study --------------------------------------------------------------------------------------------------- */
 
+/* Appends a key and its value to the choices in *to, and increments *n. */
 static void chosen_put(struct pilot *to, int *n, const char *key, const char *value)
 {
     INVARIANT(*n < CHOSEN_MOST);
@@ -79,6 +80,7 @@ static status candidate_study(struct pilot_search *p, struct pilot_candidate *c,
 
 /* ---- the search -------------------------------------------------------------------------------------------------- */
 
+/* Returns the time of the budget that is left [s]. */
 static double time_left(const struct pilot_search *p) { return fmax(p->wish.budget - (wall_clock() - p->begun), 0); }
 
 /* Returns the candidate with the cheapest predicted run; NULL if none has a prediction. */
@@ -90,6 +92,8 @@ static struct pilot_candidate *cheapest(struct pilot_search *p)
     return best;
 }
 
+/* Studies every method once, each with an equal share of a part of the time. Spacings at which the scene is invalid
+ * are refined and tried again. */
 static status search_first(struct pilot_search *p)
 {
     const double fixed = p->wish.spacing, first = p->wish.provisional.spacing;
@@ -109,7 +113,9 @@ static status search_first(struct pilot_search *p)
     return OK;
 }
 
-/* Studies a method at finer spacings. Returns false if there is no time left or the study yields nothing new. */
+/* Repeats the study of a method at finer spacings, as fine as its prediction requires and the remaining time allows,
+ * and replaces *c by the result. Returns false if there is no time left, the study yields nothing new, or it is
+ * interrupted (*done is INTERRUPTED then). */
 static bool candidate_finer(struct pilot_search *p, struct pilot_candidate *c, status *done)
 {
     const double left = time_left(p), wanted = c->finest / c->spacing;
@@ -138,8 +144,8 @@ static status search_finer(struct pilot_search *p)
     return done;
 }
 
-/* Returns a method whose result differs from that of c by more than both intervals and the accuracy allow: one of both
- * is wrong; NULL if all agree. */
+/* Returns a method whose result differs from that of c by more than the uncertainties of both and the requested
+ * accuracy, so that one of the two must be wrong; NULL if all methods agree. */
 static const struct pilot_candidate *contradiction(const struct pilot_search *p, const struct pilot_candidate *c)
 {
     for (int k = 0; k < p->n; k++) {
@@ -151,7 +157,7 @@ static const struct pilot_candidate *contradiction(const struct pilot_search *p,
     return NULL;
 }
 
-/* Returns REFUSED with the accuracy that each method reached. */
+/* Returns REFUSED with a message that gives the accuracy that each method has reached. */
 static status search_failed(const struct pilot_search *p)
 {
     char text[900] = "";
@@ -175,6 +181,8 @@ static status search_failed(const struct pilot_search *p)
                       p->scene, p->wish.budget, 100 * p->wish.within, limit, text);
 }
 
+/* Writes the chosen method and spacing to *to and prints them. REFUSED if no method is accurate enough within the
+ * budget, or if two methods converge to different values. */
 static status search_end(struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     if (!best || best->seconds > PILOT_LONGEST * p->wish.budget || best->finest > FARTHEST * best->spacing)

@@ -9,8 +9,8 @@
 
 /* ---- the figure -------------------------------------------------------------------------------------------------- */
 
-/* Returns the default figure of a scene that requests none: the first nonzero figure of its probes, the start of
- * cracks, or the largest energy. */
+/* Returns the figure that decides if the scene requests none: the first figure of a probe that is larger than its
+ * uncertainty, else the start time of cracks, else the largest energy; NULL if there is none. */
 static const struct figure_study *figure_usual(const struct figure_study *figure, int figures)
 {
     const struct figure_study *start = NULL, *energy = NULL;
@@ -28,7 +28,8 @@ static const struct figure_study *figure_usual(const struct figure_study *figure
 
 /* ---- levels ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the run of a level with the parameters of the final run; -1 if it has failed. */
+/* Returns the index of the run of a level that has the parameters of a final run, the first one of the level; -1 if
+ * there is none. */
 static int level_run(const struct convergence_study *s, int level)
 {
     for (int k = 0; k < s->study.n; k++)
@@ -42,8 +43,9 @@ static double pilot_run_figure(const struct convergence_study *s, const char *na
     return figure >= 0 && run >= 0 ? s->table.value[figure][run] : NAN;
 }
 
-/* Finds the coarsest level whose own run is accurate enough. If there is none, extrapolates the required spacing from
- * the finest level with the smallest order consistent with the means. */
+/* Finds the coarsest level whose run is accurate enough and stores its spacing, accuracy and duration in c. If there
+ * is none, extrapolates the required spacing from the finest level, with the smallest order of convergence that the
+ * means allow. */
 static void spacing_find(struct pilot_search *p, struct pilot_candidate *c, const struct convergence_study *s,
                          const struct figure_study *f)
 {

@@ -30,7 +30,8 @@ void pilot_free(struct pilot *to)
 
 /* ---- the question ------------------------------------------------------------------------------------------------ */
 
-/* Returns the text of the request, released with free; NULL if the scene cannot be read. */
+/* Returns the text of the request, which is the scene file with the overrides as comments; free it with free. NULL if
+ * the scene cannot be read. */
 static char *question_text(const struct pilot_search *p)
 {
     char *scene, *text = NULL;
@@ -48,6 +49,7 @@ static char *question_text(const struct pilot_search *p)
 
 /* ---- the answer -------------------------------------------------------------------------------------------------- */
 
+/* Copies the file `from` of the folder to the file `name` in it. */
 static status file_copy(const char *folder, const char *from, const char *name)
 {
     char *text;
@@ -58,8 +60,8 @@ static status file_copy(const char *folder, const char *from, const char *name)
     return put;
 }
 
-/* Stores the scene as it will be run and the error bars of the chosen method's study, which are copied to summary.json
- * of the run. */
+/* Stores the scene with the chosen overrides and the error bars of the chosen method's study in the folder of the
+ * pilot runs. */
 static status bars_keep(const struct pilot *to, const struct pilot_search *p, const struct pilot_candidate *best)
 {
     struct scene s;
@@ -91,6 +93,7 @@ status pilot_store(const struct pilot *to, const struct pilot_search *p, const s
     return put;
 }
 
+/* Reads lines key=value of a stored choice into to->key and to->value, and returns their number. Changes text. */
 static int answer_read(struct pilot *to, char *text)
 {
     int n = 0;

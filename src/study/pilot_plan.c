@@ -7,7 +7,8 @@
 
 /* ---- methods ----------------------------------------------------------------------------------------------------- */
 
-/* Returns true if the bond model is applicable: it fixes Poisson's ratio; a line has no other model. */
+/* Returns true if bond-based peridynamics is applicable to the scene: Poisson's ratio of all materials is the one of
+ * that model, or the space is a line. */
 static bool bonds_fit(const struct scene *s)
 {
     bool fit = true;
@@ -28,6 +29,8 @@ static void candidate_add(struct pilot_search *p, const char *name, const char *
 /* Returns true if bonds of the scene may break or its cracks grow. */
 static bool may_crack(const struct scene *s) { return scene_bonds_break(s) || s->growths > 0; }
 
+/* Lists the methods that are applicable to the scene: material points if no bond is needed, bonds or state-based
+ * families, and adaptive runs if bonds can break. */
 static void candidates_find(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;
@@ -43,6 +46,7 @@ static void candidates_find(struct pilot_search *p)
 
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
+/* Lists the methods that are applicable to the scene. REFUSED if there is none, or if pilot runs are not possible. */
 status pilot_plan(struct pilot_search *p)
 {
     const struct scene *s = &p->wish.provisional;

@@ -15,6 +15,7 @@
 
 /* ---- the study --------------------------------------------------------------------------------------------------- */
 
+/* Writes the path of the default folder of a study, results/NAME_KIND. to: capacity `room` [byte]. */
 void study_folder_default(char *to, size_t room, const struct scene *scene, const char *kind)
 {
     snprintf(to, room, "results/%s_%s", scene->name, kind);
@@ -46,7 +47,8 @@ status study_make(struct study *s, const char *scene, const char *folder, const 
 
 /* ---- scene of the study ------------------------------------------------------------------------------------------ */
 
-/* Returns the text of the file and the overrides, for a scene that is incomplete without the varied keys. */
+/* Composes the text of a study whose scene cannot be read without the varied keys: the file, and the overrides as
+ * comments. The caller releases *text with memory_free. */
 static status scene_unread(char **text, const char *path, const struct scene_override *override, int overrides)
 {
     size_t length, room;
@@ -141,8 +143,8 @@ status study_write_scene(const char *folder, const char *text)
     return put;
 }
 
-/* Returns true for folders of runs that were started individually, with the commands of `--list`, and for studies of
- * pilot runs. */
+/* Returns true if a subfolder of a study holds a run or another study. Runs may have been started individually, with
+ * the commands of `--list`. */
 static bool is_run_or_study(const char *folder, const char *name)
 {
     const struct path inner = path_join(folder, name);
@@ -182,6 +184,7 @@ status study_folder_check_scene(const char *folder, const char *text)
 
 /* ---- cases of a study -------------------------------------------------------------------------------------------- */
 
+/* Releases the overrides of a case, with their texts. */
 static void case_free(struct study_case *c)
 {
     for (int k = 0; k < c->overrides; k++) memory_free((char *)c->override[k].key);
@@ -210,6 +213,7 @@ struct path study_folder(const struct study *s, const struct study_case *c)
 
 /* ---- cases ------------------------------------------------------------------------------------------------------- */
 
+/* Returns a copy of an override; key and value share one allocation, which is released through the key. */
 static struct scene_override override_copy(struct scene_override o)
 {
     const size_t key = strlen(o.key) + 1, value = strlen(o.value) + 1;
@@ -256,7 +260,8 @@ status study_add_combinations(struct study *s, const struct varied_key *key, int
 
 /* ---- finished runs ----------------------------------------------------------------------------------------------- */
 
-/* Reads the status of the run in a folder if it has this scene; else writes "". ended: capacity `room` [byte]. */
+/* Reads how the run in a folder ended, such as "done" or "failed", from its summary into ended[room]. Stores "" if
+ * there is no finished run or it has another scene. */
 static void ended_as(char *ended, size_t room, const char *folder, const char *scene_text)
 {
     if (!path_is_file(path_join(folder, "summary.json").text) || summary_string(folder, "status", ended, room) != OK ||
@@ -280,7 +285,8 @@ static status case_same(bool *same, const struct study *s, const struct study_ca
     return OK;
 }
 
-/* Marks run `number` as equal to an earlier run with the same scene, or enters it into the table. */
+/* Looks up the scene of run `number` in a hash table of scenes. If an earlier run has the same scene, marks this run
+ * as equal to it; otherwise enters it into the table. text: the scene as run. */
 static status scene_seen(struct scenes_seen *seen, struct study *s, int number, const char *text)
 {
     struct study_case *c = &s->at[number];
@@ -300,6 +306,9 @@ static status scene_seen(struct scenes_seen *seen, struct study *s, int number, 
     return OK;
 }
 
+/* Reads the scene of run `number`, which must be valid, and sets the state of the run if it is equal to an earlier
+ * one or if its folder has the result already. collect: runs that have failed before are marked as failed; otherwise
+ * they are run again. */
 static status case_check(struct study *s, int number, bool collect, struct scenes_seen *seen)
 {
     struct study_case *c = &s->at[number];

@@ -45,6 +45,7 @@ struct study_picture {
 
 /* ---- selection --------------------------------------------------------------------------------------------------- */
 
+/* Returns true if a figure differs between the runs of a study. */
 static bool figure_varies(const struct study_table *t, int f)
 {
     double least = INFINITY, most = -INFINITY;
@@ -91,13 +92,15 @@ static bool key_is_number(const struct varied_key *key, const char **unit)
     return true;
 }
 
-/* Returns true for keys without physical meaning, whose runs are combined to one point with a bar. */
+/* Returns true for keys without physical meaning, such as a random seed; runs that differ in them are combined to one
+ * point with a bar. */
 static bool key_is_chance(const char *key)
 {
     return !strcmp(key, "particles.seed") || !strcmp(key, "time.step") || !strcmp(key, "time.safety");
 }
 
-/* Fills value_at. Consecutive runs have the same value of a key or its next one, so that the search is short. */
+/* Fills value_at[keys][runs] with the index of the value that each key has in each run; -1 if the run has another
+ * value. The caller frees each value_at[k]. */
 static void values_find(int **value_at, const struct study *s, const struct varied_key *key, int keys)
 {
     for (int k = 0; k < keys; k++) {
@@ -115,8 +118,8 @@ static void values_find(int **value_at, const struct study *s, const struct vari
     }
 }
 
-/* Assigns roles: varied keys get lines in turn while at most lines_most lines result; the others are held at their
- * first value. */
+/* Assigns a role to each key. Keys with several values distinguish lines, in their order, while there are at most
+ * lines_most lines; for the others only their first value is shown. Sets the number of lines. */
 static void roles_choose(struct study_picture *p, int lines_most)
 {
     p->lines = 1;
@@ -135,7 +138,8 @@ static void roles_choose(struct study_picture *p, int lines_most)
 
 /* ---- points ------------------------------------------------------------------------------------------------------ */
 
-/* Returns the index of the line of a run; -1: none. */
+/* Returns the index of the line to which a run belongs, from its values of the ROLE_LINES keys; -1 if the run is not
+ * in the picture. */
 static int line_of(const struct study_picture *p, int run)
 {
     int line = 0;
@@ -214,7 +218,8 @@ static void screen_label(FILE *to, const struct study_picture *p, const char *te
     fprintf(to, " at screen %.5f,%.5f %s textcolor rgb '#333333'\n", x / p->width, y / p->height, how);
 }
 
-/* Composes the notes below the panels that describe the points. */
+/* Composes the notes below the panels: which values are held, and what points and bars mean. map: for maps instead of
+ * lines. */
 static void notes_find(struct study_picture *p, bool map)
 {
     char keys[NOTE_ROOM - 64];
@@ -244,7 +249,7 @@ static void send_tics(FILE *to, const char *axis, const struct varied_key *key, 
 
 static int tics_shown(const struct varied_key *key) { return key->values < TICS_MOST ? key->values : TICS_MOST; }
 
-/* Returns true if words along the axis would overlap. */
+/* Returns true if the values of a key, written along an axis, would overlap. */
 static bool words_touch(const struct varied_key *key)
 {
     return tics_shown(key) * (study_values_longest(key) + 2) * CHARACTER > WIDE;
@@ -252,9 +257,12 @@ static bool words_touch(const struct varied_key *key)
 
 /* ---- layout ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the number of columns of panels. */
 static int panel_columns(const struct study_picture *p) { return p->panels < COLUMNS_MOST ? p->panels : COLUMNS_MOST; }
 static int panel_rows(const struct study_picture *p) { return (p->panels + COLUMNS_MOST - 1) / COLUMNS_MOST; }
 
+/* Computes the margins of the panels, the width of the legend and the height of the picture from the lengths of the
+ * texts. up: key along the vertical axis of a map; NULL: lines. */
 static void room_find(struct study_picture *p, const struct varied_key *up)
 {
     const double slope = 0.64, run = 0.77; /* sine and cosine of 40 degrees */
@@ -324,6 +332,7 @@ static void panel_begin(FILE *to, const struct study_picture *p, int panel, cons
 
 /* ---- lines with bars --------------------------------------------------------------------------------------------- */
 
+/* Sends the points of each line of a panel as a data block: position along the axis, mean and scatter. */
 static void send_points(FILE *to, const struct study_picture *p, int panel)
 {
     const struct varied_key *across = &p->key[p->across];
@@ -406,6 +415,7 @@ static status draw_lines(struct study_picture *p)
 
 /* ---- maps -------------------------------------------------------------------------------------------------------- */
 
+/* Draws every figure as a map over the two keys p->across and `up`. */
 static status draw_study_map(struct study_picture *p, int up)
 {
     const struct varied_key *across = &p->key[p->across], *key_up = &p->key[up];

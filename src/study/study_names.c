@@ -11,6 +11,7 @@
 
 /* ---- hashes ------------------------------------------------------------------------------------------------------ */
 
+/* Returns the hash of a sequence of texts from the hash of the preceding ones and the last text. */
 uint64_t study_hash(uint64_t hash, const char *text)
 {
     for (; *text; text++) hash = (hash ^ (unsigned char)*text) * 0x100000001b3u; /* Fowler, Noll and Vo (FNV-1a) */
@@ -26,7 +27,7 @@ static uint64_t overrides_hash(const struct scene_override *o, int n)
     return sum;
 }
 
-/* Returns the slot of a name in the hash table, or the empty slot where it belongs. */
+/* Returns the slot of the hash table that contains a name, or else the empty slot where it has to be entered. */
 static int name_slot(const struct study *s, const char *name)
 {
     int at = (int)(study_hash(STUDY_HASH_START, name) % (uint64_t)s->slots);
@@ -73,13 +74,14 @@ void study_name_choose(const struct study *s, char *name, const char *wanted, co
 
 /* ---- names of combinations --------------------------------------------------------------------------------------- */
 
+/* Returns the last part of a key, behind its last point. */
 static const char *key_last(const char *key)
 {
     const char *dot = strrchr(key, '.');
     return dot ? dot + 1 : key;
 }
 
-/* Returns the last part of a key, or the whole key if another varied key has the same last part. */
+/* Returns the last part of key k, or the whole key if another key with several values has the same last part. */
 static const char *key_label(const struct varied_key *key, int keys, int k)
 {
     const char *own = key_last(key[k].key);

@@ -33,8 +33,8 @@ struct runner {
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */
 
-/* Composes the words of `cleave run`, terminated by NULL. pairs: receives the overrides as `key=value`, released by the
- * caller. */
+/* Returns the words of the `cleave run` command of a case, ended by NULL. *pairs receives the texts key=value to
+ * which the words point. The caller frees both. mode and threads may be NULL. */
 static char **command_words(const char *scene, const struct study_case *c, char *threads, char *folder, char *mode,
                             char **pairs)
 {
@@ -118,6 +118,7 @@ void study_print_command(const struct study *s, const struct study_case *c, stru
 
 /* ---- processes --------------------------------------------------------------------------------------------------- */
 
+/* Returns the path of the log of a run, in the folder `logs` of the study. */
 static struct path log_path(const struct study *s, const struct study_case *c)
 {
     char name[CASE_NAME_ROOM + 8];
@@ -128,9 +129,8 @@ static struct path log_path(const struct study *s, const struct study_case *c)
 /* First line of a log. */
 static const char log_mark[] = "# log by cleave of a run of a study\n";
 
-/* Checks where a run of the study would write. REFUSED if the folder of the run is outside the folder of the study, or
- * if its log is a file that Cleave did not write. Logs of an earlier format have no such first line and begin with a
- * warning. */
+/* Checks where a run of a study would write. REFUSED if its folder is outside the folder of the study, or if its log
+ * would replace a file that Cleave did not write. */
 static status case_guard(const struct study *s, const struct study_case *c)
 {
     static const char *const begin[] = {log_mark, "warning: "};
@@ -159,6 +159,8 @@ static _Noreturn void become_run(char **word, int log)
     _exit(FAILED);
 }
 
+/* Starts the process of a run in a slot, with its output in a log. A run with results in its folder is resumed, or
+ * replaced with --overwrite. */
 static status case_start(struct runner *r, struct study_case *c, int slot)
 {
     char threads[16], *pairs;
@@ -206,6 +208,8 @@ static void last_line(const char *path, char *line, size_t room)
     memory_free(text);
 }
 
+/* Records the exit of a run: its state and duration. Prints a line about it, on failure with the last line of its
+ * log, and removes a log without content. ended: status from waitpid. */
 static void case_end(struct runner *r, struct study_case *c, int ended)
 {
     const struct path log = log_path(r->study, c);
@@ -250,7 +254,7 @@ static int slot_free(const struct runner *r)
     }
 }
 
-/* Tells the running processes to stop, once: a second signal would end them without a checkpoint. */
+/* Sends the stop signal to all running processes once; a second signal would end them without a checkpoint. */
 static void cases_stop(struct runner *r)
 {
     for (int k = 0; k < r->study->n && !r->stopped; k++)
@@ -267,6 +271,8 @@ static void cases_kill(struct runner *r)
         if (r->study->at[k].state == CASE_RUNNING) kill(r->study->at[k].process, SIGKILL);
 }
 
+/* Runs all waiting cases, as many at a time as requested. After a fault, a stop signal or the end of the budget
+ * starts no more and stops the running ones. */
 static status cases_run(struct runner *r)
 {
     const struct timespec pause = {.tv_nsec = 5 * 1000 * 1000};
@@ -306,7 +312,8 @@ static struct study_options options_filled(struct study_options how, const struc
     return how;
 }
 
-/* Writes STUDY_SCENE. REFUSED if the folder holds other files or the study of another scene. */
+/* Claims the folder of a study and writes the scene of the study into it. REFUSED if the folder holds other files or,
+ * without `overwrite`, the study of another scene. */
 static status scene_put(const struct study *s, bool overwrite)
 {
     TRY(study_folder_claim(s->folder));

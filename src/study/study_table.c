@@ -12,8 +12,8 @@
 
 /* ---- reading ----------------------------------------------------------------------------------------------------- */
 
-/* Position while the table is filled. next: index of the expected figure, as runs have their figures in the same
- * order. */
+/* Position in the table while it is filled. row: current run. next: index of the figure that is expected next,
+ * because runs have their figures in the same order. */
 struct filled {
     struct study_table *table;
     int row, next;
@@ -32,6 +32,7 @@ static int figure_add(struct study_table *t, const char *name)
     return t->figures++;
 }
 
+/* Stores one number of a summary in the current row of the table; a new figure gets a new column. */
 static void number_take(void *context, const char *key, double value)
 {
     struct filled *f = context;
@@ -152,6 +153,7 @@ status study_write_table(const struct study_table *t, const struct study *s, con
 
 /* ---- guard ------------------------------------------------------------------------------------------------------- */
 
+/* Returns REFUSED if the table or a picture of the study would replace a file that Cleave did not write. */
 status study_check_output_files(const struct study *s, const struct varied_key *key, int keys)
 {
     static const char *const begin[] = {"run,state"};

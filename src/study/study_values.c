@@ -81,7 +81,8 @@ struct row {
     char unit[32];
 };
 
-/* Parses a range. Returns false if the text is not a range; sets *s to REFUSED if it is a range without a meaning. */
+/* Reads a range from:to:step, such as 10:30:5 mm. Returns false if the text is not of this form. Sets *s to REFUSED
+ * if it is, but the units differ or the step does not lead from the first number to the last. */
 static bool row_read(struct row *r, const struct varied_key *k, const char *text, status *s)
 {
     *r = (struct row){.unit = ""};
@@ -123,6 +124,7 @@ static status values_add_row(struct varied_key *k, const struct row *r)
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
 
+/* Reads a list of values and ranges, separated by commas, into k. */
 static status values_read(struct varied_key *k, const char *text)
 {
     for (const char *at = text;;) {

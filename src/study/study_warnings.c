@@ -29,6 +29,8 @@ static bool is_alike(const char *a, const char *b)
     return *a == *b;
 }
 
+/* Counts a warning of a run in the list of kinds; warnings that differ only in numbers are one kind and count once
+ * per run. */
 static void warning_book(struct warning_kind *kind, int *kinds, const char *text, int run)
 {
     int k = 0;

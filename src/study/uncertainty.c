@@ -51,6 +51,7 @@ struct bar_columns {
     int spacing[16], half_width[16], levels;
 };
 
+/* Finds the columns of spacing and uncertainty of each level in the header of converge.csv. Changes header. */
 static void columns_find(struct bar_columns *c, char *header)
 {
     int column = 0, level;
@@ -64,7 +65,8 @@ static void columns_find(struct bar_columns *c, char *header)
     }
 }
 
-/* Reads one line: the half-width of the level whose spacing is nearest to `spacing`. */
+/* Reads a line of converge.csv: the name of the figure, and the half-width of its error bar at the level whose
+ * spacing is nearest to `spacing` [m]. Returns false if no level is near enough. */
 static bool bar_read(struct error_bar *bar, const struct bar_columns *c, char *line, double spacing)
 {
     enum { CELLS_MOST = 256 };
