@@ -7,14 +7,11 @@
  * first `run 0`: pairs excluded at that time, by a type for each particle that a crack touches, never become bonds. A
  * second `run 0` lets LPS compute its strains before anything moves. */
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench/common/bench.h"
@@ -23,11 +20,10 @@
 #include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "step/report.h"
+#include "peers.h"
 
-extern char **environ;
-
-enum { STEPS = 200, ROUNDS = 3 };
-#define FOLDER BENCH_FOLDER "/run-peers"
+enum { STEPS = 200, ROUNDS = 3, TEXT_ROOM = 2048 };
+#define FOLDER PEERS_FOLDER
 #define SPACING 5e-4
 /* Reach of bonds [spacings]: the usual one; one for which only the neighbours at sqrt(8) spacings are on the ramp;
  * nearest neighbours only. */
@@ -61,6 +57,7 @@ struct peer_result {
     bool known;
     double particles, bonds, cut; /* directed bonds; bonds cut initially */
     double own, peer;             /* time of a step [s] */
+    double bond_style;            /* the same with bond_style bpm/peri; measured, or derived from `peer` */
     /* Largest |u - u_LAMMPS| over largest |u|; sums of the share of broken bonds. */
     double difference, damage, damage_peer;
 };
@@ -116,13 +113,20 @@ static void scene_text(FILE *to, const struct peer_case *c, int edge)
                 -0.0312 * edge * SPACING, 0.1123 * edge * SPACING, 0.0357 * edge * SPACING);
 }
 
-static status peer_engine(struct run *e, struct scene *s, const struct peer_case *c, int edge)
+/* Writes the scene to text[TEXT_ROOM]. */
+static status peer_scene_text(char *text, const struct peer_case *c, int edge)
 {
-    char text[2048];
-    FILE *to = fmemopen(text, sizeof text, "w");
+    FILE *to = fmemopen(text, TEXT_ROOM, "w");
     if (!to) return status_set(FAILED, "bench: out of memory");
     scene_text(to, c, edge);
     fclose(to);
+    return OK;
+}
+
+static status peer_engine(struct run *e, struct scene *s, const struct peer_case *c, int edge)
+{
+    char text[TEXT_ROOM];
+    TRY(peer_scene_text(text, c, edge));
     return bench_engine_make(e, s, "peer", text, NULL, 0);
 }
 
@@ -228,43 +232,8 @@ static status write_input(const struct run *e, const struct peer_case *c, int ed
 
 /* ---- both runs --------------------------------------------------------------------------------------------------- */
 
-/* Runs LAMMPS on the script in the folder and waits for it. FAILED if it cannot be started or fails. */
-static status spawn_peer(void)
-{
-    char *argv[] = {"lmp", "-in", FOLDER "/in.lammps", "-log", FOLDER "/log.lammps", "-screen", "none", NULL};
-    pid_t child;
-    int ended;
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const int fault = posix_spawnp(&child, "lmp", &actions, NULL, argv, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (fault) return status_set(FAILED, "bench peers: cannot start lmp: %s", strerror(fault));
-    while (waitpid(child, &ended, 0) < 0)
-        if (errno != EINTR) return status_set(FAILED, "bench: %s", strerror(errno));
-    if (WIFEXITED(ended) && WEXITSTATUS(ended) == 0) return OK;
-    return status_set(FAILED, "bench peers: lmp has failed");
-}
-
-/* Reads the time of STEPS steps from the log of LAMMPS [s]. */
-static status peer_seconds(double *seconds)
-{
-    char line[512];
-    FILE *f = fopen(FOLDER "/log.lammps", "r");
-    bool known = false;
-    while (f && fgets(line, sizeof line, f)) {
-        long steps;
-        double spent;
-        const char *of = strstr(line, "Loop time of ");
-        const char *number = of ? strstr(of, " for ") : NULL;
-        if (number && sscanf(of, "Loop time of %lf", &spent) == 1 && sscanf(number, " for %ld steps", &steps) == 1 &&
-            steps == STEPS)
-            *seconds = spent / STEPS, known = true;
-    }
-    if (f) fclose(f);
-    return known ? OK : status_set(FAILED, "bench peers: the log of lmp does not tell how long it took");
-}
-
+/* Reads the positions and damages that LAMMPS dumped, in the order of ids, of n particles. FAILED if some are missing.
+ */
 static status peer_solution(struct solution *s, int64_t n)
 {
     char line[512];
@@ -318,8 +287,8 @@ static status run_both(struct peer_result *r, const struct peer_case *c, int edg
     status ran = write_input(&e, c, edge, r);
     r->bonds = (double)e.bonds.n - 2 * r->cut;
     if (ran == OK) ran = engine_run(&e);
-    if (ran == OK) ran = spawn_peer();
-    if (ran == OK) ran = peer_seconds(&spent);
+    if (ran == OK) ran = peer_spawn(".", FOLDER "/in.lammps", FOLDER "/log.lammps");
+    if (ran == OK) ran = peer_seconds(FOLDER "/log.lammps", STEPS, &spent);
     if (ran == OK) ran = peer_solution(peer, e.part.n);
     if (ran == OK) {
         r->own = fmin(r->own, e.report->loop_seconds / STEPS), r->peer = fmin(r->peer, spent);
@@ -351,13 +320,38 @@ static void print_result(const struct peer_case *c, const struct peer_result *r)
     fflush(stdout);
 }
 
+/* Measures bond_style bpm/peri where the installed LAMMPS has it, else derives its time from pair_style peri by the
+ * ratios of its authors; prints a line for each timed case. */
+static status bond_style_compare(struct peer_result *result, bool quick)
+{
+    char text[TEXT_ROOM];
+    const bool measured = peer_has_bond_style();
+    printf("  bond_style bpm/peri of LAMMPS (September 2026), %s:\n",
+           measured ? "measured"
+                    : "derived: pair_style peri over 3.6 (pmb) and 5.4 (lps), table 3 of its authors (pull "
+                      "request 5045)");
+    for (int k = 0; k < CASES; k++) {
+        const struct peer_case *c = &cases[k];
+        struct peer_result *r = &result[k];
+        if (!c->timed) continue;
+        r->bond_style = r->peer / peer_bond_style_ratio(is_lps(c));
+        if (measured) {
+            TRY(peer_scene_text(text, c, quick ? c->edge_quick : c->edge));
+            TRY(peer_run_bond_style(text, STEPS, &r->bond_style));
+        }
+        printf("    %s of %s: %.2f ns a bond, %.1f times as long as here\n", c->name, c->law,
+               1e9 * r->bond_style / r->bonds, r->bond_style / r->own);
+    }
+    return OK;
+}
+
 static status peers_write_table(const struct peer_result *result)
 {
     struct bench_table t;
     bench_table_make(
         &t, "",
         "case,law,dim,reach,particles,directed_bonds,bonds_pre_cut,ns_per_bond_step,ns_per_bond_step_lammps,"
-        "time_ratio,difference,damage,damage_lammps");
+        "time_ratio,ns_per_bond_step_bpm,difference,damage,damage_lammps");
     for (int k = 0; k < CASES; k++) {
         const struct peer_result *r = &result[k];
         if (!r->known) continue;
@@ -370,6 +364,7 @@ static status peers_write_table(const struct peer_result *result)
                               timed * 1e9 * r->own / r->bonds,
                               timed * 1e9 * r->peer / r->bonds,
                               timed * r->peer / r->own,
+                              timed * 1e9 * r->bond_style / r->bonds,
                               r->difference,
                               r->damage,
                               r->damage_peer};
@@ -417,6 +412,7 @@ static status peers_measure(struct peer_result *result, bool quick)
         }
         if (s == OK) print_result(c, &result[k]);
     }
+    if (s == OK) s = bond_style_compare(result, quick);
     bench_child_free(&folder);
     TRY(s);
     printf("  bonds break by pd.last_force: whole, as in LAMMPS; peri/lps keeps the weighted volume of intact "

@@ -1,0 +1,27 @@
+/* The time that bond_style bpm/peri of LAMMPS (September 2026 and later) takes beside pair_style peri. */
+#ifndef CLEAVE_PEERS
+#define CLEAVE_PEERS
+
+#include "base/base.h"
+
+#define PEERS_FOLDER BENCH_FOLDER "/run-peers"
+
+/* Returns true if the program `lmp` on the path lists bond_style bpm/peri among its styles. */
+bool peer_has_bond_style(void);
+
+/* Returns how many times as fast bond_style bpm/peri is as pair_style peri/pmb, or peri/lps if `lps` is true, by the
+ * table of the authors of the style (LAMMPS, pull request 5045, 2026, table 3). */
+double peer_bond_style_ratio(bool lps);
+
+/* Runs `lmp` with the arguments "-in INPUT", "-log LOG" in a folder. Returns FAILED if lmp cannot be started or fails.
+ */
+status peer_spawn(const char *folder, const char *input, const char *log);
+
+/* Reads the time of a step from the log of a run of `steps` steps [s]. Returns FAILED if the log does not tell. */
+status peer_seconds(const char *log, int steps, double *seconds);
+
+/* Exports a scene for bond_style bpm/peri to PEERS_FOLDER, runs it in LAMMPS and stores the time of a step [s]. text:
+ * the scene, of `steps` steps. Returns REFUSED if the scene cannot be exported, FAILED if LAMMPS fails. */
+status peer_run_bond_style(const char *text, int steps, double *seconds);
+
+#endif
