@@ -180,28 +180,28 @@ typedef bool pd_move_fn(struct particles *p, const int32_t *list, int64_t n, con
 KERNEL(bool, particles_diverged, (const struct particles *p, const int32_t *list, int64_t n, real limit));
 
 /* Adds mass, momentum and force, -V sigma_given . grad N + N f, of the points of p to the nodes of g: the first
- * particle-to-grid map (Zeng et al. 2022, eqs. 33-38). t: order of the points, step sizes, partial stress. */
-typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
+ * particle-to-grid map (Zeng et al. 2022, eqs. 33-38). transfer: order of the points, step sizes, partial stress. */
+typedef void p2g_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Remapping of MUSL (Zeng et al. 2022, steps 4 and 6), for FLIP only. Interpolates the change of nodal velocities to
  * the points, v_p += sum N (f/m dt), and adds the new momentum m v_p N of the points to the nodes of g; below called
  * the second map, after the first one by p2g. */
-typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *t);
+typedef void remap_fn(struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* First half of the grid-to-particle-to-grid remapping of MUSL for points in rotating groups (data/turning.h). Adds the
- * change of nodal velocities to the points, v_p += sum N (f/m dt), and stores in t->turn the angular momentum that each
- * point loses in this interpolation [kg m^2/s], for its group. 2D and 3D. */
-typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
+ * change of nodal velocities to the points, v_p += sum N (f/m dt), and stores in transfer->turn the angular momentum
+ * that each point loses in this interpolation [kg m^2/s], for its group. 2D and 3D. */
+typedef void turn_gather_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Second half of the remapping of MUSL for points in rotating groups (data/turning.h). Adds the momentum m N (v_p + w x
- * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in t->turn [1/s], to second
- * order in w dt (mpm/turn.h). 2D and 3D. */
-typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *t);
+ * (x_I - x_p)) of the points to the nodes x_I of g, with the spin w of the point's group in transfer->turn [1/s], to
+ * second order in w dt (mpm/turn.h). 2D and 3D. */
+typedef void turn_scatter_fn(struct grid *g, const struct particles *p, const struct transfer_data *transfer);
 
 /* Moves the points with the nodal velocities, x_p += dt sum N v, and updates their stress, volume, stretch, plastic
  * strain and conversion flag (Zeng et al. 2022, steps 4, 7, 8); with APIC also v_p and its gradient (Jiang et al.
  * 2015). Returns the number of points that have entered another cell. */
-typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *t);
+typedef int64_t g2p_fn(const struct grid *g, struct particles *p, const struct transfer_data *transfer);
 
 /* Distributes one value per particle to nodes: adds value[k] N of particle list[k] to `field` ([g->n], in the unit of
  * value), for k = 0 .. n - 1. half_width: half the reference edge of a particle, l_p [m]. Serial. */

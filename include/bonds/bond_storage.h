@@ -208,10 +208,10 @@ static inline bool row_block_whole(const struct bonds *b, int64_t row_block)
  * usually called through bonds_update_common_of_bond. */
 void bonds_update_column_common(const struct bonds *b, int64_t column);
 
-/* Recomputes the common properties of the column that contains bond q after its weight or the sign of its inverse
- * length has changed. row: the row (all bonds of one particle) of bond q, whose row block no longer follows a
+/* Recomputes the common properties of the column that contains the bond after its weight or the sign of its inverse
+ * length has changed. row: the row (all bonds of one particle) of the bond, whose row block no longer follows a
  * stencil. */
-void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t q);
+void bonds_update_common_of_bond(struct bonds *b, int64_t row, int64_t bond);
 
 /* Writes the columns of a row block that stored none and followed a stencil (a list of columns shared by many row
  * blocks of a lattice), so that its bonds can be changed. Does nothing if the columns are already written. May be

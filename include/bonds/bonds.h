@@ -45,23 +45,23 @@ bool cracks_separate_particles(const struct crack *crack, int cracks, const stru
 int bonds_most_neighbours(const struct bond_source *s);
 
 /* Computes the neighbour volume V_i^H = sum V_j beta of every particle i of p, as if no pre-crack cut its bonds, where
- * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; s: inputs of the
- * bonds. */
-void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *s);
+ * V_j is the volume of neighbour j and beta its fraction within the horizon. volume: [p->n_all] [m^3]; source: inputs
+ * of the bonds. */
+void bonds_neighbour_volume(real *volume, const struct particles *p, const struct bond_source *source);
 
-/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs s. old: NULL, or
- * the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts of its storage
- * move to b, so that afterwards only bonds_free may be called with `old`. Bonds cut by a pre-crack get weight w = 0 and
- * count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
-void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *s);
+/* Creates b, the bonds of all peridynamic particles and bonded material points of p, from the inputs `source`. old:
+ * NULL, or the previous bonds, whose broken bonds stay broken and whose counts and energies are copied; parts of its
+ * storage move to b, so that afterwards only bonds_free may be called with `old`. Bonds cut by a pre-crack get weight w
+ * = 0 and count as damage. Sets the damage of all peridynamic particles. Release with bonds_free. */
+void bonds_make(struct bonds *b, struct bonds *old, struct particles *p, const struct bond_source *source);
 
-/* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. s:
+/* Sets the kind (material point or peridynamic) of every mirror image in p to the kind of its source particle. source:
  * inputs, of which the list of images is used. */
-void bonds_update_image_kinds(struct particles *p, const struct bond_source *s);
+void bonds_update_image_kinds(struct particles *p, const struct bond_source *source);
 
 /* Rebuilds the particle lists of p and the bonds b after particles have changed their kind (material point or
- * peridynamic). s: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
-void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *s);
+ * peridynamic). source: inputs as in bonds_make. Sets the force p->f of particles that have no bonds to 0. */
+void bonds_rebuild(struct bonds *b, struct particles *p, const struct bond_source *source);
 
 /* Returns an upper bound (spring_bound_of) of the largest eigenvalue of the stiffness matrix of the bonds of one row,
  * i.e. of one particle [N/m]. */
@@ -73,7 +73,7 @@ void bonds_free(struct bonds *b);
 /* Returns the critical time step of intact bonds [s]: 2 / omega_max with the block-Gershgorin bound of omega. The
  * maximum is over all particles of the body, material points included, each with the bonds that it would have if all
  * particles were peridynamic. No stored rows are needed. */
-real bonds_critical_step(const struct particles *p, const struct bond_source *s);
+real bonds_critical_step(const struct particles *p, const struct bond_source *source);
 
 /* Returns the critical time step 2/omega_max of the existing bonds b [s]. Valid only while all particles are
  * peridynamic and no bond is broken. */
@@ -95,8 +95,8 @@ status bonds_archive(struct bonds *b, struct particles *p, struct archive *a);
 real state_intact_weighted_volume(const struct bonds *b, int64_t row);
 
 /* Recomputes the weighted volume Q = sum w r^2 of every particle with bonds from its present bonds. Only for
- * state-based models. s: inputs as in bonds_make. */
-void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *s);
+ * state-based models. source: inputs as in bonds_make. */
+void state_update_weighted_volumes(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Checks the invariants of stored bonds that are listed in bond_storage.h. Returns a text that describes the first
  * violated one, or NULL if all hold. */
@@ -150,9 +150,9 @@ struct column_copy {
     real inverse_length[LANES], w[LANES];
 };
 
-/* Reads neighbours, inverse lengths and weights of column k of a row block (the k-th bonds of eight particles) into
- * *to, from the stencil if the row block stores no columns. Does not change b. */
-void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t k);
+/* Reads neighbours, inverse lengths and weights of one column of a row block (one bond of each of its eight
+ * particles) into *to, from the stencil if the row block stores no columns. Does not change b. */
+void bond_column_read(struct column_copy *to, const struct bonds *b, int64_t row_block, int64_t column);
 
 /* A bond of a row as stored: 1/r, negative if load has broken it [1/m]; w = 0 if broken or cut [1]; `entry`: index in
  * plastic_stretch, plastic_path and pair. */

@@ -110,9 +110,9 @@ real family_micro_modulus(const struct family *f, const struct material *m);
 void family_elastic_constants(const struct family *f, const struct material *m, real *c11, real *c12);
 
 /* Returns the work per area of separating a lattice along a plane in the model with particle rotations, divided by the
- * square of the stretch at which its bonds break [N/m] (separation.c). m: moduli of the material; local: true if sums
- * are normalised by the present family. */
-real family_separation_work(const struct family *f, const struct state_modulus *m, bool local);
+ * square of the stretch at which its bonds break [N/m] (separation.c). modulus: moduli of the material; local: true if
+ * sums are normalised by the present family. */
+real family_separation_work(const struct family *f, const struct state_modulus *modulus, bool local);
 
 /* Returns the energy per area of all bonds that cross a lattice plane normal to an axis, each at the critical stretch
  * of material m [J/m^2]. Bond-based models only (Silling & Askari 2005). */

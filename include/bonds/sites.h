@@ -26,16 +26,16 @@ struct site_map {
  * l. */
 int64_t lattice_site_of(const struct site_map *l, const struct particles *p, int64_t i);
 
-/* Creates the map l from lattice sites to the particles and images of p. s: inputs of the bonds (spacing, cutoff).
+/* Creates the map l from lattice sites to the particles and images of p. source: inputs of the bonds (spacing, cutoff).
  * Returns false, with nothing to release, if the particles are not on a lattice. Release with site_map_free. */
-bool site_map_make(struct site_map *l, const struct bond_source *s, const struct particles *p);
+bool site_map_make(struct site_map *l, const struct bond_source *source, const struct particles *p);
 
 /* Releases the arrays of the map l. */
 void site_map_free(struct site_map *l);
 
 /* Returns a site map (from lattice sites to particles) for use by rebuilt bonds: `of` with one more user if it is not
  * NULL, else a new map of p. Release with site_map_release. */
-struct site_map *site_map_share(struct site_map *of, const struct bond_source *s, const struct particles *p);
+struct site_map *site_map_share(struct site_map *of, const struct bond_source *source, const struct particles *p);
 
 /* Removes one user of a site map shared by several sets of bonds; the last user releases it. Does nothing if l is
  * NULL. */

@@ -32,12 +32,12 @@ struct surface_weights {
                          away */
 };
 
-/* Computes the factors on the weights of bonds near faces, for particles on a lattice, by least squares with bounds. s:
- * inputs of the bonds; rotates: true for the model with particle rotations, whose factors differ because relative
- * rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a lattice;
- * to->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was found). Release
- * with surface_weights_free. */
-status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *s,
+/* Computes the factors on the weights of bonds near faces, for particles on a lattice, by least squares with bounds.
+ * source: inputs of the bonds; rotates: true for the model with particle rotations, whose factors differ because
+ * relative rotations of neighbours store energy there. Returns REFUSED, with a message, if the particles are not on a
+ * lattice; to->apart then holds two particles whose distance is not a whole number of spacings (-1 if none was found).
+ * Release with surface_weights_free. */
+status surface_weights_make(struct surface_weights *to, const struct particles *p, const struct bond_source *source,
                             bool rotates);
 
 /* Releases all arrays of w. */

@@ -161,9 +161,9 @@ real contact_critical_step(const struct contact *c, const struct particles *p, c
 /* Updates the list of pairs of particles that may come into contact, before a step. A new search is done if particles
  * have moved farther than the list allows since the last search, if bonds have been broken since that search and it was
  * at least BREAKS_WAIT steps ago, or if a search was requested (c->due). Particles on which contact forces may act are
- * marked as loaded in l, and their bonds as active in b. family: horizon and lattice; step: number of the step; broken:
- * number of directed bonds broken so far; changed: number of conversions and reversions so far. */
-void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+ * marked as loaded in `loads`, and their bonds as active in b. family: horizon and lattice; step: number of the step;
+ * broken: number of directed bonds broken so far; changed: number of conversions and reversions so far. */
+void contact_update(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
                     const struct family *family, int64_t step, int64_t broken, int64_t changed);
 
 /* Requests a search for pairs before the next step if one of n listed particles is at the surface of a body, i.e.
@@ -172,9 +172,9 @@ void contact_update(struct contact *c, const struct particles *p, struct bonds *
 void contact_request_search(struct contact *c, const struct bonds *b, const struct family *family, const int32_t *list,
                             int64_t n);
 
-/* Marks the particles on which contact forces may act as loaded in l, and their bonds as active in b. Called by
+/* Marks the particles on which contact forces may act as loaded in `loads`, and their bonds as active in b. Called by
  * contact_update; to be called by the user only after a restart. */
-void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+void contact_activate_particles(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Computes the contact forces at the present positions, adds them to p->f and to the forces on rigid bodies, and
  * updates the largest overlap c->overlap. To be called after the forces of bonds and before those of loads. dt: time
@@ -206,7 +206,7 @@ real contact_friction_work(const struct contact *c);
  * exactly the overlapping contacts are selected. Corrections of contact forces from earlier time steps (struct
  * contact_balance) are set to 0. family: horizon and lattice. Returns the number of contacts whose selection
  * changed. */
-int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l,
+int64_t contact_search(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads,
                        const struct family *family, real close);
 
 /* Selects the contacts that act in an equilibrium solution, as contact_search does, from the existing list of pairs. A

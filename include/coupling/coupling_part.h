@@ -40,8 +40,8 @@ void interface_make(struct coupling_state *c, const struct particles *p, const s
 /* Updates p->end_strain, the contribution of a material point to the mean strain of its family, of all points with
  * state-based PD-MPM bonds: in a mesh from the strain of the cell, on the background grid from the stress of the point.
  * Does nothing in bond-based models. material: array of the materials. */
-void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *r, struct particles *p,
-                          const struct material *material);
+void bonded_points_update(const struct partial_stress *partial, const struct reference_frame *frame,
+                          struct particles *p, const struct material *material);
 
 /* Decides whether each pre-crack becomes a slit of the mesh or cuts bonds along its length, and makes peridynamic the
  * particles that are so from the start: those near the ends of slits, those with bonds cut by a pre-crack, those beside

@@ -80,8 +80,8 @@ real hull_ambiguous_share(const struct hull *s);
  * are consecutive. Corners and faces must be set before. Part of hull_make. */
 void hull_build_face_tree(struct hull *s);
 
-/* Computes the area vector of face k, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
+/* Computes the area vector of the face, its outward normal times its area [m^2]; in 2D, where a face is a segment, the
  * normal times the length [m]. */
-void hull_face_area(const struct hull *s, int64_t k, real area[DIM_MAX]);
+void hull_face_area(const struct hull *s, int64_t face, real area[DIM_MAX]);
 
 #endif

@@ -161,7 +161,7 @@ extern const int particle_fields_count;
 
 /* Returns the k-th component array of field f of the particles p, for example k = 1 for the velocities along y; NULL if
  * an optional field is not allocated. */
-void *particle_field_array(const struct particles *p, const struct particle_field *f, int k);
+void *particle_field_array(const struct particles *p, const struct particle_field *f, int component);
 
 /* Saves the fields of all particles, mirror images included, to the archive if a->saving, else restores them; only
  * their plastic state unless a->scope is ARCHIVE_ALL. optional: optional arrays of p, sum of WITH_*. Returns FAILED if

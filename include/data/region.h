@@ -154,7 +154,7 @@ struct wave_state {
 };
 
 /* Returns velocity, displacement and strain of the plane wave w at time 0 and the position X (dim components [m]), in
- * material with the wave speed c [m/s]. */
-struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real c, int dim);
+ * material with the wave speed [m/s]. */
+struct wave_state wave_pulse_at(const struct wave_pulse *w, const real *X, real speed, int dim);
 
 #endif

@@ -136,10 +136,10 @@ real solid_radius(const struct solid *s, int dim);
  * INFINITY for all other kinds. */
 real solid_least_thickness(const struct solid *s, int dim);
 
-/* Applies the motion m to all present copies of the solid: moves, rotates or reflects them, or multiplies them on a
- * grid or a ring. Appends m to s->motion. Returns false, without any change, if there would be more than IMAGES_MOST
+/* Applies the motion to all present copies of the solid: moves, rotates or reflects them, or multiplies them on a grid
+ * or a ring. Appends `motion` to s->motion. Returns false, without any change, if there would be more than IMAGES_MOST
  * copies. */
-bool solid_add_motion(struct solid *s, const struct solid_motion *m, int dim);
+bool solid_add_motion(struct solid *s, const struct solid_motion *motion, int dim);
 
 /* Returns an upper bound of the distance along any axis between the bounding box of a solid and a point at which
  * solid_level is `level` [m]. Outside the solid a level is at least 1/sqrt(3) of the distance (least beside the corner

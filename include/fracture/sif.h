@@ -95,14 +95,15 @@ struct sif {
 }; /* [Pa m^(1/2)], [J/m^2] */
 
 /* Computes the weight q of the interaction integral at distance r from the crack tip [m]: *q receives the weight, 1
- * inside c->inner and 0 outside c->outer; *slope receives dq/dr [1/m]. form: function that decreases between the two
- * radii. */
-void sif_weight(enum sif_weight form, const struct contour *c, real r, real *q, real *slope);
+ * inside contour->inner and 0 outside contour->outer; *slope receives dq/dr [1/m]. form: function that decreases
+ * between the two radii. */
+void sif_weight(enum sif_weight form, const struct contour *contour, real r, real *q, real *slope);
 
 /* Returns the contribution of a point to the interaction integral I, per area [N/m^3]. x: position of the point in the
- * frame of the crack tip, x[0] ahead of the tip [m]; c: contour with the weight q; actual, auxiliary: the two motions
- * at the point, in the same frame; inside: factor 0 to 1 on the second sum of I, which has the inertia terms [1]. */
-real sif_integrand(const struct sif_tip *tip, const struct contour *c, const real x[2],
+ * frame of the crack tip, x[0] ahead of the tip [m]; contour: contour with the weight q; actual, auxiliary: the two
+ * motions at the point, in the same frame; inside: factor 0 to 1 on the second sum of I, which has the inertia terms
+ * [1]. */
+real sif_integrand(const struct sif_tip *tip, const struct contour *contour, const real x[2],
                    const struct crack_state *actual, const struct crack_state *auxiliary, real inside);
 
 /* Computes the stress-intensity factors and J of a crack tip by the interaction integral, for n contours in one pass

@@ -70,9 +70,9 @@ void tips_update(struct tips *t, const struct particles *p, const struct cells *
  * tip, 0 to 180 [degree], or NAN if the crack has not grown. dim: space dimension. */
 real tip_angle(const struct tip *tip, int dim);
 
-/* Returns the speed of tip number k [m/s]: the regression slope of its growth over the last t->window seconds, or 0 if
- * fewer than two samples have been taken. */
-real tips_speed(const struct tips *t, int k);
+/* Returns the speed of tip number `tip` [m/s]: the regression slope of its growth over the last t->window seconds, or 0
+ * if fewer than two samples have been taken. */
+real tips_speed(const struct tips *t, int tip);
 
 /* Returns the tip with the largest growth, a pointer into t, or NULL if no tip has grown. */
 const struct tip *tips_longest(const struct tips *t);

@@ -37,8 +37,8 @@ const struct geometry_set *geometry_find_set(const struct geometry *g, const cha
 void geometry_free(struct geometry *g);
 
 /* Finds pairs of coincident faces of the closed surface h, as at slits with doubled nodes, and appends each as a
- * pre-crack to the array *crack, whose length is *n. In 3D adjacent coplanar faces become one crack if they form a
+ * pre-crack to the array *crack, whose length is *cracks. In 3D adjacent coplanar faces become one crack if they form a
  * convex polygon. The caller releases the array and the `corner` of each crack with memory_free. */
-void geometry_find_slits(const struct hull *h, struct crack **crack, int *n);
+void geometry_find_slits(const struct hull *h, struct crack **crack, int *cracks);
 
 #endif

@@ -51,9 +51,9 @@ void grid_turning_make(struct grid_method *mpm, const struct particles *p, const
  * true to place nodes midway between particles. */
 void grid_choose_anchor(const struct scene *s, const real *from, const real *site, bool meshed, real *anchor);
 
-/* Returns the number in the scene of the k-th body, k = 0, 1, ..., where bodies joined to each other count once, under
- * the first of them. Returns -1 if there are no more than k. */
-int unjoined_body_index(const struct scene *s, int k);
+/* Returns the number in the scene of body `number` = 0, 1, ..., where bodies joined to each other count once, under the
+ * first of them. Returns -1 if there are no more than `number` bodies. */
+int unjoined_body_index(const struct scene *s, int number);
 
 /* Returns true if the plane of a mirror boundary of the scene does not pass through nodes of g. Slits and voids then
  * cannot divide a mesh on these nodes, because the doubled nodes have no mirror nodes. */

@@ -7,14 +7,14 @@
 
 /* Updates the set of active row blocks (blocks of eight rows of bonds whose forces are computed) after a step in which
  * the forces of all active ones were computed. If the rows were rebuilt, computes the activity levels anew; else
- * activates the neighbours of row blocks whose particles have changed position. p: particles; l: loads, which keep the
- * row blocks of loaded particles active. */
-void active_rows_update(struct bonds *b, const struct particles *p, const struct loads *l);
+ * activates the neighbours of row blocks whose particles have changed position. p: particles; loads: loads, which keep
+ * the row blocks of loaded particles active. */
+void active_rows_update(struct bonds *b, const struct particles *p, const struct loads *loads);
 
 /* Activates the row blocks that contain any of the n particles in `list` (indices), because forces other than those of
  * bonds (loads, contact) may act on these particles from the next step on. The bond forces in these row blocks must be
- * 0 so far. p: particles; l: loads of the run. */
-void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *l, const int32_t *list,
+ * 0 so far. p: particles; loads: loads of the run. */
+void active_rows_activate(struct bonds *b, const struct particles *p, const struct loads *loads, const int32_t *list,
                           int64_t n);
 
 #endif

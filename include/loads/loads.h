@@ -250,19 +250,19 @@ void loads_update_shares_for_work(struct loads *l, const struct particles *p, re
 /* Releases the arrays that load_prepare_shares has allocated for load l. */
 void load_time_shares_free(struct load *l);
 
-/* Computes the force of load l on its k-th particle at time t [s], from the reference position of the particle. force:
- * dim components [N]. In load steps the force is that at full load. */
-void load_force_at(const struct load *l, const struct particles *p, int64_t k, real t, real *force);
+/* Computes the force of load l on its particle number `number` at time t [s], from the reference position of the
+ * particle. force: dim components [N]. In load steps the force is that at full load. */
+void load_force_at(const struct load *l, const struct particles *p, int64_t number, real t, real *force);
 
 /* Computes the total force of load l on its particles at time t [s] into l->reaction [N], and the mean displacement of
  * its particles into l->displacement [m]. The mean is weighted by force, so that total force times mean displacement is
  * the work; it is not weighted if the forces sum to zero. */
 void load_sum_applied(struct load *l, const struct particles *p, real t);
 
-/* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its k-th particle
- * at time t [s], without areas and without the profile. value: dim components, unit as boundary.value. Not defined for
- * prescribed rotations. */
-void load_value_at(const struct load *l, const struct particles *p, int64_t k, real t, real *value);
+/* Computes the value (traction, force density, velocity ..) that the boundary of load l prescribes at its particle
+ * number `number` at time t [s], without areas and without the profile. value: dim components, unit as boundary.value.
+ * Not defined for prescribed rotations. */
+void load_value_at(const struct load *l, const struct particles *p, int64_t number, real t, real *value);
 
 /* Creates the loads of n boundary conditions: finds the particles of each, sets FLAG_DRIVEN, and appends mirror images
  * of the particles within `reach` [m] of mirror planes to p. Bonds must be made afterwards. boundary: borrowed;
@@ -315,9 +315,9 @@ void loads_absorbing_free(struct loads *l);
 void loads_add_dashpot_forces(struct loads *l, struct particles *p, real dt_velocity);
 
 /* Appends the absorbing dashpots of grid nodes to g, after the prescribed velocities of nodes are set; part of
- * loads_set_grid_walls. The rates of particles are distributed to the nodes by the kernel k->spread. half_width: half
- * the reference edge of a particle, l_p [m]. */
-void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *k,
+ * loads_set_grid_walls. The rates of particles are distributed to the nodes by the kernel kernels->spread. half_width:
+ * half the reference edge of a particle, l_p [m]. */
+void loads_add_grid_dashpots(struct loads *l, struct grid *g, const struct particles *p, const struct kernels *kernels,
                              real half_width);
 
 /* Appends the absorbing dashpots of mesh nodes to mesh->grid, distributed from the particles of absorbing faces; part
@@ -348,9 +348,9 @@ struct prescribed_displacement prescribed_displacement_make(const struct boundar
  * one of the components that the boundary prescribes. */
 real prescribed_displacement_at(const struct prescribed_displacement *s, const real *X, int d);
 
-/* Computes the displacement that load l prescribes for its k-th particle at time t [s]. u: dim components [m], 0 in
- * components that are not prescribed. */
-void load_displacement_at(const struct load *l, const struct particles *p, int64_t k, real t, real *u);
+/* Computes the displacement that load l prescribes for its particle number `number` at time t [s]. u: dim components
+ * [m], 0 in components that are not prescribed. */
+void load_displacement_at(const struct load *l, const struct particles *p, int64_t number, real t, real *u);
 
 /* Returns REFUSED, with a message, if boundary b prescribes a velocity whose integral over time has no closed form (a
  * formula of t), so that its displacements are unknown; else OK. */
@@ -443,7 +443,7 @@ void loads_complete_forces(struct loads *l, struct particles *p, real t, real dt
  * nodes on the plane. held: constrained nodes of this grid, kept between calls, zeroed at first. half_width: half the
  * reference edge of a particle [m]. Call after the first particle-to-grid map. */
 void loads_set_grid_walls(struct loads *l, struct constrained_set *held, struct grid *g, const struct particles *p,
-                          const struct kernels *k, real half_width, real t, real dt);
+                          const struct kernels *kernels, real half_width, real t, real dt);
 
 /* Finds the nodes of the mesh whose motion boundaries or mirrors prescribe, and the absorbing dashpots of its nodes.
  * Call once at set-up, and again whenever the mesh has lost points to conversion. */

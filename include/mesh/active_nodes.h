@@ -9,7 +9,7 @@
 /* Updates the list of active blocks of nodes (those that computations include, as all others are at rest), after a
  * step: adds the neighbours of blocks whose nodes have moved. After active_nodes_activate_all the list is found anew,
  * from all blocks that move, have moving boundary conditions `l`, or have exposed points. */
-void active_nodes_update(struct mesh *mesh, const struct loads *l);
+void active_nodes_update(struct mesh *mesh, const struct loads *loads);
 
 /* Adds the blocks of nodes around exposed points (material points to which bonds or loads attach) to those that
  * computations include, after new points have become exposed. */

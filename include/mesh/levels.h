@@ -144,12 +144,12 @@ void levels_dilate(const struct mesh_levels *l, uint8_t *mark, int reach);
 void levels_change(struct mesh_levels *l, const struct particles *p, const struct mesh_source *source,
                    const uint8_t *level);
 
-/* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all
- * levels to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. m:
+/* Changes the velocities of all nodes by the forces of half a step, to bring velocities and displacements of all levels
+ * to the same time (dt > 0) or back again (dt < 0): velocities of level L are half a step of 2^L dt behind. elastic:
  * array of the elastic constants of all materials; finite: true if strains are finite, false if small; dt: time step of
  * level 0 [s]. */
-void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
-                             real dt);
+void levels_shift_velocities(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic,
+                             bool finite, real dt);
 
 /* Copies displacement and velocity of finer nodes to all ghosts, the nodes of a coarser mesh at their positions. (A
  * time step does so only for the levels that it moves.) */
@@ -166,9 +166,9 @@ void levels_prolong_points(struct mesh_levels *l);
 int levels_highest_due(const struct mesh_levels *l, int64_t step);
 
 /* Computes the forces of coarse cells of levels 1 to `due` on their nodes and on nodes of finer levels at the
- * interfaces. The forces of level 0 (the finest) must be complete before. m: array of the elastic constants of all
- * materials; finite: true if strains are finite, false if small. */
-void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite,
+ * interfaces. The forces of level 0 (the finest) must be complete before. elastic: array of the elastic constants of
+ * all materials; finite: true if strains are finite, false if small. */
+void levels_compute_forces(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite,
                            int due);
 
 /* Integrates the motion of the nodes of levels 0 (the finest) to `due`, level L over 2^L steps. dt: time step of level
@@ -180,9 +180,9 @@ real levels_move(struct mesh_levels *l, real dt, real dt_velocity, int due, real
 /* Returns the kinetic energy of the nodes of all coarse levels [J]; level 0 (the finest) is not included. */
 real levels_kinetic_energy(const struct mesh_levels *l);
 
-/* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. m: array of the elastic
- * constants of all materials; finite: true if strains are finite, false if small. */
-real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *m, bool finite);
+/* Returns the strain energy of all coarse cells [J]; level 0 (the finest) is not included. elastic: array of the
+ * elastic constants of all materials; finite: true if strains are finite, false if small. */
+real levels_strain_energy(struct mesh_levels *l, const struct particles *p, const struct elastic *elastic, bool finite);
 
 /* Returns the difference between two kinetic energies of the nodes of all coarse levels in a leap-frog velocity update
  * [J]: the mean of 1/2 m v^2 before and after it, minus 1/2 m v_old . v_new, which leap-frog conserves. dt: time step

@@ -64,24 +64,24 @@ bool mesh_update_partial_stiffness(struct mesh *mesh, const struct particles *p,
  */
 real mesh_insert_points(struct mesh *mesh, struct particles *p, const int32_t *list, int64_t n);
 
-/* Returns true if cell I of the mesh contains a part of the body. */
-bool mesh_cell_has_body(const struct mesh *mesh, int64_t I);
+/* Returns true if the cell of the mesh contains a part of the body. */
+bool mesh_cell_has_body(const struct mesh *mesh, int64_t cell);
 
 /* Lists the exposed points of the mesh, material points with bonds, loads or mirror images: other parts of a run need
- * their positions and velocities in every step. l: boundary conditions. */
-void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *l);
+ * their positions and velocities in every step. loads: boundary conditions. */
+void mesh_find_exposed(struct mesh *mesh, const struct particles *p, const struct bonds *b, const struct loads *loads);
 
 /* Returns the critical time step of the mesh from single cells [s]: the smallest 2/omega of the largest frequency of
  * one cell, a lower bound for the mesh. any: true to include cells that have lost any subset of their points by
  * conversion, false for the present cells. density: mass density of each material [kg/m^3]. */
 real mesh_critical_step(const struct mesh *mesh, const struct mesh_source *source, const real *density, bool any);
 
-/* Computes the stiffness matrix K of cell I for displacements of its corners in the undeformed state [N/m], from the
+/* Computes the stiffness matrix of the cell for displacements of its corners in the undeformed state [N/m], from the
  * points that the cell still has, without partial stresses. elastic: array of the elastic constants of all materials;
- * K: receives (dim 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with K = 0,
- * if the cell has no points. */
-bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
-                         real *K);
+ * stiffness: receives (dim 2^dim)^2 values, column by column, with index corner x dim + component. Returns false, with
+ * stiffness 0, if the cell has no points. */
+bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p,
+                         int64_t cell, real *stiffness);
 
 /* Returns the lowest index of a particle at whose position the deformation has turned a cell of the mesh inside out
  * (the determinant of the deformation gradient is 0 or negative), or p->n if there is none. */

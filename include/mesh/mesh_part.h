@@ -171,8 +171,8 @@ void frame_levels_describe(const struct levels_choice *c, const struct scene *s,
 
 /* Returns true if the scene gives more refinement levels than its loads or the thickness of the body allow, and writes
  * the reason to `text` (capacity `room` bytes). c: result of frame_levels_choice. */
-bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *r, const struct scene *s,
-                               char *text, size_t room);
+bool frame_levels_exceed_limit(const struct levels_choice *c, const struct reference_frame *frame,
+                               const struct scene *s, char *text, size_t room);
 
 /* Makes the coarse cells of run e, whose time step must be known, with initial refinement levels; restored: true if
  * the levels follow from a checkpoint instead. Returns FAILED, with a message, if a level would have too many nodes. */

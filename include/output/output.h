@@ -138,13 +138,13 @@ struct frame_extra {
  * FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
-/* Starts to write the next frame of series k (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
+/* Starts to write the next frame of a series (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
  * time steps, in a separate thread. Fields that change during the run, and those in *extra (NULL: none), are copied
- * before the function returns; p and scene_text must stay valid until output_wait. Only one frame is written at a
- * time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress, for which
- * it waits, could not be written; a failure of this frame is returned by the call that waits for it. */
-status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
-                          int64_t step, const char *scene_text);
+ * before the function returns; p and scene_text must stay valid until output_wait. Only one frame is written at a time:
+ * the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress, for which it
+ * waits, could not be written; a failure of this frame is returned by the call that waits for it. */
+status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
+                          real t, int64_t step, const char *scene_text);
 
 /* Writes all frames of each series as one temporal file for ParaView, frames.vtkhdf (output_temporal.c), at the end of
  * a run. scene_text: text of the scene, stored in the file. Writes nothing if there is no frame, or if there are more

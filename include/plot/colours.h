@@ -35,7 +35,7 @@ struct colour fragment_colour(int32_t fragment);
 
 /* Returns the colour of the material or body with index k >= 0. The colours are light, so that symbols drawn on top
  * are visible, and repeat after nine. */
-struct colour part_colour(int k);
+struct colour part_colour(int index);
 
 /* Mixes the colour c with white. share: weight of c, 1 for c itself, 0 for white. */
 struct colour colour_faded(struct colour c, double share);

@@ -260,7 +260,7 @@ struct colour particle_colour(const struct view *v, const struct cloud *c, int64
 
 /* Returns the colour at position a, 0 .. 1, of the colour scale of a map of the kind `map`. v: view, whose field
  * determines the scale of MAP_FIELD. */
-struct colour map_colour(const struct view *v, enum map map, double a);
+struct colour map_colour(const struct view *v, enum map map, double position);
 
 /* Paints the particles of c, seen in the rectangle of `view`, into pixel[height][width], row 0 at the bottom. map:
  * quantity that the colours show. Each particle covers its own square, or a disc where the lattice is rotated; each

@@ -134,17 +134,17 @@ int64_t probes_count_profiles(const struct probes *s);
 /* Longest name of a profile, with its terminator. */
 enum { PROFILE_NAME = NAME_MAX_LENGTH + 16 };
 
-/* Writes the file name of profile k, k >= 0, of frame number `frame` to name[PROFILE_NAME]. Returns false, without a
- * name, if there are at most k profiles. */
-bool probes_profile_name(const struct probes *s, int k, int frame, char *name);
+/* Writes the file name of profile number `profile` >= 0 of frame number `frame` to name[PROFILE_NAME]. Returns false,
+ * without a name, if there are at most `profile` profiles. */
+bool probes_profile_name(const struct probes *s, int profile, int frame, char *name);
 
 /* Copies the stress-intensity factors of the SIF probe called `name` at its last sample, and the direction of its
  * crack tip, to *found. Returns false if the probe has no values yet. */
 bool probes_sif_values(const struct probes *s, const char *name, struct control *found);
 
-/* Computes the present position of the crack tip of probe k, two components [m], and the outer radius of its contours,
- * *radius [m]. Returns false if probe k is not a SIF probe. */
-bool probes_sif_contour(const struct probes *s, int k, const struct observed *o, real position[2], real *radius);
+/* Computes the present position of the crack tip of the probe, two components [m], and the outer radius of its
+ * contours, *radius [m]. Returns false if the probe is not a SIF probe. */
+bool probes_sif_contour(const struct probes *s, int probe, const struct observed *o, real position[2], real *radius);
 
 /* Saves the state of the probes to the archive if a->saving is set, else restores it from the archive. Returns FAILED
  * if an entry is missing or its size does not fit the probes. */

@@ -73,8 +73,8 @@ void rigids_average_velocities(struct rigid_set *rigid);
  * the last time step. dt: time step [s]. */
 void rigids_extrapolate_velocities(struct rigid_set *rigid, real t, real dt);
 
-/* Computes the velocity v of rigid body k at time t [m/s], from the velocity half a step dt [s] behind t and the
- * present forces; of a driven body, the prescribed velocity. */
-void rigids_velocity(const struct rigid_set *rigid, int k, real t, real dt, real *v);
+/* Computes the velocity v of rigid body number `body` at time t [m/s], from the velocity half a step dt [s] behind t
+ * and the present forces; of a driven body, the prescribed velocity. */
+void rigids_velocity(const struct rigid_set *rigid, int body, real t, real dt, real *v);
 
 #endif

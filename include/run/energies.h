@@ -51,9 +51,9 @@ static inline void states_precompute(struct bonds *b, struct particles *p, const
 }
 
 /* Computes the stress of all peridynamic particles from their bonds at the present positions [Pa], into the stress
- * arrays of p. Time steps do not use this stress; call the function before a sample, a frame or reversion. s: bond
+ * arrays of p. Time steps do not use this stress; call the function before a sample, a frame or reversion. source: bond
  * law; kernels: compiled loops for the vector instructions of this machine. */
-void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *s,
+void compute_bond_stress(struct bonds *b, struct particles *p, const struct bond_source *source,
                          const struct kernels *kernels);
 
 #endif

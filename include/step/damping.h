@@ -15,9 +15,9 @@ struct damping_state {
 real damping_factor(real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt/2) before the first velocity update of the run,
- * and subtracts the momentum that is lost from the impulse of the loads, l->impulse. decay: c dt [1]. Returns the
+ * and subtracts the momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. Returns the
  * kinetic energy that is lost [J]. */
-real damping_apply_first(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
+real damping_apply_first(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Copies all velocities of particles and mesh nodes to s->before, before the forces of a time step change them. */
 void damping_store_velocities(struct damping_state *s, const struct particles *p, const struct mesh *mesh);
@@ -28,8 +28,8 @@ void damping_store_velocities(struct damping_state *s, const struct particles *p
 real damping_loss(const struct damping_state *s, const struct particles *p, const struct mesh *mesh, real decay);
 
 /* Multiplies all velocities of particles and mesh nodes by exp(-c dt) at the end of a time step, and subtracts the
- * momentum that is lost from the impulse of the loads, l->impulse. decay: c dt [1]. */
-void damping_apply(struct particles *p, const struct mesh *mesh, struct loads *l, real decay);
+ * momentum that is lost from the impulse of the loads, loads->impulse. decay: c dt [1]. */
+void damping_apply(struct particles *p, const struct mesh *mesh, struct loads *loads, real decay);
 
 /* Returns the energy that bulk damping takes in the velocity update that follows the last time step [J]. decay: c dt
  * [1]. kinetic_before: kinetic energy before that update [J]; kinetic: 1/2 m v- . v+, with v- and v+ the velocities

@@ -60,9 +60,9 @@ struct run_report {
  * number of steps of the run. */
 int64_t report_count_frames(const struct scene *s, const struct run_clock *clock);
 
-/* Returns the number of the time step after which frame k of the whole body is written, k >= 0; frame 0 is written at
- * t = 0. clock: time step and number of steps of the run. */
-int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t k);
+/* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written
+ * at t = 0. clock: time step and number of steps of the run. */
+int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t frame);
 
 /* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
  * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that

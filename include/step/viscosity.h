@@ -43,7 +43,7 @@ void viscosity_add_nodal_forces(struct run *e);
 /* Returns the factor by which viscosity reduces the critical time step, sqrt(1 + Q^2) - Q [1]. Q is the largest ratio
  * of viscous pressure to rho c^2 that the speeds of bodies, supports and loads lead to expect. speed: the largest of
  * particles at t = 0 [m/s]. */
-real viscosity_step_factor(const struct scene *s, const struct loads *l, const struct particles *p, real speed);
+real viscosity_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p, real speed);
 
 /* The fastest collision of bodies that a scene expects. */
 struct shock {

@@ -42,7 +42,7 @@ struct cost {
 
 /* Estimates the cost of a run by trial steps with the current team. a: arguments of the scene, by which other scenes
  * are made for comparison. The run cannot be used afterwards. Returns FAILED if one of the first steps fails. */
-status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a);
+status cost_measure(struct cost *c, struct run *run, const struct run_arguments *a);
 
 /* ---- check_steps.c ----------------------------------------------------------------------------------------------- */
 
@@ -53,10 +53,10 @@ void print_load_steps(const struct run *e);
 void print_load_step_advice(const struct run *e, FILE *out);
 
 /* Estimates the cost of load steps by the first equilibrium. Returns FAILED if none is found. */
-status cost_load_steps(struct cost *c, struct run *e);
+status cost_load_steps(struct cost *c, struct run *run);
 
 /* Prints the run time of load steps, and a line if nothing will break. */
-void print_load_steps_cost(const struct run *e, const struct cost *c, int threads);
+void print_load_steps_cost(const struct run *e, const struct cost *cost, int threads);
 
 /* ---- check_shapes.c ---------------------------------------------------------------------------------------------- */
 
@@ -85,7 +85,7 @@ void print_incompressible_advice(const struct run *e, FILE *out);
 void print_levels(const struct run *e);
 
 /* Prints the memory and time that coarse cells save. */
-void print_levels_saving(const struct run *e, const struct cost *c);
+void print_levels_saving(const struct run *e, const struct cost *cost);
 
 /* ---- check_sections.c -------------------------------------------------------------------------------------------- */
 

@@ -30,7 +30,7 @@ bool uneven_matters(const struct uneven_list *list, real off);
 
 /* Adds a part to the list, or counts it with another of equal width. known: the part has been added before, and only
  * its worst section is kept. */
-void uneven_add(struct uneven_list *list, const struct uneven *u, bool known);
+void uneven_add(struct uneven_list *list, const struct uneven *part, bool known);
 
 /* Measures where a line along `axis` through X leaves the piece, from X in the positive or the negative direction,
  * by steps and bisection. Returns the distance [m], or `most` if it is larger. step: signed [m]. */
@@ -42,7 +42,7 @@ void print_uneven_parts(struct uneven_list *list, FILE *out);
 /* Adds the necks of a piece to the list: parts that widen on both sides, such as the ligament between a hole and an
  * edge (check_necks.c). named[cells] excludes parts that are in the list already: bit d is set for cells of a listed
  * part whose width is measured along axis d. */
-void uneven_add_necks(struct uneven_list *list, const struct run *e, const struct cover *c, uint8_t *named);
+void uneven_add_necks(struct uneven_list *list, const struct run *run, const struct cover *cover, uint8_t *named);
 
 /* Adds the pieces of a body in 1D whose length is no multiple of the spacing (check_necks.c). */
 void uneven_add_lengths(struct uneven_list *list);

@@ -36,7 +36,7 @@ void row_buffer_free(struct row *row);
  * a void, whose bond would cross it. room: capacity of `found`; l: map from lattice sites to particles, used where
  * possible instead of a search; NULL: always search. Returns the number of neighbours; if it exceeds `room`, the list
  * is incomplete. */
-int find_neighbours_of(const struct site_map *l, const struct bond_source *s, const struct particles *p, int32_t i,
+int find_neighbours_of(const struct site_map *l, const struct bond_source *source, const struct particles *p, int32_t i,
                        int32_t *found, int room);
 
 /* Inputs from which rows (all bonds of one particle each) are made. */
@@ -60,20 +60,20 @@ static inline bool row_lasts(const struct row_maker *m, int64_t i)
 }
 
 /* Finds the neighbours of particle i and stores them in row->nbr and row->n. */
-void row_find_neighbours(struct row *row, const struct row_maker *m, int32_t i);
+void row_find_neighbours(struct row *row, const struct row_maker *maker, int32_t i);
 
 /* Computes lengths and weights of the bonds from particle i to the neighbours in row->nbr and stores them in `row`.
- * Bonds that are broken in the previous bonds m->old are broken in `row`, too; the plastic state of bonds is copied
+ * Bonds that are broken in the previous bonds maker->old are broken in `row`, too; the plastic state of bonds is copied
  * from there. */
-void row_compute_weights(struct row *row, const struct row_maker *m, int32_t i);
+void row_compute_weights(struct row *row, const struct row_maker *maker, int32_t i);
 
-/* Returns the number of the previous row block (bonds of eight particles) in m->old that equals row block g, so that
- * its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
-int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *m, int64_t g);
+/* Returns the number of the previous row block (bonds of eight particles) in maker->old that equals row block
+ * `row_block`, so that its columns can be kept; -1 if the particles or their neighbours have changed (bonds_keep.c). */
+int64_t row_block_find_unchanged(const struct bonds *b, const struct row_maker *maker, int64_t row_block);
 
-/* Copies row block `from` of the previous bonds `old` to row block g of b: stencil, flags, limits and volumes, and the
- * columns unless b has taken over the column arrays of `old`. */
-void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t g, int64_t from);
+/* Copies row block `from` of the previous bonds `old` to row block `row_block` of b: stencil, flags, limits and
+ * volumes, and the columns unless b has taken over the column arrays of `old`. */
+void row_block_copy_unchanged(struct bonds *b, const struct bonds *old, int64_t row_block, int64_t from);
 
 /* Neighbours found for the rows of a row block, kept between the two passes. */
 struct row_block_found {
@@ -89,10 +89,10 @@ struct row_block_found *row_block_found_make(const struct row *row, int rows);
 void row_block_found_restore(const struct row_block_found *found, struct row *row, int rows);
 
 /* Assigns a range of columns (eight bonds each) to every row block of b and allocates the column arrays. kept: for each
- * row block the number of the previous row block in m->old whose columns it keeps in place, -1 if it is rebuilt.
+ * row block the number of the previous row block in maker->old whose columns it keeps in place, -1 if it is rebuilt.
  * Rebuilt row blocks use columns of removed row blocks if these are enough, else columns behind all others
  * (bonds_columns.c). */
-void columns_assign(struct bonds *b, const struct row_maker *m, const int64_t *kept);
+void columns_assign(struct bonds *b, const struct row_maker *maker, const int64_t *kept);
 
 /* Sets the pointers in `old` to NULL for those arrays that b has taken over, so that releasing `old` does not release
  * them. */
@@ -122,9 +122,9 @@ struct regular_bonds {
     struct stencil_cache *stencil_cache;
 };
 
-/* Allocates `to` for the largest number of index distances that bonds on the lattice of map l can have. Release with
+/* Allocates `to` for the largest number of index distances that bonds on the lattice of the map can have. Release with
  * regular_bonds_free. */
-void regular_bonds_make(struct regular_bonds *to, const struct site_map *l);
+void regular_bonds_make(struct regular_bonds *to, const struct site_map *map);
 
 /* Releases the arrays of `to`. */
 void regular_bonds_free(struct regular_bonds *to);
@@ -146,14 +146,14 @@ void stencil_cache_free(struct stencil_cache *t);
  * weights: inputs on which weights depend besides lattice sites; NULL: none. */
 int64_t stencil_cache_find_row(const struct regular_bonds *b, const struct bond_source *weights, int64_t i);
 
-/* Computes inverse length `inverse` [1/m] and weight w [1] of the eight bonds between particle i + l and particle j +
- * l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
+/* Computes inverse length `inverse` [1/m] and weight `weight` [1] of the eight bonds between particle i + l and
+ * particle j + l, l = 0 to 7, without regard to cracks and voids. pairs: micro-moduli by pair of materials. */
 void regular_bonds_weigh(const struct bond_source *s, const struct particles *p, const struct pair_table *pairs,
-                         int64_t i, int64_t j, real *inverse, real *w);
+                         int64_t i, int64_t j, real *inverse, real *weight);
 
 /* Computes the bonds of the eight particles i to i + 7 from the map of lattice sites into `to`. Returns false if that
  * is not possible, e.g. because a crack is near. */
-bool row_block_find_regular(const struct site_map *map, const struct bond_source *s, const struct particles *p,
+bool row_block_find_regular(const struct site_map *map, const struct bond_source *source, const struct particles *p,
                             int64_t i, struct regular_bonds *to);
 
 /* Returns the number of columns that the bonds of eight particles need, one for each index distance with a bond. */
@@ -192,18 +192,19 @@ void row_block_buffer_free(struct row_block_buffer *g);
  * rows. *by_offset: set to true if each column has one index distance, to false if rows are packed without gaps. */
 int row_block_count_columns(struct row_block_buffer *g, const int32_t *particle, int rows, bool *by_offset);
 
-/* Fills the columns of row block g of b from the first `rows` rows of bonds in `room`, and sets breaking limits, family
- * volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
-void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t g, int rows, bool by_offset,
+/* Fills the columns of row block `row_block` of b from the first `rows` rows of bonds in `room`, and sets breaking
+ * limits, family volumes and alignment of the row block. by_offset: result of row_block_count_columns. */
+void row_block_fill(struct bonds *b, struct row_block_buffer *room, int64_t row_block, int rows, bool by_offset,
                     const struct particles *p);
 
-/* Fills row block g of b from the bonds in room->regular, which were found without a search, because its eight
- * particles are consecutive on one lattice. */
-void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct row_maker *m);
+/* Fills row block `row_block` of b from the bonds in room->regular, which were found without a search, because its
+ * eight particles are consecutive on one lattice. */
+void row_block_fill_regular(struct bonds *b, struct row_block_buffer *room, int64_t row_block,
+                            const struct row_maker *maker);
 
-/* Stores the columns in `room` as columns of row block g, or, if their bonds equal those of a known stencil, makes the
- * row block follow that stencil and stores nothing. Called after the columns were filled. */
-void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t g, const struct particles *p);
+/* Stores the columns in `room` as columns of row block `row_block`, or, if their bonds equal those of a known stencil,
+ * makes the row block follow that stencil and stores nothing. Called after the columns were filled. */
+void row_block_store(struct bonds *b, struct row_block_buffer *room, int64_t row_block, const struct particles *p);
 
 /* Allocates b->shell_length and computes the bond lengths spacing sqrt(k) of a lattice. spacing: lattice spacing
  * [m]. */
@@ -238,28 +239,28 @@ bool stencil_add(struct stencil *to, const struct bonds *b, const struct particl
  * to the table if there is none. Returns NULL if the table is full. */
 const struct stencil *stencil_find(struct stencils *all, const struct stencil *stencil, const struct stencil *likely);
 
-/* Sets the stencil of row block g to that of the row block that contains particle `cached`, so that g needs no stored
- * columns; its breaking limits and family volumes are copied, too. cached = -1: uses the stencil that row block g
- * already has. Returns false, without a change, if there is no stencil. */
-bool row_block_use_stencil(struct bonds *b, int64_t g, int64_t cached);
+/* Sets the stencil of row block `row_block` to that of the row block that contains particle `cached`, so that
+ * `row_block` needs no stored columns; its breaking limits and family volumes are copied, too. cached = -1: uses the
+ * stencil that row block g already has. Returns false, without a change, if there is no stencil. */
+bool row_block_use_stencil(struct bonds *b, int64_t row_block, int64_t cached);
 
 /* Writes the eight bonds `from` to column number `column` of the bond arrays. */
 void bond_column_write(const struct bonds *b, int64_t column, const struct column_copy *from);
 
 /* Sets the moduli and normalisation in b->state, and allocates its weighted volumes, before rows are filled
  * (bonds_state.c). Does nothing for bond-based models. */
-void state_start(struct bonds *b, const struct bond_source *s);
+void state_start(struct bonds *b, const struct bond_source *source);
 
 /* Allocates the arrays of b->state that depend on the rows, stores the sources of mirror images, and computes the
  * weighted volumes; call after all rows were made. Does nothing for bond-based models. */
-void state_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
+void state_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the arrays of b->state. */
 void state_free(struct bonds *b);
 
 /* Lists in b->clamped the bonds to mirror images in clamped planes, planes of symmetry along which motion is prevented,
  * too. To be called after all rows were made (bonds_clamped.c). */
-void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *s);
+void clamped_make(struct bonds *b, const struct particles *p, const struct bond_source *source);
 
 /* Releases the lists in b->clamped. */
 void clamped_free(struct bonds *b);

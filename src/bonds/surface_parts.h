@@ -40,9 +40,9 @@ struct seen {
     int mirrors;
 };
 
-/* Returns the particle of the body of which entry j of the particle arrays is an image (j itself, if it is not an
- * image), and the mirrors in between as one bit per reversed axis. */
-struct seen mirrored_source_of(const struct near_faces *b, int64_t j);
+/* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
+ * an image), and the mirrors in between as one bit per reversed axis. */
+struct seen mirrored_source_of(const struct near_faces *b, int64_t entry);
 
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
@@ -54,10 +54,10 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
     return b->neighbour[t * b->offset.n + k];
 }
 
-/* Returns the neighbour at offset number k, in space, of a particle near faces that is itself seen through mirrors
- * (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there is no
- * neighbour or the bond is cut. */
-struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int k);
+/* Returns the neighbour at offset number `offset`, in space, of a particle near faces that is itself seen through
+ * mirrors (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there
+ * is no neighbour or the bond is cut. */
+struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset);
 
 /* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
 static inline bool is_whole(const struct near_faces *b, int64_t j)
@@ -65,15 +65,16 @@ static inline bool is_whole(const struct near_faces *b, int64_t j)
     return b->whole[j < b->p->n ? j : image_root(b->p, b->source->image, j)];
 }
 
-/* Returns the offset number of a bond in reverse direction. k: offset number of the bond at its first particle; to:
- * other particle of the bond, at which the reverse offset is listed; if it is seen through mirrors, the reverse offset
- * is reflected in them. */
-int reverse_offset(const struct near_faces *b, const struct seen *to, int k);
+/* Returns the offset number of a bond in reverse direction. offset: offset number of the bond at its first particle;
+ * to: other particle of the bond, at which the reverse offset is listed; if it is seen through mirrors, the reverse
+ * offset is reflected in them. */
+int reverse_offset(const struct near_faces *b, const struct seen *to, int offset);
 
-/* Lists the particles near faces and their neighbours in b. s: inputs of the bonds. Returns REFUSED, with a message, if
- * the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a whole number
- * of spacings away, apart[1] this neighbour. Release with near_faces_free. */
-status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *s, int64_t apart[2]);
+/* Lists the particles near faces and their neighbours in b. source: inputs of the bonds. Returns REFUSED, with a
+ * message, if the particles are not on a lattice; apart[0] is then the first particle with a neighbour that is not a
+ * whole number of spacings away, apart[1] this neighbour. Release with near_faces_free. */
+status near_faces_make(struct near_faces *b, const struct particles *p, const struct bond_source *source,
+                       int64_t apart[2]);
 
 /* Releases all arrays of b. */
 void near_faces_free(struct near_faces *b);
@@ -91,9 +92,9 @@ struct face_targets {
 };
 enum { THIN = 4, THIN_ROTATING = 5 };
 
-/* Computes, for the particles b near faces, the outward areas, moments and normals to which bond weights are fitted,
- * into f. rotates: true for the model with particle rotations. Release with face_targets_free. */
-void face_targets_make(struct face_targets *f, const struct near_faces *b, bool rotates);
+/* Computes, for the particles `near` near faces, the outward areas, moments and normals to which bond weights are
+ * fitted, into f. rotates: true for the model with particle rotations. Release with face_targets_free. */
+void face_targets_make(struct face_targets *f, const struct near_faces *near, bool rotates);
 
 /* Releases all arrays of f. */
 void face_targets_free(struct face_targets *f);
@@ -111,9 +112,9 @@ struct bond_classes {
     int64_t *group_of; /* [classes offsets] group; -1: no bond, or a bond that reaches no face */
 };
 
-/* Sorts the particles b near faces into classes with equal surroundings up to mirrors, and their bonds into groups with
- * one factor each. Release with bond_classes_free. */
-void bond_classes_make(struct bond_classes *a, const struct near_faces *b);
+/* Sorts the particles `near` near faces into classes with equal surroundings up to mirrors, and their bonds into groups
+ * with one factor each. Release with bond_classes_free. */
+void bond_classes_make(struct bond_classes *a, const struct near_faces *near);
 
 /* Returns the particle or image at offset number k from the first member of a class of particles with equal
  * surroundings, in the orientation of the class, to which the mirrors of that member map it; -1 if there is none. */
@@ -127,8 +128,8 @@ static inline int32_t alike_neighbour(const struct bond_classes *a, const struct
 void bond_classes_free(struct bond_classes *a);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
- * factor: [a->groups] [1]; f: targets of the fit; rotates: true for the model with particle rotations. */
-void surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
-                         const struct bond_classes *a, bool rotates);
+ * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations. */
+void surface_fit_factors(real *factor, const struct near_faces *near, const struct face_targets *targets,
+                         const struct bond_classes *classes, bool rotates);
 
 #endif

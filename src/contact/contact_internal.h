@@ -70,8 +70,8 @@ static inline bool contact_works(const struct contact *c) { return c->law.betwee
 static inline bool contact_follows(const struct contact *c, int64_t row) { return c->followed[row] >= ROW_SOURCE; }
 
 /* Activates further particles of the contact list, after neighbours that were at rest have started to move: marks them
- * as loaded in l and their bonds as active in b. To be called in steps without a search for pairs. */
-void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *l);
+ * as loaded in `loads` and their bonds as active in b. To be called in steps without a search for pairs. */
+void contact_activate_more(struct contact *c, const struct particles *p, struct bonds *b, struct loads *loads);
 
 /* Returns the array of bytes that selects which contacts between particles act in an equilibrium (contact_select): one
  * per particle of the contact list for the form `surface`, one per pair for the form `pair`. Returns NULL if
@@ -95,13 +95,14 @@ static inline bool contact_touches(const uint8_t *marks, int64_t k, bool overlap
  * [spacings], by the contact law of form `surface`. */
 real contact_face_gap(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance of the particles of pair q minus their contact distance [m], negative if they overlap. row:
+/* Returns the distance of the particles of the pair minus their contact distance [m], negative if they overlap. row:
  * entry of the contact list (particles that may come into contact) to which the pair belongs. */
-real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t q);
+real contact_pair_gap(const struct contact *c, const struct particles *p, int64_t row, int64_t pair);
 
-/* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m]. q:
- * entry of the particle in the list near this body; normal: receives the outward unit vector normal to the surface. */
-real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t q, real *normal);
+/* Returns the distance of a particle from rigid body number `body` minus the distance at which contact begins [m].
+ * entry: entry of the particle in the list near this body; normal: receives the outward unit vector normal to the
+ * surface. */
+real contact_rigid_gap(const struct contact *c, const struct particles *p, int body, int64_t entry, real *normal);
 
 /* Describes the contact of particle number `row` of the contact list with the faces beside it as a linear spring, by
  * the contact law of form `surface`: stiffness, and derivatives of the gap by the positions of the particles. term: its
@@ -126,9 +127,9 @@ static inline real contact_skin(const struct contact *c)
  * is not in it. */
 int64_t contact_list_find(const struct contact *c, int64_t i);
 
-/* Returns the width of the widest notch (a pre-crack with a width) that separates the entries k and l of the contact
- * list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
-real contact_notch_width(const struct contact *c, const struct particles *p, int64_t k, int64_t l);
+/* Returns the width of the widest notch (a pre-crack with a width) that separates the entries `entry` and `other` of
+ * the contact list in the reference configuration [m]; 0 if there is none or if they belong to different bodies. */
+real contact_notch_width(const struct contact *c, const struct particles *p, int64_t entry, int64_t other);
 
 /* Computes three arrays for all particles of the contact list: c->root, the entry of which a mirror image is made;
  * c->size, the spacing [m]; c->rise, the height of the surface of the body above the particle [spacings]. */
@@ -142,10 +143,10 @@ void contact_pair_add_force(const struct contact *c, struct particles *p, int64_
  * form `pair`; each pair belongs to two particles. */
 real contact_pair_energy(const struct contact *c, const struct particles *p, int64_t row);
 
-/* Returns the distance at which contact of the entries k and l of the contact list begins [m]: the contact distance,
- * reduced if they are closer in the reference configuration or at present. was: contact distance on the previous list
- * of pairs [m], NAN if the pair was not on it. */
-real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t k, int64_t l, real was);
+/* Returns the distance at which contact of the entries `entry` and `other` of the contact list begins [m]: the contact
+ * distance, reduced if they are closer in the reference configuration or at present. was: contact distance on the
+ * previous list of pairs [m], NAN if the pair was not on it. */
+real contact_pair_distance(const struct contact *c, const struct particles *p, int64_t entry, int64_t other, real was);
 
 /* Computes the table that gives the depth of a face below a particle as a function of the density of the face at the
  * particle, for particles on a square or cubic lattice. dim: space dimension. */
@@ -189,15 +190,16 @@ struct contact_weight {
     real weight, pull, apart[DIM_MAX];
 };
 
-/* Computes the contribution of entry l of the contact list to the density of the face at entry k, at the positions x -
- * lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
-struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t k, int64_t l,
-                                          real lag);
+/* Computes the contribution of entry `other` of the contact list to the density of the face at entry `entry`, at the
+ * positions x - lag v. lag: time [s]. The energy derivative in the result is that at the present positions. */
+struct contact_weight contact_face_weight(const struct contact *c, const struct particles *p, int64_t entry,
+                                          int64_t other, real lag);
 
 /* Advances a friction spring by a step. normal: outward unit vector of the face, 0 if contact has ended; slid:
- * displacement of the particle relative to the face in the step, dim components [m]; k: stiffness of the spring [N/m];
- * most: force at which the spring slides [N], 0 after separation. */
-void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real k, real most);
+ * displacement of the particle relative to the face in the step, dim components [m]; stiffness: stiffness of the spring
+ * [N/m]; most: force at which the spring slides [N], 0 after separation. */
+void contact_spring_advance(struct contact_spring *s, int dim, const real *normal, const real *slid, real stiffness,
+                            real most);
 
 /* Advances the friction spring of particle number `row` of the contact list by a time step dt [s], by the contact law
  * of form `surface`. First of two passes over the particles; contact_face_add_friction adds the forces. */

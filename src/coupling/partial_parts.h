@@ -28,36 +28,36 @@ struct response {
 };
 
 /* Returns the derivative of the force of a bond in the row of particle i by a uniform strain (struct response). */
-struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *s,
+struct response bond_response_of(const struct particles *p, const struct bonds *b, const struct bond_source *source,
                                  int32_t i, const struct bond *bond);
 
 /* Adds to the tensor T [J] the contribution of the bond from xp, a material point, to xm, in proportion to the share of
  * its length inside the cell with middle X and half edge `half`: T_abcd = l e_b dF_a/deps_cd, with that length l, the
- * unit vector e along the bond and its force F; symmetric in ab and in cd. k: derivative of the force. */
-void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half, struct response k,
-                             int dim);
+ * unit vector e along the bond and its force F; symmetric in ab and in cd. response: derivative of the force. */
+void partial_tensor_add_bond(real *T, const real *xp, const real *xm, const real *X, real half,
+                             struct response response, int dim);
 
 /* Limits the tensor T of material point i [J], by which state-based bonds reduce the stiffness of its cell, so that the
  * elastic energy of the point stays positive (partial_positive.c). L: receives the derivative of the point's mean
  * strain by the strain of its cell, in symmetric components [1]; 0 if the point has no bonds. Returns true if it has
  * bonds. */
 bool partial_tensor_limit_state(real *T, real *L, const struct particles *p, const struct bonds *b,
-                                const struct bond_source *s, int64_t i);
+                                const struct bond_source *source, int64_t i);
 
 /* Limits the tensor T of material point i [J], by which bond-based PD-MPM bonds reduce the stiffness of its cell, so
  * that no eigenvalue of V C - T is negative. V, C: volume and elastic tensor of the point. Otherwise the cell would be
  * unstable with any time step. The limit acts only for irregular particles or bonds stiffer than the material. */
-void partial_tensor_limit_bonds(real *T, const struct particles *p, const struct bond_source *s, int64_t i);
+void partial_tensor_limit_bonds(real *T, const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Returns half the edge of the cell of a particle [m]. */
-real particle_half_edge(const struct particles *p, const struct bond_source *s, int64_t i);
+real particle_half_edge(const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Table from which T of a point follows quickly if particles are on a lattice (partial_table.c): the share of every
  * bond vector inside every cell that it crosses. Empty if particles are not on lattices. */
 struct partial_table;
 
 /* Creates the table for the particles p. size: number of values of one tensor T. Release with partial_table_free. */
-struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *s, int size);
+struct partial_table *partial_table_make(const struct particles *p, const struct bond_source *source, int size);
 
 /* Releases the table. */
 void partial_table_free(struct partial_table *t);
@@ -69,16 +69,16 @@ bool partial_table_exists(const struct partial_table *t);
 bool partial_table_covers_all(const struct partial_table *t);
 
 /* Returns true if particle i has the volume of a lattice cell, so that the table can be used for it. */
-bool partial_table_applies_to(const struct particles *p, const struct bond_source *s, int64_t i);
+bool partial_table_applies_to(const struct particles *p, const struct bond_source *source, int64_t i);
 
 /* Recomputes the responses (struct response) of the bonds of n material points listed in `list`, or, if it is NULL, of
  * all material points. Responses of other points are kept. */
 void partial_table_update(struct partial_table *t, const struct particles *p, const struct bonds *b,
-                          const struct bond_source *s, const int32_t *list, int64_t n);
+                          const struct bond_source *source, const int32_t *list, int64_t n);
 
 /* Computes the tensor T of point i [J] from the table and the stored responses of the bonds of the material points
  * around it. near: working memory. */
 void partial_table_sum(const struct partial_table *t, const struct particles *p, const struct bonds *b,
-                       const struct bond_source *s, int64_t i, struct near *near, real *T);
+                       const struct bond_source *source, int64_t i, struct near *near, real *T);
 
 #endif

@@ -48,11 +48,12 @@ void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, c
 
 /* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
  * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
-void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
+void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *loads,
                           const struct run_clock *clock, real wave_speed, struct warnings *to);
 
 /* Adds warnings to *to about supports whose prescribed speed is so high that the bonds next to the particles that they
  * drive break. */
-void engine_warn_of_speed(const struct scene *s, const struct loads *l, const struct particles *p, struct warnings *to);
+void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
+                          struct warnings *to);
 
 #endif

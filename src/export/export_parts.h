@@ -53,15 +53,15 @@ enum { PAIR_UNKNOWN, PAIR_BONDED, PAIR_CUT };
 /* Releases the arrays of *t. */
 void touched_free(struct touched *t);
 
-/* Assigns a colour, a number from 0 on, to each particle of t, such that no pair of colours has both pairs of
+/* Assigns a colour, a number from 0 on, to each particle of `touched`, such that no pair of colours has both pairs of
  * particles with a bond and pairs whose bond must be cut. Particles with equal keys share a colour where possible.
- * Stores the colours in colour[t->n]. Returns the number of colours; 0 if more than COLOURS_MOST are needed. */
-int colours_make(int32_t *colour, const struct touched *t);
+ * Stores the colours in colour[touched->n]. Returns the number of colours; 0 if more than COLOURS_MOST are needed. */
+int colours_make(int32_t *colour, const struct touched *touched);
 
 /* Returns an allocated array [colours * colours] with the state of each pair of colours (PAIR_UNKNOWN, PAIR_BONDED,
- * PAIR_CUT), computed from the particles of t and their colours colour[t->n]; the caller releases it with memory_free.
- * Returns NULL if a pair of colours has both bonded and cut pairs of particles. */
-uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *t);
+ * PAIR_CUT), computed from the particles of `touched` and their colours colour[touched->n]; the caller releases it with
+ * memory_free. Returns NULL if a pair of colours has both bonded and cut pairs of particles. */
+uint8_t *colours_pairs(const int32_t *colour, int colours, const struct touched *touched);
 
 /* ---- bonds of LAMMPS (export_bonds.c) ---------------------------------------------------------------------------- */
 
@@ -87,10 +87,10 @@ struct exported {
     int64_t bonds, cut; /* pairs bonded in the scene; pairs that LAMMPS would bond in addition */
 };
 
-/* Compares the bonds that LAMMPS would create with those of the scene, stores the numbers of bonds in x->bonds and
- * x->cut, and lists in *t the particles of the bonds that must be cut in LAMMPS. Returns REFUSED if LAMMPS would lack
- * a bond of the scene or give it another weight. Release *t with touched_free. */
-status lammps_find_cut_bonds(struct touched *t, struct exported *x);
+/* Compares the bonds that LAMMPS would create with those of the scene, stores the numbers of bonds in exported->bonds
+ * and exported->cut, and lists in *t the particles of the bonds that must be cut in LAMMPS. Returns REFUSED if LAMMPS
+ * would lack a bond of the scene or give it another weight. Release *t with touched_free. */
+status lammps_find_cut_bonds(struct touched *t, struct exported *exported);
 
 /* Types of particles: one for each combination of material and loads, and more where bonds are cut. */
 struct lammps_types {
@@ -104,7 +104,7 @@ struct lammps_types {
 /* Assigns a LAMMPS type to each particle, such that particles of one type have the same material and loads, and pairs
  * of types can be excluded where bonds must be cut. Returns REFUSED if too many types are needed. Release with
  * lammps_types_free. */
-status lammps_types_make(struct lammps_types *t, struct exported *x);
+status lammps_types_make(struct lammps_types *t, struct exported *exported);
 
 /* Releases the arrays of *t. */
 void lammps_types_free(struct lammps_types *t);
@@ -119,30 +119,31 @@ status lammps_loads_make(struct exported *x);
  * a boundary drives the prescribed velocity at half a time step. */
 void lammps_velocity(const struct exported *x, int64_t i, real v[DIM_MAX]);
 
-/* Writes the names of all columns of x to the file `to`, as arguments of the LAMMPS command `fix property/atom`. */
-void lammps_columns_name(FILE *to, const struct exported *x);
+/* Writes the names of all columns of `exported` to the file `to`, as arguments of the LAMMPS command `fix
+ * property/atom`. */
+void lammps_columns_name(FILE *to, const struct exported *exported);
 
-/* Writes one LAMMPS command `compute property/atom` for each column of x to the file `to`; variables of the script
- * read the columns through them. */
-void lammps_columns_compute(FILE *to, const struct exported *x);
+/* Writes one LAMMPS command `compute property/atom` for each column of `exported` to the file `to`; variables of the
+ * script read the columns through them. */
+void lammps_columns_compute(FILE *to, const struct exported *exported);
 
 /* Returns the value of the column with index `column` at particle i: a component of the initial displacement [m], or
  * of the force of a load on the particle [N], 0 if the load does not act on it. */
 real lammps_column_value(const struct exported *x, int column, int64_t i);
 
 /* Writes the LAMMPS commands of all loads and supports to the file `to`. t: types of the particles. */
-void lammps_loads_write(FILE *to, const struct exported *x, const struct lammps_types *t);
+void lammps_loads_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
 
 /* ---- files ------------------------------------------------------------------------------------------------------- */
 
 /* Writes the contents of plate.data, the particles with their types, to the file `to` (export_data.c). t: types of the
  * particles. */
-void lammps_data_write(FILE *to, const struct exported *x, const struct lammps_types *t);
+void lammps_data_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
 /* Writes the contents of the input script in.lammps to the file `to` (export_script.c). t: types of the particles. */
-void lammps_script_write(FILE *to, const struct exported *x, const struct lammps_types *t);
+void lammps_script_write(FILE *to, const struct exported *exported, const struct lammps_types *t);
 /* Writes the estimated duration of the run in LAMMPS and in Cleave, and what the export lacks, to the file `to`
  * (export_cost.c). */
-void lammps_cost_write(FILE *to, const struct exported *x);
+void lammps_cost_write(FILE *to, const struct exported *exported);
 
 /* Returns the number of time steps after which the positions in both programs are compared: CHECK_STEPS, or all steps
  * of a shorter run. */
@@ -150,6 +151,6 @@ int64_t lammps_check_steps(const struct exported *x);
 
 /* Makes lammps_check_steps time steps in Cleave and writes the positions of the particles and the broken share of
  * their bonds to the file `to`, the contents of check.csv (export_check.c). Returns FAILED if a step fails. */
-status lammps_check_write(FILE *to, struct exported *x);
+status lammps_check_write(FILE *to, struct exported *exported);
 
 #endif

@@ -75,18 +75,18 @@ struct element_mesh {
 
 enum { ELEMENT_SETS_MAX = 1000 };
 
-/* Appends a node at X (three components [unit of the file]) to the mesh m. label: its number in the file. s: file, for
- * the message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
-status mesh_node_add(struct element_mesh *m, const struct source *s, const real *X, int64_t label);
+/* Appends a node at X (three components [unit of the file]) to the mesh m. label: its number in the file. file: for the
+ * message. Returns REFUSED, with a message, if there are too many nodes for 32-bit indices. */
+status mesh_node_add(struct element_mesh *m, const struct source *file, const real *X, int64_t label);
 
 /* Appends a node at X (three components [unit of the file]) to the mesh m without a check of the number of nodes, and
  * returns its index. label: its number in the file, -1 for nodes that are not in the file. */
 int32_t mesh_node_append(struct element_mesh *m, const real *X, int64_t label);
 
 /* Appends an element of the given kind to the mesh m. node: its corners, as indices or, in Abaqus files, still numbers
- * of the file; label: number of the element in the file; s: file, for the message. Returns REFUSED, with a message, if
+ * of the file; label: number of the element in the file; file: for the message. Returns REFUSED, with a message, if
  * there are too many elements. */
-status mesh_element_add(struct element_mesh *m, const struct source *s, enum element_kind kind, const int32_t *node,
+status mesh_element_add(struct element_mesh *m, const struct source *file, enum element_kind kind, const int32_t *node,
                         int64_t label);
 
 /* Sets the middle nodes (on edges and sides) of the last element of m. middle: indices or numbers of the file, as many
@@ -129,19 +129,19 @@ int64_t label_find(const struct label_map *map, int64_t label);
 /* Returns true if a number of the file occurs twice in `map`, and stores the smallest such number in *label. */
 bool label_find_duplicate(const struct label_map *map, int64_t *label);
 
-/* Reads the Gmsh file s into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
+/* Reads the Gmsh file into the empty mesh m. Returns REFUSED, with a message that contains the line, if the file is
  * malformed or contains elements of an unsupported kind. The caller releases m with element_mesh_free, also after a
  * failure. */
-status gmsh_read(struct element_mesh *m, struct source *s);
+status gmsh_read(struct element_mesh *m, struct source *file);
 
-/* Reads the Abaqus input deck s into the empty mesh m. Returns REFUSED, with a message that contains the line, if the
- * file is malformed. The caller releases m with element_mesh_free, also after a failure. */
-status abaqus_read(struct element_mesh *m, struct source *s);
+/* Reads the Abaqus input deck `file` into the empty mesh m. Returns REFUSED, with a message that contains the line, if
+ * the file is malformed. The caller releases m with element_mesh_free, also after a failure. */
+status abaqus_read(struct element_mesh *m, struct source *file);
 
-/* Reads the text or binary STL file s into the empty mesh m; corners of triangles nearer to each other than a millionth
+/* Reads the text or binary STL file into the empty mesh m; corners of triangles nearer to each other than a millionth
  * of the extent become one node. Returns REFUSED, with a message, if the file is malformed. The caller releases m with
  * element_mesh_free, also after a failure. */
-status stl_read(struct element_mesh *m, struct source *s);
+status stl_read(struct element_mesh *m, struct source *file);
 
 /* Creates g, the surface of the body that the elements of m fill and the surfaces of its named sets. path: file, for
  * messages; scale: metres per unit of the file; fine: largest distance between a curved edge and its chords [m], NAN:

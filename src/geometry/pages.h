@@ -11,21 +11,21 @@ struct pages {
     uint16_t *grey;           /* [n][height][width], top row first */
 };
 
-/* Appends a page of width x height pixels to p and sets *page to its first grey value; the caller fills it. s: file,
- * for the message. Returns REFUSED, with a message, if the size differs from that of earlier pages, or is too large for
- * a file of this length (compressed at most 1100-fold) or for the memory. */
-status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t height, uint16_t **page);
+/* Appends a page of width x height pixels to p and sets *page to its first grey value; the caller fills it. file: for
+ * the message. Returns REFUSED, with a message, if the size differs from that of earlier pages, or is too large for a
+ * file of this length (compressed at most 1100-fold) or for the memory. */
+status pages_add(struct pages *p, const struct source *file, int64_t width, int64_t height, uint16_t **page);
 
 /* Returns the grey value of a colour by the weights of Rec. 709, in the range of the arguments. */
 int luminance(int red, int green, int blue);
 
-/* Appends the image in the PNG file s to p. Returns REFUSED, with a message, if the file is malformed or of an
+/* Appends the image in the PNG file to p. Returns REFUSED, with a message, if the file is malformed or of an
  * unsupported kind, FAILED if the PNG library cannot start. The caller releases p->grey with memory_free, also after a
  * failure. */
-status png_read_pages(struct pages *p, struct source *s);
+status png_read_pages(struct pages *p, struct source *file);
 
-/* Appends all pages of the TIFF file s to p. Returns REFUSED, with a message, if the file is malformed or of an
+/* Appends all pages of the TIFF file to p. Returns REFUSED, with a message, if the file is malformed or of an
  * unsupported kind. The caller releases p->grey with memory_free, also after a failure. */
-status tiff_read_pages(struct pages *p, struct source *s);
+status tiff_read_pages(struct pages *p, struct source *file);
 
 #endif

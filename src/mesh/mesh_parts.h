@@ -21,21 +21,21 @@ struct mesh_partial {
  * with their stiffness out of the mesh into the result. The mesh has no partial cells afterwards. */
 struct mesh_partial mesh_partial_detach(struct mesh *mesh);
 
-/* Appends cell I to the list of partial cells of the mesh, cells with missing points, partial stresses, several
+/* Appends the cell to the list of partial cells of the mesh, cells with missing points, partial stresses, several
  * materials or doubled nodes; the stiffness is computed later (mesh_partial_make). */
-void mesh_partial_add(struct mesh *mesh, int64_t I);
+void mesh_partial_add(struct mesh *mesh, int64_t cell);
 
 /* Computes the stiffness of all partial cells of the mesh (cells with missing points, partial stresses, several
- * materials or doubled nodes). s: material constants and partial stresses; dirty: a byte for each cell, not 0 where the
- * stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach, from which the stiffness of
- * all other cells is copied, and which is freed. */
-void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty,
-                       struct mesh_partial *old);
+ * materials or doubled nodes). source: material constants and partial stresses; dirty: a byte for each cell, not 0
+ * where the stiffness must be computed anew, NULL for all cells; old: result of mesh_partial_detach, from which the
+ * stiffness of all other cells is copied, and which is freed. */
+void mesh_partial_make(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                       const uint8_t *dirty, struct mesh_partial *old);
 
 /* Recomputes the stiffness of the partial cells (cells with missing points, partial stresses, several materials or
- * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. s: material constants
- * and partial stresses. */
-void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *s,
+ * doubled nodes) marked in `dirty`, a byte for each cell. The list of partial cells is unchanged. source: material
+ * constants and partial stresses. */
+void mesh_partial_recompute(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
                             const uint8_t *dirty);
 
 /* Frees the list of partial cells of the mesh and their stiffness. */
@@ -73,13 +73,14 @@ void mesh_project_near(const struct mesh *mesh, const struct particles *p, real 
  * or -1 if the particle is not at a quarter or three quarters of each edge of a cell. */
 int64_t mesh_point_slot(const struct mesh *mesh, const struct particles *p, int64_t i);
 
-/* Recomputes mass and inverse mass of node I from the points around it; points in coarse cells are left out. */
-void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t I);
+/* Recomputes mass and inverse mass of the node from the points around it; points in coarse cells are left out. */
+void mesh_node_update_mass(struct mesh *mesh, const struct particles *p, int64_t node);
 
-/* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed
- * in some cells. s: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these cells.
- */
-void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *s, const uint8_t *dirty);
+/* Recomputes kinds of cells, runs, partial cells and nodal masses after the refinement level mesh->level has changed in
+ * some cells. source: material constants and partial stresses; dirty: mesh->grid.n + LANES bytes, not 0 for these
+ * cells. */
+void mesh_cells_update(struct mesh *mesh, const struct particles *p, const struct mesh_source *source,
+                       const uint8_t *dirty);
 
 /* Groups the cells of a mesh without points (a coarse level) into rows of consecutive cells of equal material, the runs
  * of the mesh. Finds the span of nodes with mass in each row of nodes, and the active blocks of nodes. Input: kinds and

@@ -12,19 +12,19 @@ struct layout {
     int right;                     /* width of the colour bar or key on the right [pixel] */
 };
 
-/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout l. left, above:
- * position of its upper left corner, from the left and upper edge of the picture [pixel]. */
-void panel_write_margins(FILE *to, const struct layout *l, double left, double above);
+/* Writes the gnuplot commands that set the margins of a panel with the panel size of the layout. left, above: position
+ * of its upper left corner, from the left and upper edge of the picture [pixel]. */
+void panel_write_margins(FILE *to, const struct layout *layout, double left, double above);
 
 /* Writes the gnuplot commands for tics and labels of a panel with a flat map. metre: unit of the axes; column: column
  * of the panel, from 0, the only one with labels at its left axis; lowest: no panel is below it, so that its lower
  * axis has labels. */
-void panel_write_axes(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+void panel_write_axes(FILE *to, const struct layout *layout, const struct view *view, const struct cloud *c,
                       const struct unit *metre, int column, bool lowest);
 
 /* Writes the gnuplot commands that draw the coordinate axes of an outside view as arrows at the lower left corner of a
  * panel, and a bar of known length. metre: unit of the axes of the panel. */
-void panel_write_directions(FILE *to, const struct layout *l, const struct view *view, const struct cloud *c,
+void panel_write_directions(FILE *to, const struct layout *layout, const struct view *view, const struct cloud *c,
                             const struct unit *metre);
 
 /* Writes the gnuplot commands and data that plot the image pixel[height][width], row 0 at the bottom. from: its lower

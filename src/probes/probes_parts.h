@@ -62,9 +62,9 @@ enum { READINGS_MAX = 2 * DIM_MAX + SYM_MAX + 1 };
  * and stress, and the damage. The number depends on the dimension of p. */
 int readings_count(const struct particles *p);
 
-/* Returns the name and unit of value k of those that a POINT or LINE probe reports of a particle, 0 <= k <
+/* Returns the name and unit of value `number` of those that a POINT or LINE probe reports of a particle, 0 <= number <
  * readings_count(p). */
-struct column reading_column(const struct particles *p, int k);
+struct column reading_column(const struct particles *p, int number);
 
 /* Computes displacement, velocity, stress and damage of particle i and stores them in value[readings_count(p)], in the
  * order of reading_column. */
@@ -112,16 +112,16 @@ extern const char *const axis_name[DIM_MAX];
  * outside the bodies: no particle is within 3/4 of the diagonal of a lattice cell. */
 int32_t particle_nearest(const struct observed *o, const real *X);
 
-/* Computes the reference position X of station k of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
+/* Computes the reference position X of the station of a LINE probe, dim components [m]. Stations 0 .. points - 1 are
  * equidistant from one end of the line to the other. */
-void station_position(const struct probe *q, int dim, int k, real *X);
+void station_position(const struct probe *q, int dim, int station, real *X);
 
 /* Returns the crack tip that a TIP probe follows at present, or NULL if there is none. The tip belongs to *t. */
 const struct tip *probe_tip(const struct probe *q, const struct tips *t);
 
 /* Computes the sum of the reactions of all supports (in load steps also loads) of the probe's boundary, force[dim]
  * [N], and the mean displacement of their particles, displacement[dim] [m]. */
-void probe_reaction(const struct probe *q, const struct loads *l, int dim, real *force, real *displacement);
+void probe_reaction(const struct probe *q, const struct loads *loads, int dim, real *force, real *displacement);
 
 struct energies {
     real kinetic, strain, fracture; /* [J] */
@@ -236,9 +236,9 @@ enum { BAR_FIGURES_MAX = 16 };
 /* Returns the number of quantities that an EXACT probe reports for the closed-form solution `form`. */
 int bar_figures_count(enum exact_form form);
 
-/* Returns the name and unit of reported quantity k of the closed-form solution `form`, 0 <= k <
+/* Returns the name and unit of reported quantity `number` of the closed-form solution `form`, 0 <= number <
  * bar_figures_count(form). */
-struct column bar_figure(enum exact_form form, int k);
+struct column bar_figure(enum exact_form form, int number);
 
 /* Updates the measured fields of a bar (bar_measure_fields), compares them with the closed-form solution, and stores
  * the reported quantities in value[bar_figures_count], in the order of bar_figure. */

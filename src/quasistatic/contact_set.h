@@ -13,7 +13,7 @@ struct rigid_set;
 bool statics_faces_closed(const struct contact *c);
 
 /* Returns true if anything was in contact before the present solution or is in contact now. */
-bool statics_in_contact(const struct statics *s, const struct contact *c);
+bool statics_in_contact(const struct statics *s, const struct contact *contact);
 
 /* Searches for pairs in contact before the first solution. Does nothing in scenes without contact and rigid bodies, or
  * if the search has been made. */

@@ -6,13 +6,13 @@
 #include "quasistatic/statics.h"
 #include "run/run.h"
 
-/* Begins a trial equilibrium: saves the present equilibrium in *m, and the present plastic state as the start of the
- * next solutions. End the trial with trial_undo, or keep its result and release *m with memory_archive_free. */
-void trial_begin(struct run *e, struct memory_archive *m);
+/* Begins a trial equilibrium: saves the present equilibrium in *saved, and the present plastic state as the start of
+ * the next solutions. End the trial with trial_undo, or keep its result and release *saved with memory_archive_free. */
+void trial_begin(struct run *e, struct memory_archive *saved);
 
-/* Ends a trial equilibrium: restores the equilibrium saved in *m, the plastic state at trial_begin, and the bonds that
- * the trial has broken, listed in `broken` (NULL: none); frees *m. The system of equations must have the same unknowns
- * as at trial_begin. */
-void trial_undo(struct run *e, struct memory_archive *m, const struct break_list *broken);
+/* Ends a trial equilibrium: restores the equilibrium saved in *saved, the plastic state at trial_begin, and the bonds
+ * that the trial has broken, listed in `broken` (NULL: none); frees *saved. The system of equations must have the same
+ * unknowns as at trial_begin. */
+void trial_undo(struct run *e, struct memory_archive *saved, const struct break_list *broken);
 
 #endif

@@ -17,8 +17,9 @@ void unknowns_list(struct statics *s, const struct particles *p, const struct me
 /* Frees the lists and fields that unknowns_list has allocated. */
 void unknowns_free(struct statics *s);
 
-/* Stores the reference position of unknown k, a particle or a mesh node, in X[] [m]. */
-void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t k, real *X);
+/* Stores the reference position of the unknown, a particle or a mesh node, in X[] [m]. */
+void unknown_position(const struct statics *s, const struct particles *p, const struct mesh *mesh, int64_t unknown,
+                      real *X);
 
 /* Sets the positions of particles, mesh nodes and the mirror images of nodes to their reference positions plus the
  * displacements u [m]. */
@@ -34,7 +35,7 @@ void applied_forces_compute(struct statics *s, const struct particles *p, const 
 
 /* Returns the Euclidean norm of all applied forces on components of displacement that no boundary prescribes, and of
  * the contact forces of rigid bodies [N]. */
-real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *c);
+real applied_forces_norm(const struct statics *s, const struct particles *p, const struct contact *contact);
 
 /* Computes the reactions and mean displacements of the supports and the sums of applied forces in the present
  * equilibrium, and stores them in *loads. */

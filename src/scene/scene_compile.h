@@ -50,7 +50,7 @@ struct operand *operand_from_top(struct compile *c, int below);
 
 /* Adds a step that pushes a value: a number, a variable, or a coordinate or the time. The functions add_* return false
  * on failure, with the fault in c->what. */
-bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *q);
+bool add_leaf(struct compile *c, enum expression_op op, const struct quantity *quantity);
 
 /* Adds a step that applies op to the topmost one or two operands. unit: unit of the result. */
 bool add_operation(struct compile *c, enum expression_op op, const struct quantity *unit);

@@ -174,9 +174,9 @@ enum { EXPRESS_SPACE = 1, EXPRESS_TIME = 2 };
  * EXPRESS_*. Release e with expression_free. REFUSED in one line with the position of the fault in the text. */
 status read_expression(struct reader *r, const struct key *k, const struct node *n, unsigned of, struct expression *e);
 
-/* Evaluates an expression without x, y, z and t and stores its value and unit in *q. On failure returns false and
- * writes the fault to what[room], as the rest of a sentence that begins with `text`. */
-bool quantity_of_text(struct reader *r, const char *text, struct quantity *q, char *what, size_t room);
+/* Evaluates an expression without x, y, z and t and stores its value and unit in *quantity. On failure returns false
+ * and writes the fault to what[room], as the rest of a sentence that begins with `text`. */
+bool quantity_of_text(struct reader *r, const char *text, struct quantity *quantity, char *what, size_t room);
 
 /* Returns true if messages about this text should treat it as an expression, not as a number. */
 bool looks_like_expression(const struct reader *r, const char *text);

@@ -36,9 +36,9 @@ void study_name_compose(char *name, const struct varied_key *key, int keys, cons
 /* Capacity of a label [byte]. */
 enum { LABEL_ROOM = 40 };
 
-/* Writes the label of the value with index v of a key to text[LABEL_ROOM]. If the values are long, the beginning and
- * end that all of them share are left out. */
-void study_value_shown(char *text, const struct varied_key *key, int v);
+/* Writes the label of the value with index `value` of a key to text[LABEL_ROOM]. If the values are long, the beginning
+ * and end that all of them share are left out. */
+void study_value_shown(char *text, const struct varied_key *key, int value);
 
 /* Returns the number of characters of the longest label of the values of a key. */
 int study_values_longest(const struct varied_key *key);
