@@ -91,7 +91,8 @@ static const struct entry files[] = {
     {"frames.xdmf", "the same for other readers", NULL},
     {"history.csv",
      "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "
-     "method, and rest_share, the share of them that rested, mean over the steps since the last sample; where nothing "
+     "method, and inactive_share, the share of them that rested, mean over the steps since the last sample; where "
+     "nothing "
      "outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about their centre of mass",
      NULL},
     {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame", NULL},

@@ -47,9 +47,9 @@ static void put_conversion(const struct run *e, struct json *j)
     put_notches(j, &e->coupling->notches, e->scene->spacing);
     if (e->part.low_since) {
         json_count(j, "converted", c->converted);
-        json_count(j, "returned", c->reverted);
-        json_count(j, "returns_most", reversions_most(&e->part));
-        json_real(j, "return_energy", c->reversion_energy);
+        json_count(j, "reverted", c->reverted);
+        json_count(j, "reversions_most", reversions_most(&e->part));
+        json_real(j, "reversion_energy", c->reversion_energy);
     }
     json_close(j, '}');
 }

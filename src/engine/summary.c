@@ -110,7 +110,7 @@ static void put_machine(struct json *j, const struct run_report *r, int64_t step
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
-    json_number(j, "rest_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
+    json_number(j, "inactive_share", r->inactive / (real)(steps > 0 ? steps : 1), JSON_TIMING);
 }
 
 /* Writes the times of the sections of the loop in this process [s]. */

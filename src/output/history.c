@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "output/renamed_results.h"
 
 /* Returns the length of the entry that starts at `from`: up to a comma or the end of the line. */
 static size_t entry_length(const char *from) { return strcspn(from, ",\n"); }
@@ -101,9 +102,17 @@ void history_free(struct history *h)
     *h = (struct history){0};
 }
 
-int history_find_column(const struct history *h, const char *name)
+/* Returns the index of the column with exactly this name; -1: none. */
+static int column_called(const struct history *h, const char *name)
 {
     for (int k = 0; k < h->columns; k++)
         if (strcmp(h->name[k], name) == 0) return k;
     return -1;
+}
+
+int history_find_column(const struct history *h, const char *name)
+{
+    const int column = column_called(h, name);
+    const char *other = column < 0 ? result_other_name(name) : NULL;
+    return other ? column_called(h, other) : column;
 }

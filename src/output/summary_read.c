@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "output/output_files.h"
+#include "output/renamed_results.h"
 
 enum { DEPTH_MAX = 64, SIZE_MAX_BYTES = 64 << 20, KEY_ROOM = 512 };
 
@@ -224,6 +225,12 @@ static status summary_read_find(const char *folder, const char *key, char **text
 {
     struct reader r = {0};
     status s = summary_read_document(&r, folder, key, text);
+    const char *other = s == OK && r.found == NULL ? result_other_name(key) : NULL;
+    if (other) {
+        free(*text);
+        r = (struct reader){0};
+        s = summary_read_document(&r, folder, other, text);
+    }
     if (s == OK && r.found == NULL) s = status_set(FAILED, "%s/summary.json: no %s", folder, key);
     if (s != OK) free(*text);
     *found = r.found;

@@ -130,8 +130,17 @@ def open(folder):                        # noqa: A001: the name of the module's 
 # ---- tables -------------------------------------------------------------------------------------------------------
 
 
+# Earlier and present names of columns of history.csv and of entries of summary.json: both name the same (the list of the program:
+# src/output/renamed_results.c).
+_RENAMED = (("rest_share", "inactive_share"), ("overload", "stretch_ratio"), ("directions", "search_directions"),
+            ("returned", "reverted"), ("returns_most", "reversions_most"), ("return_energy", "reversion_energy"))
+_OTHER = {**dict(_RENAMED), **{now: old for old, now in _RENAMED}}
+
+
 def _entry(entries, name, what):
     """entries[name]; the KeyError of a name that is not there says which are."""
+    if name not in entries and _OTHER.get(name) in entries:
+        return entries[_OTHER[name]]
     if name not in entries:
         there = [str(entry) for entry in entries]
         listed = ", ".join(there[:40] + ["..."] * (len(there) > 40))

@@ -55,8 +55,8 @@ static void put_load_steps(const struct run *e, struct json *j)
     json_count(j, "steps", e->clock.step);
     json_real(j, "load_time", s->t);
     json_count(j, "equilibria", s->solutions);
-    json_count(j, "directions", s->balance.directions);
-    json_real(j, "overload", s->stretch_ratio);
+    json_count(j, "search_directions", s->balance.directions);
+    json_real(j, "stretch_ratio", s->stretch_ratio);
     json_count(j, "bonds_broken", e->diagnostics->bonds_broken / 2);
     json_real(j, "released", s->record.released);
     json_real(j, "crack_area", s->record.area);

@@ -18,10 +18,19 @@ enum { STATICS_COLUMNS = 13 }; /* one less for a plane body */
 
 int statics_columns(const struct run *e, struct column *column)
 {
-    static const struct column own[STATICS_COLUMNS] = {
-        {"load_time", "s"},   {"overload", ""},   {"released", "J"},  {"crack_area", "m^2"}, {"release_rate", "J/m^2"},
-        {"bonds_broken", ""}, {"directions", ""}, {"equilibria", ""}, {"K_I", "Pa m^(1/2)"}, {"K_II", "Pa m^(1/2)"},
-        {"path_x", "m"},      {"path_y", "m"},    {"path_z", "m"}};
+    static const struct column own[STATICS_COLUMNS] = {{"load_time", "s"},
+                                                       {"stretch_ratio", ""},
+                                                       {"released", "J"},
+                                                       {"crack_area", "m^2"},
+                                                       {"release_rate", "J/m^2"},
+                                                       {"bonds_broken", ""},
+                                                       {"search_directions", ""},
+                                                       {"equilibria", ""},
+                                                       {"K_I", "Pa m^(1/2)"},
+                                                       {"K_II", "Pa m^(1/2)"},
+                                                       {"path_x", "m"},
+                                                       {"path_y", "m"},
+                                                       {"path_z", "m"}};
     if (!scene_in_steps(e->scene)) return 0;
     const int n = STATICS_COLUMNS - (e->part.dim < 3);
     if (column) array_copy(column, own, n, sizeof *own);

@@ -43,7 +43,7 @@ static const struct column fixed_columns[RECORD_FIXED] = {[0] = {"time", "s"},
                                                           {"tip_y", "m"},
                                                           {"tip_z", "m"},
                                                           [20] = {"mpm_share", ""},
-                                                          {"rest_share", ""}};
+                                                          {"inactive_share", ""}};
 
 /* Returns the mean share of the body that was at rest, over the steps since the last call [1]; 0 if there was no step.
  * Starts the next mean. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/edit_distance.h"
+#include "output/renamed_results.h"
 #include "study/study.h"
 
 enum { LEAF_ROOM = 40, NAME_ROOM = 160 };
@@ -25,11 +26,12 @@ static const struct figure_group {
     {"",
      "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
      "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
-     "ns_per_particle_step ns_per_bond_step rest_share",
+     "ns_per_particle_step ns_per_bond_step inactive_share",
      NULL, NULL},
     {"levels", "changes", NULL, NULL},
     {"solver", "steps residual bonds_past_limit", scene_at_rest, "`solver: relaxation` or `cg`"},
-    {"load_steps", "steps load_time equilibria directions overload bonds_broken released crack_area release_rate",
+    {"load_steps",
+     "steps load_time equilibria search_directions stretch_ratio bonds_broken released crack_area release_rate",
      scene_in_steps, "`solver: static`"},
     {"energy", "kinetic strain plastic fracture contact damped absorbed external_work balance_error", NULL, NULL},
     {"contact", "began ended nodes_max pairs_max friction_work overlap_max", of_contact, "bodies that meet"},
@@ -44,8 +46,8 @@ static const struct figure_group {
      "arrest_step speed_max speed_mean",
      scene_cracks, "cracks or bonds that break"},
     {"conversion",
-     "first_time x y z pd_share_start pd_share_end pd_share_max converted returned returns_most "
-     "return_energy",
+     "first_time x y z pd_share_start pd_share_end pd_share_max converted reverted reversions_most "
+     "reversion_energy",
      NULL, NULL},
 };
 
@@ -173,6 +175,8 @@ static const char *figure_lacks(const struct scene *s, const char *group, const 
 
 status figure_name_check(const struct scene *s, const char *name)
 {
+    const char *now = result_present_name(name);
+    if (now) fprintf(stderr, "warning: the figure %s is now called %s\n", name, now), name = now;
     char hidden[NAME_ROOM], group[NAME_ROOM];
     struct nearest n = {.to = name, .distance = 1000};
     numbers_hidden(hidden, sizeof hidden, name);

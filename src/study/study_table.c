@@ -7,6 +7,7 @@
 #include "base/memory_stream.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
+#include "output/renamed_results.h"
 #include "output/summary_read.h"
 #include "study_internal.h"
 
@@ -75,18 +76,19 @@ int study_find_figure(const struct study_table *t, const char *name)
 {
     for (int f = 0; f < t->figures; f++)
         if (strcmp(t->figure[f], name) == 0) return f;
-    return -1;
+    const char *now = result_present_name(name);
+    return now ? study_find_figure(t, now) : -1;
 }
 
 bool study_figure_is_technical(const char *name)
 {
-    static const char *const begin[] = {"steps",         "time_step",      "time_end",
-                                        "particles",     "bonds_",         "levels.",
-                                        "laps.",         "threads",        "wall_",
-                                        "loop_",         "memory_",        "ns_per_",
-                                        "rest_share",    "momentum_error", "energy.balance_error",
-                                        "solver.",       "auto.",          "conversion.",
-                                        "contact.pairs", "contact.nodes",  "fragments.particles",
+    static const char *const begin[] = {"steps",          "time_step",      "time_end",
+                                        "particles",      "bonds_",         "levels.",
+                                        "laps.",          "threads",        "wall_",
+                                        "loop_",          "memory_",        "ns_per_",
+                                        "inactive_share", "momentum_error", "energy.balance_error",
+                                        "solver.",        "auto.",          "conversion.",
+                                        "contact.pairs",  "contact.nodes",  "fragments.particles",
                                         "uncertainty."};
     for (size_t k = 0; k < COUNT_OF(begin); k++)
         if (strncmp(name, begin[k], strlen(begin[k])) == 0) return true;

@@ -26,11 +26,11 @@ END_OF_SCENE
 series()
 {
     awk -F, "NR == 1 { for (k = 1; k <= NF; k++) { sub(/ \\[.*/, \"\", \$k); at[\$k] = k } next }
-        { time = \$1; steps = \$2; pd = \$at[\"pd_share\"]; mpm = \$at[\"mpm_share\"]; rest = \$at[\"rest_share\"] } $2" "$1/history.csv"
+        { time = \$1; steps = \$2; pd = \$at[\"pd_share\"]; mpm = \$at[\"mpm_share\"]; rest = \$at[\"inactive_share\"] } $2" "$1/history.csv"
 }
 
 # without DIR: prints its columns without the share at rest.
-without() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "rest_share") at = k } { $at = ""; print }' "$1/history.csv"; }
+without() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "inactive_share") at = k } { $at = ""; print }' "$1/history.csv"; }
 
 right="pd.region=[{box: {from: [300 mm, 0], to: [512 mm, 8 mm]}}]"
 for name in pd mpm adaptive; do
@@ -51,11 +51,11 @@ for name in pd mpm adaptive; do
     is "$name: what the wave has reached is awake" "$(series "$work/$name" \
         'NR > 2 && rest > 0 && rest > 1 - (0.02 + 200 * (time + last) / 2) / 0.512 + 1e-8 { print time, rest } { last = time }')" ""
     is "$name: falls" "$(series "$work/$name" 'NR > 3 && rest > last { print time, rest, last } { last = rest }')" ""
-    between "$name: at the start" "$(column "$work/$name" rest_share 0.1e-3)" 0.6 0.96
-    between "$name: on the way" "$(column "$work/$name" rest_share 1e-3)" 0.2 0.56
-    between "$name: at the end" "$(column "$work/$name" rest_share 3e-3)" 0 0
+    between "$name: at the start" "$(column "$work/$name" inactive_share 0.1e-3)" 0.6 0.96
+    between "$name: on the way" "$(column "$work/$name" inactive_share 1e-3)" 0.2 0.56
+    between "$name: at the end" "$(column "$work/$name" inactive_share 3e-3)" 0 0
     mean=$(series "$work/$name" 'NR > 1 { sum += rest * (steps - last); last = steps } END { printf "%.9g", sum / last }')
-    near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" rest_share)" 1e-8      # nine digits are printed
+    near "$name: the mean of all steps" "$mean" "$(figure "$work/$name" inactive_share)" 1e-8      # nine digits are printed
     for try in 1 2 3 4 5 6; do
         interrupted "$work/resumed" 200 "$work/strip.yaml" -s method=$name "$@"
         resting=$(series "$work/resumed" 'END { print rest }')

@@ -52,10 +52,10 @@ boundary: [{traction: [3 MPa], face: x+}]
 output: {samples: 12, frames: 0}
 END
 holds "run" "$cleave" run "$work/rest.yaml" -t 1 -o "$work/rest" >"$work/said" 2>&1
-mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "rest_share") at = k; next }
+mean=$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "inactive_share") at = k; next }
     { sum += $at * ($2 - before); before = $2 } END { print sum / before }' "$work/rest/history.csv")
 between "share at rest" "$mean" 0.3 0.95
-near "share at rest, of all steps" "$mean" "$(figure "$work/rest" rest_share)" 0.02
+near "share at rest, of all steps" "$mean" "$(figure "$work/rest" inactive_share)" 0.02
 
 # A bar of points that moves against an absorbing face, which absorbs rho c (v/2)^2 A t: half of the energy in a transit time.
 cat >"$work/ring.yaml" <<'END'

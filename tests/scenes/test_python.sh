@@ -70,6 +70,8 @@ holds("text", summary["name"] == "from_python" and run.status == "done")
 # tables: columns by name, with units
 holds("rows", history.rows == len(history["time"]) == 11 and history["time"][0] == 0)
 holds("time", np.isclose(history["time"][-1], 6e-6) and history.units["time"] == "s" and history.units["step"] == "")
+holds("a column by its earlier name", np.array_equal(history["rest_share"], history["inactive_share"]))
+holds("a figure by its earlier name", summary["rest_share"] == summary["inactive_share"])
 holds("energy", np.isclose(history["kinetic"][-1], summary["energy.kinetic"], rtol=1e-8))
 holds("pieces", run.fragments["mass"].sum() > 0 and run.fragments.units["mass"] == "kg")
 

@@ -23,13 +23,13 @@ for run in current reference apic; do
     between "$run: most at any time" "$(f $run conversion.pd_share_max)" 0.05 0.07
     between "$run: at the end" "$(f $run conversion.pd_share_end)" 0.04 0.07
     between "$run: converted" "$(f $run conversion.converted)" 500 600
-    between "$run: returned" "$(f $run conversion.returned)" 440 520
-    is "$run: once at the most" "$(f $run conversion.returns_most)" 1
+    between "$run: returned" "$(f $run conversion.reverted)" 440 520
+    is "$run: once at the most" "$(f $run conversion.reversions_most)" 1
     energy=$(compute "$(f $run energy.kinetic) + $(f $run energy.strain)")
-    between "$run: energy of return" "$(compute "$(f $run conversion.return_energy) / $energy")" -1e-3 1e-3
+    between "$run: energy of return" "$(compute "$(f $run conversion.reversion_energy) / $energy")" -1e-3 1e-3
 done
 between "never: at the end" "$(f never conversion.pd_share_end)" 0.5 0.6
-absent "never: returned" "$(f never conversion.returned)"
+absent "never: returned" "$(f never conversion.reverted)"
 
 # ---- a plate ---------------------------------------------------------------------------------------------------------
 
@@ -57,8 +57,8 @@ for frame in current reference; do
     between "$frame: share half-way" "$(column "$work/${frame}1" pd_share 16e-6)" 0.3 0.45
     between "$frame: most at any time" "$(f ${frame}1 conversion.pd_share_max)" "$(column "$work/${frame}1" pd_share 16e-6)" 0.6
     between "$frame: share once it has passed" "$(column "$work/${frame}1" pd_share 32e-6)" 0 0.001
-    between "$frame: returned" "$(f ${frame}1 conversion.returned)" 2400 3000
-    between "$frame: a few times at the most" "$(f ${frame}1 conversion.returns_most)" 1 3
+    between "$frame: returned" "$(f ${frame}1 conversion.reverted)" 2400 3000
+    between "$frame: a few times at the most" "$(f ${frame}1 conversion.reversions_most)" 1 3
 done
 
 # ---- no reversion beside cracks --------------------------------------------------------------------------------------
@@ -67,7 +67,7 @@ done
 start hole plate_hole -s conversion.stress=3000MPa -s duration=20us -s conversion.reversion=true
 start hole_never plate_hole -s conversion.stress=3000MPa -s duration=20us
 wait
-is "hole: returned" "$(f hole conversion.returned)" 0
+is "hole: returned" "$(f hole conversion.reverted)" 0
 holds "hole: the same history" cmp "$work/hole/history.csv" "$work/hole_never/history.csv"
 
 # ---- peridynamic from the start at the ends of notches -----------------------------------------------------------------

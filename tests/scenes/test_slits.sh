@@ -38,7 +38,7 @@ for lines in 12 60; do
     same "interrupted after $lines lines" "$work/slit1" "$work/stopped"
 done
 # All columns of the history but that of the share at rest.
-columns() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^rest_share/) at = k } { $at = ""; print }' "$work/$1/history.csv"; }
+columns() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^inactive_share/) at = k } { $at = ""; print }' "$work/$1/history.csv"; }
 calm "$work/awake" $plate -s time.active_set=false
 columns slit1 >"$work/rests"
 columns awake >"$work/never"

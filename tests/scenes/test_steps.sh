@@ -70,7 +70,7 @@ near "released is what bonds held and what was lost" "$(last "$led" released)" "
 between "balance" "$(figure "$led" energy.balance_error)" -3e-4 3e-4
 is "nothing moves" "$(last "$led" gauge.velocity_y)$(last "$led" kinetic)" 00
 between "equilibria of a step" "$(last "$led" equilibria)" 2 10
-between "directions of a step" "$(last "$led" directions)" 5 200
+between "directions of a step" "$(last "$led" search_directions)" 5 200
 
 # The J-integral around the moved tip, an independent measure, equals the released energy; 4 % for bonds with a horizon of 3.
 calm "$work/sif" $pulled -t 1 -s particles.spacing=0.5mm -s steps.number=5 -s 'probes=[{sif: {outer: 5 mm, contours: [4 mm, 5 mm]}}]'

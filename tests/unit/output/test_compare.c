@@ -113,6 +113,11 @@ static void unsound_files_are_refused(void **state)
     double value;
     assert_int_equal(summary_number("unsound", "steps", &value), FAILED);
     assert_int_equal(summary_number("nowhere", "steps", &value), FAILED);
+    put("unsound/summary.json", "{\"conversion\": {\"returned\": 3}, \"load_steps\": {\"stretch_ratio\": 0.5}}");
+    assert_int_equal(summary_number("unsound", "conversion.reverted", &value), OK); /* by both names */
+    assert_true(value == 3);
+    assert_int_equal(summary_number("unsound", "load_steps.overload", &value), OK);
+    assert_true(value == 0.5);
 }
 
 /* ---- history.csv ------------------------------------------------------------------------------------------------- */
@@ -131,6 +136,12 @@ static void history_is_read_by_name(void **state)
     assert_true(history_at(&h, 1, history_find_column(&h, "time")) == 1e-6);
     assert_true(isnan(history_at(&h, 0, 3)));
     assert_true(isnan(history_at(&h, 0, -1)));
+    history_free(&h);
+    put("history/history.csv", "time [s],overload,inactive_share\n0,0.5,1\n");
+    assert_int_equal(history_read(&h, "history"), OK); /* renamed columns have both of their names */
+    assert_int_equal(history_find_column(&h, "stretch_ratio"), 1);
+    assert_int_equal(history_find_column(&h, "overload"), 1);
+    assert_int_equal(history_find_column(&h, "rest_share"), 2);
     history_free(&h);
     put("history/history.csv", "time [s],step\n0,0\n1,2,3\n");
     assert_int_equal(history_read(&h, "history"), FAILED);

@@ -1,0 +1,33 @@
+/* Earlier names of columns of history.csv and of figures of summary.json. src/python/cleave.py has the same list. */
+#include "output/renamed_results.h"
+
+#include <string.h>
+
+#include "base/base.h"
+
+static const struct {
+    const char *old, *now;
+} renamed[] = {
+    {"rest_share", "inactive_share"},
+    {"overload", "stretch_ratio"},
+    {"directions", "search_directions"},
+    {"load_steps.overload", "load_steps.stretch_ratio"},
+    {"load_steps.directions", "load_steps.search_directions"},
+    {"conversion.returned", "conversion.reverted"},
+    {"conversion.returns_most", "conversion.reversions_most"},
+    {"conversion.return_energy", "conversion.reversion_energy"},
+};
+
+const char *result_present_name(const char *name)
+{
+    for (size_t k = 0; k < COUNT_OF(renamed); k++)
+        if (strcmp(name, renamed[k].old) == 0) return renamed[k].now;
+    return NULL;
+}
+
+const char *result_other_name(const char *name)
+{
+    for (size_t k = 0; k < COUNT_OF(renamed); k++)
+        if (strcmp(name, renamed[k].now) == 0) return renamed[k].old;
+    return result_present_name(name);
+}
