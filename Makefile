@@ -58,7 +58,7 @@ help:
 	@echo 'make run        installs what is missing, builds what a first run needs, breaks a plate, draws it'
 	@echo 'make test       installs what is missing, builds, runs every test, on $(THREADS) threads; test-long: longer ones, too'
 	@echo 'make mutants    puts small faults into copies of the program and tells which tests see them (MUTANTS=LIST: others)'
-	@echo 'make bench      measures kernels and efficiency (all: build/cleave bench --help)'
+	@echo 'make bench      measures kernels and efficiency (others: build/cleave bench)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
 	@echo 'make lint       searches the sources for faults by cppcheck and clang-tidy 14 (LINT=FILES: in these alone)'
 	@echo 'make install    below PREFIX ($(PREFIX)): program, manual, scenes, Python module, completion; uninstall removes them'

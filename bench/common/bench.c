@@ -8,22 +8,32 @@ struct bench {
     const char *name;
     status (*call)(bool quick);
     bool apart; /* runs only if its full name is given */
+    const char *what;
 };
 
 /* Benches in the order in which they run: kernels first, while the process is small. NAME=PART: also run with NAME. */
 /* clang-format off */
 static const struct bench benches[] = {
-    {"kernels", bench_kernels, false},         {"efficiency", bench_efficiency, false},
-    {"coupling", bench_coupling, false},       {"sif", bench_sif, false},
-    {"threads", bench_threads, false},         {"scale", bench_scale, false},
-    {"scale=growth", bench_growth, false},     {"scale=finest", bench_growth_finest, true},
-    {"scale=field", bench_far_field, false},   {"peers", bench_peers, false},
-    {"accuracy", bench_accuracy, false},       {"stability", bench_stability, false},
-    {"sensitivity", bench_sensitivity, false}, {"steps", bench_steps, false},
-    {"contact", bench_contact, false},         {"absorbing", bench_absorbing, false},
-    {"uncertainty", bench_uncertainty, false}, {"pilot", bench_pilot, false},
-    {"slow", bench_slow, false},
-    {"experiments", bench_experiments, true}};
+    {"kernels", bench_kernels, false, "time of every kernel beside the limits of the machine"},
+    {"efficiency", bench_efficiency, false, "adaptive runs beside peridynamic ones: time, crack path"},
+    {"coupling", bench_coupling, false, "interfaces of points and bonds: waves, uniform strain"},
+    {"sif", bench_sif, false, "stress-intensity factors beside closed forms and tables"},
+    {"threads", bench_threads, false, "speed-up by threads, with the memory bandwidth"},
+    {"scale", bench_scale, false, "time and memory per particle, from 1e4 to 1e7 particles"},
+    {"scale=growth", bench_growth, false, "cost by resolution in Kalthoff's plate"},
+    {"scale=finest", bench_growth_finest, true, "the same at the finest spacing"},
+    {"scale=field", bench_far_field, false, "coarse cells and absorbing faces far from a crack"},
+    {"peers", bench_peers, false, "the same plate and block in LAMMPS"},
+    {"accuracy", bench_accuracy, false, "error against computing time; accuracy=PROBLEM, =chart, =auto: a part"},
+    {"stability", bench_stability, false, "largest stable time steps; stability=lasting, =CASE: a part"},
+    {"sensitivity", bench_sensitivity, false, "scatter of crack paths with the time step"},
+    {"steps", bench_steps, false, "start, length and angle of cracks by time step"},
+    {"contact", bench_contact, false, "collisions beside closed forms"},
+    {"absorbing", bench_absorbing, false, "reflection of waves by absorbing faces"},
+    {"uncertainty", bench_uncertainty, false, "error bars of cleave converge beside exact values"},
+    {"pilot", bench_pilot, false, "errors of method: auto beside the requested ones"},
+    {"slow", bench_slow, false, "load steps beside linear elastic fracture mechanics"},
+    {"experiments", bench_experiments, true, "published experiments and other codes; hours"}};
 /* clang-format on */
 enum { BENCHES = COUNT_OF(benches) };
 
@@ -51,12 +61,7 @@ static status bench_mark(const char *word, bool *asked)
         if (whole || (part && !benches[k].apart)) asked[k] = known = true;
     }
     if (known) return OK;
-    return status_set(REFUSED,
-                      "unknown bench %s; usage: cleave bench [kernels] [efficiency] [coupling] [sif] [threads] "
-                      "[scale[=growth|=finest|=field]] [peers] [accuracy[=PROBLEM|=chart|=auto]] "
-                      "[stability[=lasting|=CASE]] [sensitivity] [steps] [contact] [absorbing] [uncertainty] [pilot] "
-                      "[slow] [experiments] "
-                      "[--quick] [--readme]",
+    return status_set(REFUSED, "unknown bench %s; `cleave bench` lists the names, --quick and --readme are options",
                       word);
 }
 
@@ -73,15 +78,25 @@ static status bench_call(const struct bench *b, bool quick, bool readme)
     return bench_results_end(&r, b->name, b->call(quick));
 }
 
+/* Prints the names of all benches, each with what it measures. */
+static void benches_print(void)
+{
+    printf("cleave bench NAME... [--quick] [--readme] measures; names:\n");
+    for (int k = 0; k < BENCHES; k++) printf("  %-14s %s\n", benches[k].name, benches[k].what);
+    printf("  %-14s %s\n", "all", "these but scale=finest and experiments, one after the other: hours");
+}
+
 status command_bench(int argc, char **argv)
 {
-    bool asked[BENCHES] = {false}, quick = false, readme = false, any = false;
+    bool asked[BENCHES] = {false}, quick = false, readme = false, any = false, all = false;
     const char *only = NULL, *lasting = NULL;
     for (int k = 1; k < argc; k++) {
         const bool faster = !strcmp(argv[k], "--quick"), written = !strcmp(argv[k], "--readme");
         quick |= faster, readme |= written;
         if (faster || written) continue;
-        if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of)))
+        if (!strcmp(argv[k], "all"))
+            all = true;
+        else if (!strncmp(argv[k], accuracy_of, strlen(accuracy_of)))
             only = argv[k] + strlen(accuracy_of);
         else if (!strncmp(argv[k], stability_of, strlen(stability_of)))
             lasting = argv[k] + strlen(stability_of);
@@ -89,8 +104,9 @@ status command_bench(int argc, char **argv)
             TRY(bench_mark(argv[k], asked));
         any = true;
     }
+    if (!any) return benches_print(), OK;
     for (int k = 0; k < BENCHES; k++)
-        if (asked[k] || (!any && !benches[k].apart)) TRY(bench_call(&benches[k], quick, readme));
+        if (asked[k] || (all && !benches[k].apart)) TRY(bench_call(&benches[k], quick, readme));
     if (lasting) TRY(bench_stability_of(lasting, quick));
     return only ? bench_accuracy_of(only, quick) : OK;
 }

@@ -113,7 +113,8 @@ static status bench_folder_guard(void)
     static const char *const folder[] = {"results", BENCH_FOLDER};
     for (size_t k = 0; k < COUNT_OF(folder); k++)
         if (path_is_link(folder[k]))
-            return status_set(REFUSED, "%s is a link: tables would be made somewhere else; remove it", folder[k]);
+            return status_set(REFUSED, "%s is a symbolic link, and tables would be written elsewhere; remove it",
+                              folder[k]);
     return OK;
 }
 
@@ -148,7 +149,7 @@ status bench_guard(const char *name)
             snprintf(path, sizeof path, BENCH_FOLDER "/%s.%s", name, ending[k]);
             ours = !path_exists(path) || picture_has_mark(path);
         }
-    return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave bench; move it away", path);
+    return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave bench; move or remove it", path);
 }
 
 /* Writes one file, composed in memory: JSON of all tables (`json` is the bench's name) or CSV of one (`json` NULL). */

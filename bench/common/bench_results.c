@@ -114,7 +114,7 @@ status bench_results_begin(struct bench_results *r, const char *name, bool quick
     r->printed = tmpfile();
     r->output = dup(STDOUT_FILENO);
     if (r->printed && r->output >= 0 && dup2(fileno(r->printed), STDOUT_FILENO) >= 0) return OK;
-    return status_set(FAILED, "no room for what bench %s prints (a temporary file)", name);
+    return status_set(FAILED, "cannot write a temporary file for the output of bench %s", name);
 }
 
 status bench_results_end(struct bench_results *r, const char *name, status measured)

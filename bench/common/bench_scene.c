@@ -156,7 +156,7 @@ static status spawn(char **argv, pid_t *child)
     posix_spawn_file_actions_destroy(&actions);
     if (!fault) return OK;
     *child = 0;
-    return status_set(FAILED, "bench: cannot start a run as a process of its own: %s", strerror(fault));
+    return status_set(FAILED, "bench: cannot start a process for a run: %s", strerror(fault));
 }
 
 enum { WORDS = 64, WORD_LENGTH = OVERRIDE_LENGTH + 64 };

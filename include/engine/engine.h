@@ -16,6 +16,10 @@ status engine_make(struct run *e, const struct scene *s, struct output *out);
 /* Releases all memory of a run. Waits first for the thread that may still be writing a frame. */
 void engine_free(struct run *e);
 
+/* Writes a line on standard error if the bodies of a scene have so many lattice positions that its set-up takes longer
+ * than some seconds: their number, which follows from volume and spacing, and the time. */
+void engine_say_size(const struct scene *s);
+
 /* Estimates the peak memory of a run of a scene whose bodies are lattices [byte]. p: particles of these bodies;
  * source: materials and bond families. Bonds and grids need not exist yet. */
 real run_estimate_memory(const struct scene *s, const struct particles *p, const struct bond_source *source);

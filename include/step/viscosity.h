@@ -45,14 +45,4 @@ void viscosity_add_nodal_forces(struct run *e);
  * particles at t = 0 [m/s]. */
 real viscosity_step_factor(const struct scene *s, const struct loads *loads, const struct particles *p, real speed);
 
-/* The fastest collision of bodies that a scene expects. */
-struct shock {
-    real speed; /* closing speed from the initial velocities of the bodies [m/s] */
-    real share; /* speed over the speed at which a front breaks or yields a body; 0 if viscosity would not help [1] */
-};
-
-/* Returns the fastest collision between two bodies, or between a body and a rigid body, within the duration of a
- * scene, as far as their initial velocities and positions lead to expect. */
-struct shock fastest_collision_expected(const struct scene *s);
-
 #endif

@@ -35,11 +35,16 @@ status option_read_count(int *count, const char *option, const char *text, int l
                : status_set(REFUSED, "%s %s: a number from %d to %d is expected", option, text, least, most);
 }
 
+status option_has_value(const char *option, bool has, const char *usage)
+{
+    return has ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
+}
+
 static status read_threads(struct run_arguments *a, const char *text)
 {
     return count_read(&a->threads, text, 1, THREADS_MOST)
                ? OK
-               : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is wanted", text, THREADS_MOST);
+               : status_set(REFUSED, "-t %s: a number of threads from 1 to %d is expected", text, THREADS_MOST);
 }
 
 bool arguments_remove_option(int *argc, char **argv, const char *option)
@@ -57,7 +62,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         bool takes = !strcmp(word, "-o") || !strcmp(word, "-s") || !strcmp(word, "-t");
-        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s needs a value; usage: cleave %s", word, usage);
+        if (takes) TRY(option_has_value(word, k + 1 < argc, usage));
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))

@@ -17,6 +17,9 @@ struct run_arguments {
 /* Reads the whole number that follows an option. REFUSED unless it is from least to most. */
 status option_read_count(int *count, const char *option, const char *text, int least, int most);
 
+/* Checks that an option is followed by a value. REFUSED with the usage line, which follows `cleave `, if not. */
+status option_has_value(const char *option, bool has, const char *usage);
+
 /* Removes an option without a value, specific to one command, from argv. Returns true if argv contained it. */
 bool arguments_remove_option(int *argc, char **argv, const char *option);
 

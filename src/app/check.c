@@ -1,7 +1,10 @@
 /* `cleave check`: checks a scene and estimates the cost of its run by trial steps; nothing is written. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
+#include "base/memory_stream.h"
 #include "check_parts.h"
 #include "commands.h"
 #include "engine/engine.h"
@@ -198,13 +201,34 @@ static void say_materials(const struct run *e)
     }
 }
 
-/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up [s]. The engine
- * cannot be used afterwards. FAILED if one of the first steps fails. */
-static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made)
+/* Returns true if two texts are equal but for their numbers. */
+static bool texts_alike(const char *a, const char *b)
+{
+    static const char number[] = "0123456789.+-e";
+    do {
+        a += strspn(a, number), b += strspn(b, number);
+        if (*a != *b) return false;
+    } while (*a++ && *b++);
+    return true;
+}
+
+/* Adds the warnings of trial steps to *found, unless one that differs in numbers alone, such as the time, is there. */
+static void warnings_of_trial(struct warnings *found, const struct warnings *trial)
+{
+    for (int k = 0; k < trial->n; k++) {
+        bool there = false;
+        for (int m = 0; m < found->n; m++) there |= texts_alike(found->text[m], trial->text[k]);
+        if (!there) warnings_add(found, "%s", trial->text[k]);
+    }
+}
+
+/* Estimates run time and memory by trial steps and prints both. made: processor time of the set-up [s]; found: receives
+ * the warnings of the trial steps. The engine cannot be used afterwards. FAILED if one of the first steps fails. */
+static status check_cost(struct run *e, const struct run_arguments *a, int threads, double made, struct warnings *found)
 {
     struct cost cost = {.make = made};
     const status result = cost_measure(&cost, e, a);
-    warnings_print(&cost.found, 0, stdout);
+    warnings_of_trial(found, &cost.found);
     warnings_free(&cost.found);
     TRY(result);
     say_contact_cost(e, &cost);
@@ -213,38 +237,86 @@ static status check_cost(struct run *e, const struct run_arguments *a, int threa
     return OK;
 }
 
-/* Sets up the scene, prints its resolved settings and its memory, and its cost unless `trial` is false. start: time
- * at which the reading of the scene began, on thread_cpu_clock [s]. REFUSED or FAILED if the set-up or a trial step
- * is. */
+/* Prints a list of lines under a heading; nothing if it is empty. */
+static void say_list(const struct warnings *lines, const char *heading)
+{
+    for (int k = 0; k < lines->n; k++) printf("%-15s%s\n", k == 0 ? heading : "", lines->text[k]);
+}
+
+/* Prints the remarks on accuracy of a scene, and sets their number. FAILED without memory for them. */
+static status say_accuracy(const struct run *e, int *remarks)
+{
+    char *text = NULL;
+    size_t length;
+    FILE *out = memory_stream_open(&text, &length);
+    if (!out) return status_set(FAILED, "no memory for the remarks on accuracy");
+    print_accuracy_advice(e, out);
+    const status written = fclose(out) == 0 ? OK : status_set(FAILED, "no memory for the remarks on accuracy");
+    *remarks = 0;
+    for (const char *line = text; written == OK && *line; line = strchr(line, '\n') + 1) ++*remarks;
+    if (written == OK) fputs(text, stdout);
+    free(text);
+    return written;
+}
+
+/* Prints the verdict on a scene: it is sound, or it can be run in spite of warnings and remarks on accuracy. */
+static void say_verdict(const char *scene, int warnings, int remarks)
+{
+    const struct printable_name shown = printable_name(scene);
+    const char *name = shown.text;
+    if (warnings == 0 && remarks == 0)
+        printf("%s is sound\n", name);
+    else if (warnings == 0)
+        printf("%s can be run; read first the remark%s on accuracy above (%d)\n", name, remarks > 1 ? "s" : "",
+               remarks);
+    else
+        printf("%s can be run, but read first the warning%s above (%d)%s\n", name, warnings > 1 ? "s" : "", warnings,
+               remarks > 0 ? " and the remarks on accuracy" : "");
+}
+
+/* Prints the resolved settings of a scene: particles, materials, loads, steps, contact. */
+static void say_settings(const struct run *e)
+{
+    say_particles(e);
+    print_filled_volume(e);
+    print_shapes(e);
+    print_pieces(e);
+    say_materials(e);
+    say_frames(e);
+    print_levels(e);
+    say_notches(e);
+    print_loads(e);
+    say_time_step(e);
+    say_contact(e);
+}
+
+/* Sets up the scene and prints its resolved settings, its cost unless `trial` is false, what limits its accuracy, hints
+ * and, on standard error, warnings; the verdict follows last. start: time at which the reading of the scene began, on
+ * thread_cpu_clock [s]. REFUSED or FAILED if the set-up or a trial step is. */
 static status check_sound(struct scene *s, const struct run_arguments *a, int threads, double start, bool trial)
 {
     struct run e = {0};
+    struct warnings hints = {0}, found = {0};
+    int remarks = 0;
     s->active_set = false; /* cost with the whole body active */
+    engine_say_size(s);
     status result = engine_make(&e, s, NULL);
     const double made = thread_cpu_clock() - start;
     if (result == OK) {
-        printf("%s is sound\n", printable_name(a->scene).text);
-        say_particles(&e);
-        print_filled_volume(&e);
-        print_shapes(&e);
-        print_pieces(&e);
-        say_materials(&e);
-        say_frames(&e);
-        print_levels(&e);
-        say_notches(&e);
-        print_loads(&e);
-        say_time_step(&e);
-        say_contact(&e);
+        say_settings(&e);
         engine_warn_of_input(&e);
         warn_of_yielding(e.scene, &e.warnings);
-        warnings_print(&e.warnings, 0, stdout);
-        print_accuracy_advice(&e, stdout);
-        struct warnings hints = {0};
+        warnings_append_from(&found, &e.warnings, 0);
         hints_list(&e, &hints);
-        if (trial) result = check_cost(&e, a, threads, made);
-        for (int k = 0; k < hints.n; k++) printf("%-15s%s\n", k == 0 ? "hints" : "", hints.text[k]);
-        warnings_free(&hints);
+        result = say_accuracy(&e, &remarks);
+        if (result == OK && trial) result = check_cost(&e, a, threads, made, &found);
+        say_list(&hints, "hints");
+        fflush(stdout); /* warnings follow what is printed so far, and precede the verdict */
+        warnings_print(&found, 0, stderr);
+        if (result == OK) say_verdict(a->scene, found.n, remarks);
     }
+    warnings_free(&hints);
+    warnings_free(&found);
     engine_free(&e);
     return result;
 }

@@ -18,7 +18,7 @@
 #include "fracture/tips.h"
 #include "probes/probes_part.h"
 #include "mesh/mesh_part.h"
-#include "step/viscosity.h"
+#include "step/shock.h"
 
 #define FEATURE 4 /* horizons */
 #define WAVE 16   /* spacings */
@@ -234,9 +234,8 @@ static void advise_shocks(const struct scene *s, FILE *out)
         fprintf(
             out,
             "accuracy       bodies collide at %.3g m/s, %.2g times the speed at which the front of the wave breaks or "
-            "yields them; stress oscillates behind the front by 10 to 30 %%, so that bonds break too early: use "
-            "material.viscosity: {}\n",
-            shock.speed, shock.share);
+            "yields them; stress oscillates by 10 to 30 %% behind the front, and bonds can break too early: %s\n",
+            shock.speed, shock.share, shock.remedy);
 }
 
 /* Writes a line if the number of levels that the scene gives makes cells too coarse for its loads or its thin
@@ -433,14 +432,14 @@ static void hint_method(const struct run *e, struct warnings *to)
         weakest = real_min(weakest, s->material[m].young * s->material[m].critical_stretch);
     const real reached = stress_reached(e);
     if (isinf(weakest))
-        warnings_add(
-            to,
-            "nothing breaks, as neither energy_release_rate, toughness nor critical_stretch is given, and there "
-            "is no crack: method: mpm would do in place of %s",
-            method);
+        warnings_add(to,
+                     "no bond can break, as neither energy_release_rate, toughness nor critical_stretch is given, and "
+                     "there is no crack: method: mpm suffices in place of %s",
+                     method);
     else if (reached < weakest)
-        warnings_add(to, "waves reach at most %.3g Pa, and bonds break at %.3g Pa: method: mpm would do in place of %s",
-                     reached, weakest, method);
+        warnings_add(
+            to, "stress in waves is at most %.3g Pa, and bonds break at %.3g Pa: method: mpm suffices in place of %s",
+            reached, weakest, method);
 }
 
 /* Adds a hint with the planes about which the scene is symmetric. */

@@ -208,6 +208,7 @@ void print_uneven_parts(struct uneven_list *list, FILE *out)
     say_owner(worst, &list->piece, out);
     fprintf(out, "its section across %c at ", "xyz"[worst->across]);
     say_place(worst->at, dim, out);
-    fprintf(out, " is %.1f %% too %s, as steps of particles fill it; a smaller particles.spacing is closer\n",
+    fprintf(out,
+            " is %.1f %% too %s, as a staircase of particles represents it; a smaller particles.spacing reduces this\n",
             100 * fabs(worst->off), worst->off > 0 ? "large" : "small");
 }

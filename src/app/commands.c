@@ -25,7 +25,7 @@ const struct command commands[] = {
     {"plot", PLOT_WORDS, "pictures of a finished or running run; of a scene before it runs", command_plot},
     {"compare", "DIR DIR", "how far two runs are apart", command_compare},
     {"export", EXPORT_WORDS, "the peridynamics of a scene as input of LAMMPS", command_export},
-    {"bench", "[NAME...] [--quick] [--readme]", "kernels, efficiency, coupling, ...", command_bench},
+    {"bench", "[NAME...] [--quick] [--readme]", "measures; without a name it lists what there is", command_bench},
     {"help", "[KEY|scene|units|expression|run|theory|trust]",
      "every scene key; units; formulas; a run; the equations; what a run promises", command_help},
     {"info", "", "version, build, sets of kernels, threads, cores and caches", command_info},

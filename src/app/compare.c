@@ -165,10 +165,11 @@ static void print_time_apart(const struct pair *p, const struct frame *a, const 
     const double apart = fabs(b->t - a->t), step = fmin(frame_step_length(a), frame_step_length(b));
     const bool lammps[2] = {lammps_run_exists(p->folder[0]), lammps_run_exists(p->folder[1])};
     if (apart > 0.5 * step)
-        printf("the frames are %.4g s apart, %.2g steps: fields differ by what they change in that time, too\n", apart,
-               apart / step);
+        printf("the times of the frames differ by %.4g s, %.2g steps: differences of fields include their change in "
+               "that time\n",
+               apart, apart / step);
     if (lammps[0] != lammps[1])
-        printf("velocities of %s are half a step older than those of LAMMPS, and its damage by a step\n",
+        printf("velocities of %s are taken half a step before those of LAMMPS, and its damage one step before\n",
                lammps[0] ? "B" : "A");
 }
 
@@ -188,7 +189,7 @@ static void compare_particles(struct pair *p, const struct frame *a, const struc
     }
     struct difference start = field_difference(a->X, b->X, a->dim, a->n);
     if (start.largest > 1e-4 * p->spacing)
-        printf("the same particles start up to %.4g m apart (%.3g spacings)\n", start.largest,
+        printf("equal particles start at positions up to %.4g m apart (%.3g spacings)\n", start.largest,
                start.largest / p->spacing);
     print_fields(a, b);
 }
@@ -353,7 +354,7 @@ static status read_words(struct pair *p, int argc, char **argv)
     for (int k = 0; k < 2; k++) {
         p->folder[k] = argv[k + 1];
         if (holds_run(p->folder[k])) continue;
-        return status_set(REFUSED, "%s: no run there: no summary.json, history.csv or frames", p->folder[k]);
+        return status_set(REFUSED, "%s holds no run: neither summary.json, history.csv nor frames", p->folder[k]);
     }
     return OK;
 }

@@ -81,8 +81,7 @@ static status file_open(FILE **out, const char *path)
 {
     *out = fopen(path, "wx");
     if (*out) return OK;
-    if (errno == EEXIST)
-        return status_set(REFUSED, "%s: is there already and stays as it is; another name is expected", path);
+    if (errno == EEXIST) return status_set(REFUSED, "%s exists and is not replaced; another name is expected", path);
     return status_set(REFUSED, "%s: %s; a folder that can be written is expected", path, strerror(errno));
 }
 

@@ -10,7 +10,7 @@
 #include "plot/scene_picture.h"
 #include "scene/words.h"
 
-static const char usage[] = "cleave plot " PLOT_WORDS;
+static const char usage[] = "plot " PLOT_WORDS;
 
 struct plot_words {
     struct plot_request request;
@@ -120,10 +120,10 @@ static status read_option(struct plot_words *w, const char *word, const char *va
     for (size_t k = 0; k < COUNT_OF(options); k++) {
         name[k] = options[k].name;
         if (strcmp(word, name[k]) != 0) continue;
-        if (!value) return status_set(REFUSED, "plot: %s needs a value; see cleave plot --help", word);
+        TRY(option_has_value(word, value != NULL, usage));
         return options[k].read(w, value);
     }
-    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: %s", printable_name(word).text,
+    return status_set(REFUSED, "plot: unknown option %s; do you mean %s? usage: cleave %s", printable_name(word).text,
                       word_nearest(word, name, COUNT_OF(name)), usage);
 }
 
@@ -149,7 +149,7 @@ static status words_together(const struct plot_words *w)
         return status_set(
             REFUSED, "plot: --scene draws a scene before it runs, so that it takes no folder, field, time or slice");
     if (w->times && w->frames)
-        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: one of them",
+        return status_set(REFUSED, "plot: --times %s and --frames (or --times) %s: give one of them",
                           printable_name(w->times).text, printable_name(w->frames).text);
     if (r->panels > PANELS_MAX && !picture_moves(r->format))
         return status_set(REFUSED,
@@ -160,7 +160,7 @@ static status words_together(const struct plot_words *w)
     if (r->projection.outside && r->projection.normal >= 0)
         return status_set(REFUSED, "plot: --slice shows the inside, --view the outside: give one of them");
     if (!w->scene.scene && !r->folder)
-        return status_set(REFUSED, "plot: no folder of a run is given; usage: %s", usage);
+        return status_set(REFUSED, "plot: no folder of a run is given; usage: cleave %s", usage);
     return OK;
 }
 
@@ -195,7 +195,7 @@ static status check_folder(const char *folder)
                           "runs",
                           printable_name(folder).text, printable_name(folder).text);
     if (!run_has_file(folder, "frames.hdf.series") && !run_has_file(folder, "history.csv"))
-        return status_set(REFUSED, "%s: no run there: neither frames nor history.csv", folder);
+        return status_set(REFUSED, "%s holds no run: neither frames nor history.csv", folder);
     return strlen(folder) + PATH_NAME_ROOM < PATH_ROOM ? OK : status_set(FAILED, "%s: the name is too long", folder);
 }
 

@@ -85,6 +85,7 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                          int threads)
 {
     double start = wall_clock();
+    engine_say_size(s);
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     TRY(open_folder(out, s, a));
     e->report->quiet = a->quiet;
@@ -99,6 +100,9 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
                 omp_get_num_procs());
     e->report->stop = stop_signals_install();
     if (a->resume && checkpoint_exists(out->folder)) TRY(checkpoint_read(out, s->text, engine_restore, e));
+    if (a->resume && !a->quiet && e->clock.step >= e->clock.steps)
+        fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
+                printable_name(out->folder).text);
     output_temporal_remove(out);
     status ran = engine_run(e);
     if (ran == OK) ran = engine_run_baseline(e);

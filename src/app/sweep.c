@@ -36,7 +36,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
     for (int k = 1; k < argc; k++) {
         const char *word = argv[k];
         const bool takes = word[0] == '-' && word[1] && strchr("osjt", word[1]) && !word[2];
-        if (takes && k + 1 >= argc) return status_set(REFUSED, "%s expects a value; usage: cleave %s", word, usage);
+        if (takes) TRY(option_has_value(word, k + 1 < argc, usage));
         if (!strcmp(word, "-o"))
             a->folder = argv[++k];
         else if (!strcmp(word, "-s"))
@@ -83,10 +83,10 @@ static void sweep_print(const struct study *s)
     const int done = cases_in(s, CASE_DONE), before = cases_in(s, CASE_DONE_BEFORE), failed = cases_in(s, CASE_FAILED);
     const int runs = s->n - cases_in(s, CASE_SAME);
     printf("%d runs: %d done", runs, done + before);
-    if (before > 0) printf(" (%d before)", before);
+    if (before > 0) printf(" (%d of them by an earlier sweep)", before);
     if (failed > 0) printf(", %d failed: see %s/logs", failed, printable_name(s->folder).text);
-    if (done + before + failed < runs) printf(", %d left", runs - done - before - failed);
-    printf("; %s/sweep.csv", printable_name(s->folder).text);
+    if (done + before + failed < runs) printf(", %d not run yet", runs - done - before - failed);
+    printf("; table: %s/sweep.csv", printable_name(s->folder).text);
     printf("\n");
 }
 

@@ -35,9 +35,9 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
         if (reference->choice[b].reference) name_add(&names, s->body[b].name);
     warnings_add(
         to,
-        "%s %s in the reference frame and meet%s no other body: they pass through each other; in mpm.frame current "
-        "bodies meet",
-        names.text, names.all > 1 ? "are" : "is", names.all > 1 ? "" : "s");
+        "%s %s in the reference frame (mpm.frame), where material points meet no other body and pass through it; with "
+        "mpm.frame: current bodies meet",
+        names.text, names.all > 1 ? "are" : "is");
 }
 
 /* Warns of missing contact between several bodies, depending on the method. */
@@ -49,13 +49,20 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (!scene_bodies_meet(s) || approaches) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
-        warnings_add(to, "peridynamic bodies pass through each other%s without contact.between: bodies or all",
-                     s->rigids > 0 ? " (contact with rigid bodies is there)" : "");
+        warnings_add(to,
+                     "contact.between: none: peridynamic bodies pass through each other%s; with contact.between: "
+                     "bodies, or all, they meet",
+                     s->rigids > 0 ? " (they do meet rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
-        warnings_add(to, "what becomes peridynamic passes through material points of other bodies: that takes "
-                         "contact.convert and the coupling partial stress or handshake");
+        warnings_add(to,
+                     "particles that become peridynamic pass through the material points of other bodies; contact with "
+                     "them requires contact.between: bodies or all, contact.convert: true and coupling: partial stress "
+                     "or handshake; here %s",
+                     s->contact_between == CONTACT_NONE ? "contact.between is none"
+                     : !s->contact_convert              ? "contact.convert is false"
+                                                        : "the coupling is another one");
 }
 
 /* Returns true if two particles start with the same velocity, as parts of joined bodies; colliding bodies do not. */

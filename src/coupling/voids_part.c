@@ -109,9 +109,9 @@ void voids_warn(const struct run *e, struct warnings *to)
         const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, voids_reach(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,
-                     "body %s has a void of one or two particles' width at %s m, at %lld particles in all: of "
-                     "lists and images only particles are known, and %s join what is on both sides; cracks say where "
-                     "there are free faces, a smaller particles.spacing widens the void",
+                     "body %s has a void of one or two particles' width at %s m, at %lld particles in all: lists and "
+                     "images give particles only, and %s join both sides of the void; give its faces by `cracks`, or "
+                     "use a smaller particles.spacing",
                      s->body[b].name, void_position_text(&e->part, gap.first, place), (long long)gap.n,
                      s->method == METHOD_MPM  ? "cells"
                      : s->method == METHOD_PD ? "bonds"

@@ -46,6 +46,11 @@ status parts_archive(struct run *e, struct archive *a);
 void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
                              const struct particles *p, struct warnings *to);
 
+/* Adds warnings to *to about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks where
+ * no bond can break. reach: length of the longest bonds [m]. */
+void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
+                           struct warnings *to);
+
 /* Adds warnings to *to about values that look like mistakes of units, unless the key `accept` of the scene excepts
  * them. clock: time step and number of steps; wave_speed: speed of the fastest wave in any material [m/s]. */
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *loads,

@@ -10,15 +10,6 @@
 #include "mesh/mesh_part.h"
 #include "output/output.h"
 
-/* Returns true if pre-cracks have cut a bond. */
-static bool bonds_are_cut(const struct bonds *b)
-{
-    for (int64_t row = 0; row < b->rows; row++)
-        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
-            if (it.bond.inverse_length < 0) return true;
-    return false;
-}
-
 static const char *const coupling_name[] = {
     [COUPLING_PM] = "pm", [COUPLING_PG] = "pg", [COUPLING_PMG] = "pmg", [COUPLING_PGG] = "pgg"};
 
@@ -51,7 +42,8 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
 {
     if (s->method == METHOD_MPM && s->cracks > 0)
         warnings_add(to,
-                     "method: mpm has one velocity field and ignores the pre-cracks; pd and adaptive represent them");
+                     "method: mpm ignores the key cracks: its body is whole, as points on both sides of a crack share "
+                     "the nodes of the grid; method pd and adaptive represent cracks");
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
@@ -174,13 +166,43 @@ static void warn_of_boundaries(const struct scene *s, const struct loads *l, str
                          s->method == METHOD_PD ? "" : "; it acts on grid nodes in its region only");
 }
 
+/* Warns of a time step above the critical one. */
+static void warn_of_step(const struct scene *s, const struct run_clock *clock, struct warnings *to)
+{
+    if (!scene_moves(s) || !(clock->dt > clock->dt_critical)) return;
+    warnings_add(
+        to,
+        "the time step is above the critical one: time.step is %.4g s, %.3g times the critical %.4g s, and the "
+        "run will be unstable: leave time.step out, or use at most %.3g s",
+        clock->dt, clock->dt / clock->dt_critical, clock->dt_critical, 0.8 * clock->dt_critical);
+}
+
+#define HORIZON_LEAST 1.45 /* [spacings] below it a particle of a lattice has no diagonal neighbours, at sqrt(2) */
+
+/* Warns of a horizon that reaches only the neighbours along the axes of the lattice. */
+static void warn_of_horizon(const struct scene *s, struct warnings *to)
+{
+    if (s->method == METHOD_MPM || s->horizon >= (s->dim > 1 ? HORIZON_LEAST : 1.005)) return;
+    if (s->dim == 1)
+        warnings_add(to,
+                     "particles.horizon: %.3g: the neighbours of a bar lie exactly at the horizon; use 1.015 for one "
+                     "neighbour on each side, or 3.015",
+                     s->horizon);
+    else
+        warnings_add(
+            to,
+            "particles.horizon: %.3g: each particle has bonds along the axes of the lattice only (%d), so that "
+            "the body has no stiffness in shear, and cracks follow the axes; 3.015 is usual",
+            s->horizon, 2 * s->dim);
+}
+
 void engine_warn_of_input(struct run *e)
 {
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
     if (s->renamed[0]) warnings_add(to, "%s; earlier names work in this version, with the same meaning", s->renamed);
-    if (scene_moves(s) && e->clock.dt > e->clock.dt_critical)
-        warnings_add(to, "the time step is above the critical one: the run will be unstable");
+    warn_of_step(s, &e->clock, to);
+    warn_of_horizon(s, to);
     warn_of_coupling(s, e->coupling_kind, to);
     warn_of_cells(s, e->part.n_free > 0, to);
     if (e->part.n_free > 0) warn_of_spin(s, e->grid, to);
@@ -194,8 +216,7 @@ void engine_warn_of_input(struct run *e)
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, to);
-    if (e->source.givens > 0 && !bonds_are_cut(&e->bonds))
-        warnings_add(to, "the pre-cracks cut no bond: check that they are inside the body");
+    engine_warn_of_cracks(s, &e->part, &e->bonds, e->source.family.cutoff, to);
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->warn) (*p)->warn(e, to);
 }

@@ -10,12 +10,25 @@ enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are eval
 #define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
 /* Quantities that are compared with limits, in the order of ACCEPT_WORDS. */
-enum rule { RULE_WAVES, RULE_STRETCH, RULE_STRESS, RULE_STRAIN, RULE_STEPS, RULE_REACH, RULE_PARTICLES, RULES };
+enum rule {
+    RULE_WAVES,
+    RULE_STRETCH,
+    RULE_STRESS,
+    RULE_STRAIN,
+    RULE_STEPS,
+    RULE_REACH,
+    RULE_PARTICLES,
+    RULE_DENSITY,
+    RULE_YIELD,
+    RULE_PASSAGES,
+    RULES
+};
 
 /* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
  * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
  * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
- * of waves in the duration [spacings]. */
+ * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
+ * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -32,6 +45,10 @@ static const struct {
                     "duration, lengths (mm?) and young (GPa?)"},
     [RULE_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
                         "spacing and lengths (mm?)"},
+    [RULE_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
+    [RULE_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (MPa?) and young (GPa?)"},
+    [RULE_PASSAGES] = {0, 3000, "the number of times that waves cross the bodies in the duration is", "",
+                       "duration (ms for us?), lengths (mm?) and young (GPa?)"},
 };
 
 /* Warns if `value` is beyond the limits of quantity k, unless the scene accepts it. subject: the part of the scene that
@@ -43,9 +60,9 @@ static void units_judge(const struct scene *s, enum rule k, const char *subject,
     const bool low = (value < rule[k].least), high = (value > rule[k].most);
     if ((!low && !high) || s->accept & 1u << k) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
-    warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: see whether %s have the units that are meant; if so: accept: [%.*s]",
-                 subject, rule[k].what, value, rule[k].unit, note, low ? "below" : "above",
-                 low ? rule[k].least : rule[k].most, rule[k].look, (int)strcspn(word, "|"), word);
+    warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]", subject,
+                 rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? rule[k].least : rule[k].most,
+                 rule[k].look, (int)strcspn(word, "|"), word);
 }
 
 /* ---- materials --------------------------------------------------------------------------------------------------- */
@@ -59,6 +76,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         const real stretch = a->critical_stretch;
         snprintf(subject, sizeof subject, "material %s", a->name);
         units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
+        units_judge(s, RULE_DENSITY, subject, a->density, "", to);
+        snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", a->yield_stress, a->young);
+        if (material_yields(a)) units_judge(s, RULE_YIELD, subject, a->yield_stress / a->young, note, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
         if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[RULE_STRETCH].least))
             units_judge(s, RULE_STRETCH, subject, stretch, note, to);
@@ -198,11 +218,16 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
 
 /* ---- steps and particles ----------------------------------------------------------------------------------------- */
 
-/* Warns of implausibly few or many time steps, and of waves that travel less than a spacing during the run. */
-static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, struct warnings *to)
+/* Warns of implausibly few or many time steps, of waves that travel less than a spacing during the run, and of waves
+ * that cross the bodies very often. wave_speed: of the fastest wave [m/s]; longest: longest edge of the box around all
+ * particles [m]. */
+static void units_of_time(const struct scene *s, const struct run_clock *clock, real wave_speed, real longest,
+                          struct warnings *to)
 {
     char note[80];
     if (!scene_moves(s)) return;
+    snprintf(note, sizeof note, " (%.3g s, %.3g m at %.3g m/s)", s->duration, longest, wave_speed);
+    units_judge(s, RULE_PASSAGES, "time", wave_speed * s->duration / longest, note, to);
     snprintf(note, sizeof note, " of %.3g s", clock->dt);
     const real reach = wave_speed * s->duration / s->spacing;
     if (reach < rule[RULE_REACH].least)
@@ -267,7 +292,7 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
                           const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
-    units_of_time(s, clock, wave_speed, to);
+    units_of_time(s, clock, wave_speed, particles_longest_edge(p), to);
     units_of_materials(s, to);
     units_of_tractions(s, to);
     units_of_loads(s, p, l, to);

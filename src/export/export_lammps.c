@@ -43,8 +43,8 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
                           "and results differ; model: bond, or --allow-different, is expected",
                           printable_name(s->path).text);
     return status_set(REFUSED,
-                      "%s: LAMMPS runs it to the same result with%s; give these, or --allow-different, which "
-                      "lays them over the scene",
+                      "%s: LAMMPS has the same result only with%s; set these keys in the scene, or use "
+                      "--allow-different, which overrides them",
                       printable_name(s->path).text, list);
 }
 

@@ -68,8 +68,8 @@ static status classes_find(struct classes *c, struct lammps_types *t, const stru
     for (int64_t i = 0; i < x->e->part.n; i++)
         if ((t->of[i] = class_of(c, x, i)) < 0)
             return status_set(REFUSED,
-                              "%s: particles of more than %d masses, materials or sets of loads, which are types "
-                              "there",
+                              "%s: more than %d different combinations of mass, material and loads; LAMMPS would need "
+                              "an atom type for each",
                               printable_name(x->s->path).text, CLASSES_MOST);
     return OK;
 }

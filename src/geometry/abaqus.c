@@ -440,7 +440,8 @@ static status instance_read(struct deck *d)
     const int scope = part ? scope_find(d, part, false) : -1;
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
-    if (scope < 0) return source_fault(d->s, "an instance of part %.40s, which there is not", part ? part : "?");
+    if (scope < 0)
+        return source_fault(d->s, "an instance of part %.40s, which the file does not define", part ? part : "?");
     struct scope *p = &d->scope[scope];
     if (p->placed) return source_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
     if (data_line(d->s)) {
@@ -473,7 +474,7 @@ static status keyword_follow(struct deck *d)
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
     if ((node || element || nset || elset) && parameter(d, "INPUT"))
-        return source_fault(d->s, "*%s from another file; one file is expected", name);
+        return source_fault(d->s, "*%s reads another file; a single file is expected", name);
     if (node) return nodes_read(d);
     if (element) return elements_read(d);
     if (nset || elset) return set_read(d, nset);

@@ -201,11 +201,11 @@ static status tiff_page(TIFF *tiff, struct pages *p, const struct source *s)
     TRY(check_samples(&a, s->path));
     TRY(pages_add(p, s, a.width, a.height, &page));
     const bool good = samples_used(&a) > 0 ? samples_read(tiff, page, &a) : colours_read(tiff, page, a.width, a.height);
-    return good ? OK
-                : status_set(
-                      REFUSED,
-                      "%s: page %lld cannot be read: it is cut off, or compressed in a way that libtiff does not read",
-                      s->path, (long long)p->n);
+    return good
+               ? OK
+               : status_set(REFUSED,
+                            "%s: page %lld cannot be read: it is cut off, or compressed by a method that libtiff lacks",
+                            s->path, (long long)p->n);
 }
 
 status tiff_read_pages(struct pages *p, struct source *s)

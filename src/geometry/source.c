@@ -87,7 +87,7 @@ static status text_real(struct source *s, const char *what, real *value)
 /* Copies `size` bytes of a binary file. REFUSED if the file ends before. */
 static status bytes_take(struct source *s, const char *what, void *value, int64_t size)
 {
-    if (s->length - s->at < size) return source_fault(s, "ends where %s is expected: it is cut off", what);
+    if (s->length - s->at < size) return source_fault(s, "the file ends where %s is expected: it is cut off", what);
     array_copy(value, s->text + s->at, size, 1);
     s->at += size;
     return OK;
@@ -127,7 +127,9 @@ status source_read_int64(struct source *s, const char *what, int64_t *value)
 status source_check_count(const struct source *s, const char *what, int64_t count, int64_t bytes)
 {
     if (count >= 0 && count <= (s->length - s->at) / bytes) return OK;
-    return source_fault(s, "%lld %s are more than the rest of the file holds", (long long)count, what);
+    return source_fault(s,
+                        "%lld %s are announced, more than the rest of the file can contain: it is cut off or damaged",
+                        (long long)count, what);
 }
 
 void source_next_line(struct source *s)

@@ -116,8 +116,9 @@ static status mirrors_apart(const struct boundary *b, int n, real reach, real sp
             const real apart = fabs(b[k].at - b[m].at);
             if (apart <= 1e-6 * spacing)
                 return status_prepend_location(
-                    b[k].place, status_set(REFUSED, "boundary %s: its mirror plane is that of %s; one is enough",
-                                           b[k].name, b[m].name));
+                    b[k].place,
+                    status_set(REFUSED, "boundary %s: its mirror plane is also that of %s; remove one of the two",
+                               b[k].name, b[m].name));
             if (apart + spacing <= reach)
                 return status_prepend_location(
                     b[k].place, status_set(REFUSED,

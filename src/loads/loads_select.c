@@ -148,7 +148,7 @@ status load_find_particles(struct load *l, const struct boundary *b, struct part
         return status_set(REFUSED, "boundary %s: no particle is in its region", b->name);
     if (l->n > 0 || !needs_face(b)) return OK;
     return status_set(REFUSED,
-                      "boundary %s: every particle in its region has one of its body before it towards %c%c; let the "
-                      "region hold the body's outside there, or the wall of a hole",
+                      "boundary %s: other particles of the body are in front of every particle in its region, seen "
+                      "from %c%c; choose a region that contains the outer face there, or the wall of a hole",
                       b->name, 'x' + b->face, b->side > 0 ? '+' : '-');
 }

@@ -193,8 +193,8 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
     else if (c->why == LEVELS_DAMPED)
         snprintf(text, room, "none with damping, which has one time step");
     else if (c->why == LEVELS_LONG_STEP)
-        snprintf(text, room, "none, as time.step is %.2f of the critical one, and they bear %.2f", c->step_share,
-                 LEVELS_STEP_MOST);
+        snprintf(text, room, "none, as time.step is %.2f of the critical step, and coarse cells are stable up to %.2f",
+                 c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, room,
                  "no coarse cells, as no part of the body is %d spacings thick, which %d cells of 4 spacings need",

@@ -39,10 +39,9 @@ status folder_check_writable(const struct folder_kind *kind, const char *folder,
     for (size_t k = 0; k < COUNT_OF(kind->inner) && kind->inner[k]; k++) {
         const struct path inner = path_join(folder, kind->inner[k]);
         if (path_is_link(inner.text))
-            return status_set(REFUSED,
-                              "%s is a link: what a %s removes and makes there would be somewhere else; choose another "
-                              "-o",
-                              inner.text, kind->what);
+            return status_set(
+                REFUSED, "%s is a symbolic link, and a %s would remove and write files elsewhere; choose another -o",
+                inner.text, kind->what);
     }
     *there = path_is_file(sign.text) && kind->is_sign(sign.text, text);
     return *there ? OK : entries_guard(kind, folder);

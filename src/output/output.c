@@ -344,7 +344,9 @@ static struct path series_folder(const char *folder, const char *name)
 status output_check_series_folder(const char *folder, const char *name)
 {
     const struct path path = series_folder(folder, name);
-    if (path_is_link(path.text)) return status_set(REFUSED, "%s is a link: frames would be somewhere else", path.text);
+    if (path_is_link(path.text))
+        return status_set(REFUSED, "%s is a symbolic link: frames would be written to another folder; remove it",
+                          path.text);
     if (path_exists(path.text) && !path_is_folder(path.text))
         return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path.text);
     return OK;

@@ -155,7 +155,7 @@ status file_check_beginning(const char *path, const char *const *begin, size_t n
         const size_t length = strlen(begin[k]);
         ours |= strncmp(first, begin[k], (size_t)have < length ? (size_t)have : length) == 0;
     }
-    return ours ? OK : status_set(REFUSED, "%s is there already and not of cleave; move it away", path);
+    return ours ? OK : status_set(REFUSED, "%s exists and was not written by cleave; move or remove it", path);
 }
 
 bool file_has_contents(const char *path, const void *bytes, size_t length)

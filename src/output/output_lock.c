@@ -110,8 +110,10 @@ status folder_lock(struct folder_lock *l, const char *folder)
 status folder_check_lock(const struct folder_lock *l, const char *folder)
 {
     if (l->fd < 0 || is_still_there(l->fd, path_join(folder, lock_name).text)) return OK;
-    return status_set(
-        FAILED, "%s was moved, removed or exchanged while this run was in it; what is there now is left alone", folder);
+    return status_set(FAILED,
+                      "%s was moved, removed or replaced while this run wrote to it; the folder that has this name now "
+                      "is not changed",
+                      folder);
 }
 
 void folder_unlock(struct folder_lock *l, const char *folder)

@@ -123,5 +123,5 @@ status picture_check_replaceable(const char *path)
 {
     TRY(file_check_replaceable(path));
     if (!path_exists(path) || picture_has_mark(path)) return OK;
-    return status_set(REFUSED, "%s is there already and was not drawn by cleave; move it away", path);
+    return status_set(REFUSED, "%s exists and was not drawn by cleave; move or remove it", path);
 }

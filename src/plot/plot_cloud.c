@@ -166,7 +166,8 @@ status projection_complete(struct projection *projection, const struct frame *f)
     frame_extent(f, projection->normal, &from, &to);
     if (fabs(near - projection->layer) > frame_spacing(f)) {
         const struct unit metre = unit_for_length(fmax(fabs(from), fabs(to)));
-        return status_set(REFUSED, "plot: --slice %c=%.4g %s: no particle is there; they lie from %.4g to %.4g %s",
+        return status_set(REFUSED,
+                          "plot: --slice %c=%.4g %s: no particle is at this position; they are from %.4g to %.4g %s",
                           'x' + projection->normal, projection->layer / metre.factor, metre.name, from / metre.factor,
                           to / metre.factor, metre.name);
     }

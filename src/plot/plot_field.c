@@ -1,5 +1,6 @@
 /* Fields that `cleave plot --field` draws: fields of frames and derived fields (data/derived_fields.h). */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -69,6 +70,27 @@ static bool lacks_component(const struct plot_field *field, int dim)
     return false;
 }
 
+/* Returns REFUSED with the components of the field `name`, or, if it has none, with the field of the nearest name and
+ * the names of all others. names: of all fields [COUNT_OF(fields)]. */
+static status field_unknown(const char *name, const char *const *names)
+{
+    char all[1024] = "", components[256] = "";
+    size_t used = 0, listed = 0;
+    for (size_t k = 0; k < COUNT_OF(fields); k++) {
+        const char *own = fields[k].name;
+        if (strcmp(fields[k].stored, name) == 0 && listed < sizeof components)
+            listed +=
+                (size_t)snprintf(components + listed, sizeof components - listed, "%s%s", listed ? ", " : "", own);
+        if (strncmp(own, "principal_directions", 20) != 0 && used < sizeof all)
+            used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", used ? ", " : "", own);
+    }
+    if (listed > 0)
+        return status_set(REFUSED, "plot: --field %s: it has several components, draw one of %s",
+                          printable_name(name).text, components);
+    return status_set(REFUSED, "plot: --field %s: there is no such field; do you mean %s? There are %s",
+                      printable_name(name).text, word_nearest(name, names, COUNT_OF(fields)), all);
+}
+
 status plot_field_find(const struct plot_field **field, const char *name, int dim)
 {
     const char *names[COUNT_OF(fields)];
@@ -80,10 +102,7 @@ status plot_field_find(const struct plot_field **field, const char *name, int di
         return status_set(REFUSED, "plot: --field %s: a run in %d dimension%s has no such component", name, dim,
                           dim > 1 ? "s" : "");
     }
-    return status_set(REFUSED,
-                      "plot: --field %s: there is no such field; do you mean %s? Others are damage, speed, "
-                      "velocity_x, displacement, stress_xx, von_mises, pressure, principal_stress",
-                      printable_name(name).text, word_nearest(name, names, COUNT_OF(names)));
+    return field_unknown(name, names);
 }
 
 status plot_field_read(float **value, const struct plot_field *field, const struct frame *f, const char *path)

@@ -161,6 +161,10 @@ static status field_of_frames(struct plot_request *r, const struct run_frames *f
     const int dim = last.dim;
     status s = projection_check(r, dim);
     if (s == OK) s = plot_field_find(&r->projection.field, r->field ? r->field : "damage", dim);
+    if (s == OK && r->field && strcmp(r->field, "principal_stress") == 0)
+        fprintf(
+            stderr,
+            "plot: principal_stress is the largest one; the others are principal_stress_2 and principal_stress_3\n");
     if (s == OK && dim == 3 && r->projection.normal < 0) r->projection.outside = true;
     if (s == OK) s = projection_complete(&r->projection, &last);
     frame_free(&last);

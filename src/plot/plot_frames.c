@@ -141,7 +141,8 @@ void frames_free(struct frame *f, int n)
 status pictures_folder_make(const char *path)
 {
     if (path_is_link(path))
-        return status_set(REFUSED, "%s is a link: pictures would be made somewhere else; remove it", path);
+        return status_set(REFUSED, "%s is a symbolic link: pictures would be written to another folder; remove it",
+                          path);
     if (mkdir(path, 0777) != 0 && errno != EEXIST) return status_set(FAILED, "%s: %s", path, strerror(errno));
     return files_visit(path, is_picture_name, "", picture_check_replaceable);
 }
@@ -164,8 +165,7 @@ status picture_destination(struct path *path, const char *out, const char *name,
     TRY(file_check_replaceable(path->text));
     if (overwrite || !path_exists(path->text) || picture_has_mark(path->text)) return OK;
     return status_set(REFUSED,
-                      "plot: %s is there already and was not drawn by cleave; choose another -o, or replace it with "
-                      "--overwrite",
+                      "plot: %s exists and was not drawn by cleave; choose another -o, or replace it with --overwrite",
                       path->text);
 }
 

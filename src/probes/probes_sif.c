@@ -105,10 +105,10 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
         return status_set(REFUSED, "probe \"%s\": no pre-crack ends inside a body; at and direction can name a tip",
                           r->name);
     if (!tip && !r->has_direction)
-        return status_set(REFUSED,
-                          "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; direction has to say where ahead "
-                          "is",
-                          r->name, r->at[0], r->at[1]);
+        return status_set(
+            REFUSED,
+            "probe \"%s\": no pre-crack ends at (%.6g, %.6g) m; give `direction`, in which the crack would grow",
+            r->name, r->at[0], r->at[1]);
     const real *position = r->has_at ? r->at : tip->origin, *along = r->has_direction ? r->direction : tip->along;
     const real length = hypot(along[0], along[1]);
     for (int d = 0; d < 2; d++) w->tip.place[d] = position[d], w->tip.along[d] = along[d] / length;
@@ -191,7 +191,7 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     const real *e = w->tip.along, *at = w->tip.place;
     const int32_t ahead = particle_nearest(o, (real[DIM_MAX]){at[0] + o->spacing * e[0], at[1] + o->spacing * e[1]});
     if (ahead < 0)
-        return status_set(REFUSED, "probe \"%s\": there is no body ahead of its tip (%.6g, %.6g) m", r->name, at[0],
+        return status_set(REFUSED, "probe \"%s\": no particle is ahead of its tip (%.6g, %.6g) m", r->name, at[0],
                           at[1]);
     w->tip.body = p->body[ahead];
     w->tip.medium = crack_medium_of(&o->material[p->material[ahead]], o->space);

@@ -37,7 +37,7 @@ void profiles_check(const struct probes *s, const struct output *out, struct war
     const char *more = "";
     char others[48];
     if (lost > 1) snprintf(others, sizeof others, ", and %lld profiles more are", (long long)lost - 1), more = others;
-    snprintf(text, sizeof text, "%s is missing%s: a run of its own would make it again", first, more);
+    snprintf(text, sizeof text, "%s is missing%s: run the scene again to write it", first, more);
     warnings_add_and_print(to, text);
 }
 

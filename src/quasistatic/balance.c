@@ -242,7 +242,7 @@ static status solve_whole(struct run *e, real t)
 status equilibrium_at(struct run *e, real t)
 {
     if (e->report->stop && *e->report->stop)
-        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; go on with --resume",
+        return status_set(INTERRUPTED, "interrupted in load step %lld of %lld; continue with --resume",
                           (long long)e->clock.step + 1, (long long)e->clock.steps);
     TRY(solve_whole(e, t));
     e->statics->stretch_ratio = largest_stretch_ratio(&e->bonds, &e->part, &e->source.limit);

@@ -268,10 +268,11 @@ static status check_loads_grow(const struct run *e)
     const real whole = e->scene->duration, size = statics_load_size(e, whole);
     const real half = statics_load_size(e, 0.5 * whole), quarter = statics_load_size(e, 0.25 * whole);
     if (e->scene->steps.control == CONTROL_LOAD || half != size || quarter != size) return OK;
-    return status_set(REFUSED,
-                      "steps.control: loads and supports are the same at all times, and the crack decides how "
-                      "large they are; time: {ramp: {until: %.3g s}} of what loads the body is expected",
-                      whole);
+    return status_set(
+        REFUSED,
+        "steps.control: energy and opening scale loads and supports that grow with pseudo-time, and here they are "
+        "constant; time: {ramp: {until: %.3g s}} in the boundary that loads the body is expected",
+        whole);
 }
 
 status statics_check(const struct run *e)
@@ -323,8 +324,8 @@ static void warn_missed_bodies(struct warnings *to, const struct rigid_body *bod
         const struct rigid_body *r = &body[k];
         char text[200];
         snprintf(text, sizeof text,
-                 "rigid body %.60s has moved without pushing anything: check that it meets a body, and that this body "
-                 "is held",
+                 "rigid body %.60s has moved by a load step without force on it: check that it touches a body, and "
+                 "that this body is held",
                  r->name);
         if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_add_and_print(to, text);
     }

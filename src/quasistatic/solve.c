@@ -126,8 +126,8 @@ static status not_converged(const struct solver *s, real tolerance, int64_t step
                           "round-off of positions shows; a larger solver_tolerance is expected",
                           s->residual, tolerance);
     return status_set(FAILED,
-                      "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is wanted; raise "
-                      "solver_steps, or see whether every part of the body is held and its loads are balanced",
+                      "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is required; raise "
+                      "solver_steps, or check that every part of the body is held or has balanced loads",
                       (long long)step, s->residual, tolerance);
 }
 

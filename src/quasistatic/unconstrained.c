@@ -514,9 +514,9 @@ status unconstrained_check(const struct statics *s, const struct particles *p, b
         if (solved) share = real_max(share, unbalanced_share_of_nodes(s, p, f));
         if (share <= UNHELD_MOST) continue;
         return status_set(FAILED,
-                          "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, round x = %.6g, y = %.6g, "
-                          "z = %.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its "
-                          "loads, or choose steps.control energy, which goes back with the loads while a crack runs",
+                          "load step %lld, t = %.6g s: nothing holds %s (%.3g %% of it, around x = %.6g, y = %.6g, z = "
+                          "%.6g m): %.0f %% of the loads on it are not balanced; hold it there, balance its loads, or "
+                          "use steps.control: energy, which reduces the loads while a crack grows",
                           (long long)step, s->t, f->n == s->balance.n ? "the body" : "a piece of the body",
                           100 * (real)f->n / (real)s->balance.n, f->middle[0], f->middle[1], f->middle[2], 100 * share);
     }

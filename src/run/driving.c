@@ -67,8 +67,8 @@ status prescribed_motion_check(const struct loads *loads, const struct particles
         if (isinf(speed))
             return status_prepend_location(b->place,
                                            status_set(REFUSED,
-                                                      "boundary %s: its displacement jumps, which no body follows; "
-                                                      "a ramp, a pulse or a table is expected as its time",
+                                                      "boundary %s: its displacement jumps (time: step), which no body "
+                                                      "can follow; a ramp, pulse or table is expected as its time",
                                                       b->name));
         return status_prepend_location(
             b->place, status_set(REFUSED,

@@ -44,9 +44,9 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
     particle_place(p, i, X);
     const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
-                      "body %s: its lattice does not go on beyond the mirror of boundary %s at %c = %.6g m: its first "
-                      "row is %.3g spacings from it; 0.5 (a size along %c that is a multiple of particles.spacing), or "
-                      "pd.surface volume, is expected",
+                      "body %s: its lattice is not continued by the mirror of boundary %s at %c = %.6g m: its first "
+                      "row is %.3g spacings from the plane; 0.5 (a size along %c that is a multiple of "
+                      "particles.spacing), or pd.surface: volume, is expected",
                       s->body[body_made_for(s, X, p->body[i])].name, m->name, "xyz"[m->axis], m -> at, beside,
                       "xyz"[m->axis]);
 }

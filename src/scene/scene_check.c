@@ -53,8 +53,8 @@ status check_particle_count(struct reader *r, const struct node *root)
             return status_prepend_location(
                 s->body[b].place,
                 status_set(REFUSED,
-                           "body %s: a box %.4g m long round its file holds %.1e places, 1e8 is the most; "
-                           "check its unit, and for faces far from the others",
+                           "body %s: the box around its file is %.4g m long and has %.1e lattice positions, 1e8 is the "
+                           "largest number; check its unit, and look for faces far from the others",
                            s->body[b].name, longest_side(from, to, s->dim), count));
         total += count, longest = real_max(longest, longest_side(from, to, s->dim));
     }
@@ -145,7 +145,7 @@ static status check_steps(struct reader *r, const struct node *root)
     const struct scene *s = r->scene;
     const struct node *step = scene_check_below(root, "time", "step");
     if (!step || s->time_step == 0 || s->duration / s->time_step <= 1e12) return OK;
-    return fault(r, step, "%s would take %.1e steps; 1e12 is the most", node_shown(r, step),
+    return fault(r, step, "%s would take %.1e time steps; 1e12 is the largest number", node_shown(r, step),
                  s->duration / s->time_step);
 }
 
@@ -365,7 +365,8 @@ static status check_model(struct reader *r, const struct node *root)
     if (s->model == MODEL_BOND) return OK;
     if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", node_shown(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
-        return fault(r, surface, "%s is for model bond; with %s pd.normalisation says what surfaces get",
+        return fault(r, surface,
+                     "%s is for model bond; with model %s the key pd.normalisation corrects bonds near surfaces",
                      node_shown(r, surface), node_shown(r, model));
     return OK;
 }
@@ -390,7 +391,8 @@ status check_solver(struct reader *r, const struct node *root)
                          node_shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)
-            return fault(r, solver, "%s has no steps for probe %s to measure; explicit is expected",
+            return fault(r, solver,
+                         "solver: %s computes no time steps, in which probe %s measures; explicit is expected",
                          node_shown(r, solver), s->probe[k].name);
     return OK;
 }

@@ -92,7 +92,7 @@ bool equal_units(struct compile *c, const char *word, const char *at)
     if (is_nothing(operand_from_top(c, 1))) memcpy(a->twice, b->twice, sizeof a->twice);
     if (is_nothing(operand_from_top(c, 0))) memcpy(b->twice, a->twice, sizeof b->twice);
     if (same_unit(a, b)) return true;
-    return compile_fail(c, "has %s and %s about %s (character %d); both are expected to have one unit",
+    return compile_fail(c, "combines %s and %s by %s (character %d); both are expected to have the same unit",
                         quantity_unit_name(a).text, quantity_unit_name(b).text, word, character_of(c, at));
 }
 
@@ -153,11 +153,12 @@ bool add_power(struct compile *c, const char *at)
     const int place = character_of(c, at);
     const bool two = b->constant && b->q.value == 2;
     if (!is_dimensionless(&b->q))
-        return compile_fail(c, "has %s as a power (character %d); a plain number is expected there",
+        return compile_fail(c, "has %s as a power (character %d); a plain number is expected",
                             quantity_unit_name(&b->q).text, place);
     if (!is_dimensionless(&unit) && !b->constant)
-        return compile_fail(c, "has %s to a power that varies (character %d); a given number is expected there",
-                            quantity_unit_name(&unit).text, place);
+        return compile_fail(
+            c, "raises %s to a power that varies (character %d); a constant number is expected as the power",
+            quantity_unit_name(&unit).text, place);
     if (!is_dimensionless(&unit) && !power_of_unit(c, &unit, b->q.value, place)) return false;
     if (two) c->operands--, c->steps--; /* without the exponent 2 */
     return add_operation(c, two ? EXPRESSION_SQUARE : EXPRESSION_POWER, &unit);

@@ -131,12 +131,12 @@ static bool apply_function(struct compile *c, const struct function *f, const ch
     if (two && !equal_units(c, f->name, at)) return false;
     if (two) unit = operand_from_top(c, 1)->q;
     if (f->rule == PLAIN && !is_dimensionless(&unit))
-        return compile_fail(c, "takes %s of %s (character %d); a plain number is expected there, as (t/5us)", f->name,
+        return compile_fail(c, "applies %s to %s (character %d); a plain number is expected, as (t/5us)", f->name,
                             quantity_unit_name(&unit).text, character_of(c, at));
     for (int k = 0; k < 3 && f->rule != KEEPS && f->rule != SAME; k++) {
         if (f->rule == ROOT && unit.twice[k] % 2 != 0)
-            return compile_fail(c, "takes sqrt of %s (character %d), which has no unit", quantity_unit_name(&unit).text,
-                                character_of(c, at));
+            return compile_fail(c, "takes the square root of %s (character %d), whose unit has no square root",
+                                quantity_unit_name(&unit).text, character_of(c, at));
         unit.twice[k] = f->rule == ROOT ? unit.twice[k] / 2 : 0;
     }
     return add_operation(c, f->op, &unit);

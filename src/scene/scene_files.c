@@ -60,5 +60,5 @@ status read_path(struct reader *r, const struct node *n, const char *what, char 
     memcpy(*path, n->text, length + 1);
     if (!r->files) return OK;
     if (access(*path, R_OK) == 0) return file_contents_hash(*path, contents);
-    return fault(r, n, "%s cannot be read; %s in the scene's folder is expected", node_shown(r, n), what);
+    return fault(r, n, "%s cannot be read; %s is expected in the folder of the scene", node_shown(r, n), what);
 }

@@ -14,21 +14,22 @@ static const struct foreign {
     const char *words, *paths, *text;
 } foreign[] = {
     /* elastic constants, density */
-    {"E|E0|youngs_modulus|young_modulus|youngs|elastic_modulus|elasticity|modulus|stiffness|elastic", "material.young",
-     NULL},
-    {"nu|poissons_ratio|poisson_ratio|poissons", "material.poisson", NULL},
+    {"E|E0|young's_modulus|youngs_modulus|young_modulus|youngs|elastic_modulus|elasticity|modulus|stiffness|elastic",
+     "material.young", NULL},
+    {"nu|poisson's_ratio|poissons_ratio|poisson_ratio|poissons", "material.poisson", NULL},
     {"rho|mass_density|rho0", "material.density", NULL},
-    {"K|kappa|bulk_modulus|G|mu|shear_modulus|lame|lame_lambda|lame_mu|lambda", "material.young material.poisson",
-     "with `poisson`: E = 9 K G/(3 K + G), nu = E/(2 G) - 1"},
+    {"K|kappa|bulk|bulk_modulus|G|mu|shear|shear_modulus|lame|lame_lambda|lame_mu|lambda",
+     "material.young material.poisson", "with `poisson`: E = 9 K G/(3 K + G), nu = E/(2 G) - 1"},
     {"wave_speed|sound_speed|c0", "material.young material.density",
      "with `density` and `poisson`; E = rho c^2 in a bar"},
     /* fracture */
-    {"G_c|Gc|G_Ic|G_IC|GIc|GIC|G0|G_f|Gf|fracture_energy|critical_energy_release_rate|energy_release|griffith|"
+    {"G_c|Gc|gc|GC|g_c|JIc|J_Ic|J_c|G_Ic|G_IC|GIc|GIC|G0|G_f|Gf|fracture_energy|critical_energy_release_rate|energy_"
+     "release|griffith|"
      "surface_energy",
      "material.energy_release_rate", "in J/m^2"},
     {"K_Ic|KIc|K_IC|KIC|K_c|Kc|fracture_toughness|tenacity", "material.toughness", "as 30 MPa m^0.5"},
     {"s_c|sc|s0|s00|stretch|critical_bond_stretch|max_stretch|critical_strain|failure_strain|fracture_strain|"
-     "strain_to_failure",
+     "strain_to_failure|critical_value",
      "material.critical_stretch", "the stretch at which a bond breaks"},
     {"strength|tensile_strength|ultimate_strength|ultimate_tensile_strength|failure_stress|fracture_stress|sigma_c|"
      "sigma_t|f_t|ft|UTS|failure|fracture|damage_model|failure_model|breaking",
@@ -39,8 +40,8 @@ static const struct foreign {
      "=damage is a result, the share of broken bonds, in every frame; what breaks bonds is `energy_release_rate`, "
      "`toughness` or `critical_stretch` of the material"},
     {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter", NULL},
-    {"precrack|pre_crack|pre_cracks|precracks|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
-    {"cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
+    {"precrack|pre_crack|pre_cracks|precracks|crack_list|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
+    {"tie|tied|cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},
     {"compressive_strength|compression_strength|f_c|fc|crushing_strength|crushing", "material.yield_stress",
      "=Cleave does not do failure in compression: bonds break by tension; `yield_stress` limits stress in both"},
     {"fatigue|cycles|paris|paris_law|n_cycles|s_n_curve", "steps",
@@ -118,7 +119,8 @@ static const struct foreign {
     {"non_reflecting|nonreflecting|silent|pml|infinite_elements|absorbing_boundary|transmitting", "boundary.absorbing",
      NULL},
     /* discretisation */
-    {"dx|h|mesh_size|element_size|cell_size|grid_size|resolution|lattice|lattice_constant|particle_spacing|n_particles|"
+    {"dx|h|mesh_size|cellsize|element_size|cell_size|grid_size|resolution|lattice|lattice_constant|particle_spacing|n_"
+     "particles|"
      "num_nodes|discretisation|discretization|node_spacing",
      "particles.spacing", NULL},
     {"delta|horizon_size|horizon_ratio|m_ratio|cutoff|family|neighbour_radius|neighbor_radius", "particles.horizon",
@@ -127,55 +129,111 @@ static const struct foreign {
     {"dimension|dim|dims|ndim|problem_type|analysis|2d|3d|plane", "space", NULL},
     {"width|depth|area|cross_section", "thickness section",
      "in plane spaces, `section` in space line; sizes of a body are those of its solids"},
-    {"element|elements|element_type|element_block|blocks|block", "bodies", NULL},
+    {"element|elements|element_type|element_block|blocks|block|point_set|point_sets", "bodies", NULL},
+    {"mesh|mesh_file|input_mesh_file|inp|msh|stl|image", "body solid.mesh particles.spacing",
+     "=a file is a shape, as body: {mesh: {file: part.inp, unit: mm}} (also stl, image), filled with particles of "
+     "particles.spacing"},
+    {"nset|elset|node_set|node_sets|set|sets|group|groups|region|fix", "regions boundary.region",
+     "=regions are solids with names (the key regions), or a box, ball, ... where they are used: boundary: [{fixed: "
+     "all, "
+     "region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}]"},
+    {"verlet|velocity_verlet|leap_frog|central_differences|integrator|time_integration|explicit|dynamic|dynamics|"
+     "static|"
+     "statics|quasi_static|quasistatic|run_style",
+     "solver", "as explicit (in time), static (load steps) or relaxation (one equilibrium)"},
+    {"ppc|ptspercell|points_per_cell|particles_per_cell|matlpts", "mpm.cell",
+     "the edge of a cell in spacings: 2 is 4 points in the plane, 8 in space"},
+    {"gimp|ugimp|cpdi|shape_function|shape_functions", "mpm.shape", NULL},
+    {"pic|flip|apic|xpic|pic_fraction", "mpm.transfer", "as flip or apic"},
+    {"mass_scaling", "time.step solver",
+     "=Cleave does not do mass scaling; solver: static or relaxation finds equilibria without time"},
     {"geometry|domain|part|instance|specimen|sample", "body bodies", "or `bodies`"},
     {"material_model|constitutive|constitutive_model|law|bond_type|pair_style|formulation|lps|pmb", "model", NULL},
     {"sphere|circle", "solid.ball solid.disc", NULL},
     {"rectangle|cuboid|cube|brick|prism|square", "solid.box", NULL},
     {"hole|holes|void|cutout|difference", "solid.subtract", NULL},
     /* time */
-    {"dt|delta_t|timestep|time_step|step_size|fixed_dt", "time.step", NULL},
-    {"cfl|courant|safety_factor|stable_step_factor", "time.safety", NULL},
-    {"t_end|tend|end_time|final_time|total_time|tmax|t_max|simulation_time|stop_time|period|run_time", "duration",
-     NULL},
+    {"dt|delta_t|timestep|time_step|step_size|fixed_dt|fixed_timestep", "time.step", NULL},
+    {"cfl|courant|safety_factor|time_factor|timefactor|stable_step_factor", "time.safety", NULL},
+    {"t_end|tend|end_time|final_time|total_time|tmax|t_max|maxtime|simulation_time|stop_time|period|run_time|run|runs|"
+     "end|until",
+     "duration", NULL},
     {"nsteps|n_steps|num_steps|number_of_steps|timesteps|max_steps|load_steps|increments",
      "duration time.step steps.number", "with time.step; load steps of solver static: steps.number"},
     {"wall_time|walltime|time_limit", "time.wall", NULL},
     /* loads, supports, initial states */
-    {"bc|bcs|boundary_condition|boundary_conditions|boundaries|constraint|constraints|support|supports|dirichlet|"
+    {"bc|bcs|disbc|loadbc|velocity_bc|displacement_bc|boundary_condition|boundary_conditions|boundaries|constraint|"
+     "constraints|support|supports|dirichlet|"
      "encastre|"
      "clamp|clamped|pinned|prescribed_displacement",
      "boundary boundary.fixed boundary.displacement boundary.velocity",
      "a list of {fixed, displacement, velocity, traction, pressure ...}"},
-    {"loads|load|cload|dload|forces|point_force|point_load|neumann|surface_traction|applied_stress",
+    {"loads|load|cload|dload|dsload|forces|point_force|point_load|neumann|surface_traction|applied_stress",
      "boundary.traction boundary.pressure boundary.body_force bodies.force",
      "on a face; pressure or body_force otherwise, and bodies.force on rigid bodies"},
     {"weight|g|grav|acceleration", "gravity", NULL},
-    {"initial_velocity|ic|ics|initial_conditions|initial_condition|v0|impact_velocity",
+    {"initial_velocity|velocity|velocities|velocity_ic|ic|ics|initial_conditions|initial_condition|v0|impact_velocity",
      "initial.velocity bodies.velocity", "or bodies.velocity for a whole body"},
     {"initial_stress|prestress|pre_stress|residual_stress|initial_strain|prestrain|eigenstrain",
      "initial.displacement_gradient", "a strain of the initial state"},
     {"amplitude|time_function|load_curve|ramp_time", "boundary.time", NULL},
     {"symmetry|symmetric|xsymm|ysymm|zsymm|symmetry_plane", "boundary.mirror", NULL},
     {"friction_coefficient|coefficient_of_friction|coulomb|mu_friction|friction", "contact.friction", NULL},
-    {"short_range_force|short_range|penalty|contact_stiffness|repulsion", "contact.stiffness contact.between", NULL},
+    {"contact_pair|contact_model|general_contact|short_range_force|short_range|penalty|contact_stiffness|repulsion",
+     "contact.stiffness contact.between", NULL},
     {"wall|walls|rigid_wall|obstacle|impactor|projectile|indenter|rigid_body", "bodies.rigid boundary.mirror",
      "a body with rigid: true; a smooth wall is a boundary `mirror`"},
     /* output */
-    {"dump|vtk|vtu|paraview|write_frequency|output_frequency|output_interval|n_outputs|field_output",
+    {"dump|vtk|vtu|paraview|write_frequency|output_frequency|output_interval|archive_time|n_outputs|number_of_output_"
+     "steps|outputs|field_output",
      "output.frames output.every output.fields", "or output.every"},
     {"history|history_output|thermo|log|sensors|sensor|gauge|gauges|measure|strain_gauge", "probes output.samples",
      "what is measured; output.samples says how often"},
     {"restart|checkpoint_every|restart_file", "output.checkpoint", "and `cleave run --resume` goes on from it"},
-    {"sif|stress_intensity|stress_intensity_factor|stress_intensity_factors|j_integral|K_I|K_II", "probes.sif", NULL},
+    {"sif|stress_intensity|stress_intensity_factor|stress_intensity_factors|j_integral|jcontour|K_I|K_II", "probes.sif",
+     NULL},
     {"crack_speed|tip_speed|crack_tip|crack_path|crack_length", "probes.tip crack.speed_window", NULL},
     {"units|unit_system|unit", "",
      "=Cleave does not do unit systems: numbers are SI unless a unit stands behind them, as 0.5 mm (`cleave help "
      "units`)"},
 };
 
-/* Returns true if `word` equals the first `length` characters of text. A hyphen, a blank and an underscore are equal,
- * and capitals equal small letters in words of more than two letters. */
+/* Words that people try within a group of keys, where the word alone has another meaning or is the name of another key.
+ * group: the group, or "" for the left margin; words: a|b|c; text: the whole message. */
+static const struct {
+    const char *group, *words, *text;
+} foreign_within[] = {
+    {"crack", "from|to|at|polygon|width|start|end|points|length|corners|p1|p2",
+     "pre-cracks are a list of their own: cracks: [{from: [0, 0], to: [5 mm, 0]}]"},
+    {"cracks",
+     "start|end|length|a|a0|angle|position|centre|center|points|corners|p1|p2|tip|direction|face|plane|depth|name",
+     "a crack is given by its ends, {from: [0, 0], to: [5 mm, 0]}; by {at: ...} in space line, {polygon: ...} in space "
+     "solid"},
+    {"boundary", "force|forces|load|point_force|point_load|cload|F|P|forcedensity|force_density|b",
+     "a force on a face is a traction [Pa], force over area: {traction: [0, 1 MPa], face: y+}; a force per volume is "
+     "body_force [N/m^3]"},
+    {"boundary", "encastre|clamp|clamped|pinned|support|constraint|held|hold|rigid|xsymm|ysymm|zsymm",
+     "a support is {fixed: all, face: x-}, or [x], [y], [z] for some components; a plane of symmetry is {mirror: "
+     "{axis: "
+     "x, at: 0}}"},
+    {"boundary", "type|kind|value|values|u|ux|uy|uz|disp|displ|dirichlet|neumann|dof|coordinate",
+     "the kind is the key, with its value: {displacement: [1 mm, free], face: x+}; also fixed, velocity, traction, "
+     "pressure, body_force, mirror, absorbing"},
+    {"boundary", "normal|surface|side|edge|edges|faces", "the outward normal of a face is face: x+, x-, y+ ..."},
+    {"boundary", "amplitude|ramp|table|function|history|step|pulse|from|until|to",
+     "a function of time is the key time: {ramp: {until: 1 us}}, step, pulse, table or file"},
+    {"solid.mesh", "size|mesh_size|element_size|h|dx|spacing|resolution",
+     "particles.spacing sets the distance of particles; the mesh is the shape that they fill"},
+    {"solid.mesh", "scale|units", "the unit of its coordinates is unit: mm"},
+    {"time", "end|until|stop|total|duration|tmax|t_max|t_end|final|final_time|end_time",
+     "the simulated time is the key `duration`, at the left margin"},
+    {"time", "steps|n|number|nsteps|n_steps|num_steps|number_of_steps",
+     "the number of steps follows from `duration`, at the left margin, and time.step"},
+    {"particles", "dx|h|size|distance|resolution|number|n|radius|count", "their distance is `spacing`"},
+    {"particles", "delta|neighbours|neighbors|cutoff", "the reach of bonds is `horizon`, in spacings"},
+};
+
+/* Compares two words, with - and a blank equal to _; words longer than two letters without regard to case. */
 static bool word_is(const char *word, const char *text, size_t length)
 {
     if (strlen(word) != length) return false;
@@ -187,20 +245,31 @@ static bool word_is(const char *word, const char *text, size_t length)
     return true;
 }
 
-/* Returns the row of the table that explains a word of other programs; NULL if the word is not in the table. */
+/* Returns true if `word` is one of the words a|b|c. */
+static bool words_have(const char *words, const char *word)
+{
+    bool has = false;
+    for (const char *c = words; *c && !has;) {
+        const size_t length = strcspn(c, "|");
+        has = word_is(word, c, length);
+        c += length + (c[length] == '|');
+    }
+    return has;
+}
+
+/* Returns the row of the table that holds a word, or NULL. */
 static const struct foreign *foreign_row(const char *word)
 {
     for (size_t k = 0; k < COUNT_OF(foreign); k++)
-        for (const char *c = foreign[k].words; *c;) {
-            const size_t length = strcspn(c, "|");
-            if (word_is(word, c, length)) return &foreign[k];
-            c += length + (c[length] == '|');
-        }
+        if (words_have(foreign[k].words, word)) return &foreign[k];
     return NULL;
 }
 
 bool foreign_word_advice(const char *word, const char *group, char *text, size_t room)
 {
+    for (size_t k = 0; k < COUNT_OF(foreign_within) && *group; k++)
+        if (strcmp(foreign_within[k].group, group) == 0 && words_have(foreign_within[k].words, word))
+            return snprintf(text, room, "%s", foreign_within[k].text), true;
     const struct foreign *row = foreign_row(word);
     if (!row) return false;
     if (row->text && *row->text == '=') return snprintf(text, room, "%s", row->text + 1), true;

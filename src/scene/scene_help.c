@@ -192,10 +192,10 @@ status scene_print_help(FILE *out, const char *key)
     const char *now = key_present_name(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_below(&keys[k], path);
-    if (found == 0 && foreign_word_keys(path)) return help_foreign(out, path), OK;
     for (int k = 0; k < keys_count && found == 0; k++)
         if (has_leaf(&keys[k], path)) print_key(out, &keys[k]), leaves++;
     if (leaves > 0) return OK;
+    if (found == 0 && foreign_word_keys(path)) return help_foreign(out, path), OK;
     if (found == 0) return help_unknown(path);
     if (!key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"

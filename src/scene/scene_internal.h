@@ -271,6 +271,10 @@ const struct key *key_find(const char *group, const char *leaf);
 /* Returns the key directly below `group` with the smallest edit distance to `leaf`. */
 const struct key *key_nearest(const char *group, const char *leaf);
 
+/* Returns a key whose last part is `leaf`, in any group, one at the left margin if there is one; NULL if there is none.
+ * keys_of_name: receives the number of keys with this last part. */
+const struct key *key_elsewhere(const char *leaf, int *keys_of_name);
+
 /* ---- words of other programs (scene_foreign.c) ------------------------------------------------------------------- */
 
 /* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note

@@ -1,4 +1,4 @@
-/* Finds keys of a scene by name, and the key nearest to a misspelt name. */
+/* Finds keys of a scene by name, the key nearest to a misspelt name, and a word in a list of words. */
 #include <string.h>
 
 #include "scene_internal.h"
@@ -34,4 +34,28 @@ const struct key *key_nearest(const char *group, const char *leaf)
         if (distance < least) nearest = &keys[k], least = distance;
     }
     return nearest;
+}
+
+const struct key *key_elsewhere(const char *leaf, int *keys_of_name)
+{
+    const struct key *first = NULL;
+    *keys_of_name = 0;
+    for (int k = 0; k < keys_count; k++) {
+        if (keys[k].type == KEY_GROUP || strcmp(key_leaf(&keys[k]), leaf) != 0) continue;
+        if ((*keys_of_name)++ == 0 || !strchr(keys[k].path, '.')) first = &keys[k];
+    }
+    return first;
+}
+
+int word_index(const char *words, const char *text)
+{
+    size_t length = strlen(text);
+    int place = 0;
+    for (const char *c = words; c; place++) {
+        const char *end = strchr(c, '|');
+        size_t word = end ? (size_t)(end - c) : strlen(c);
+        if (word == length && memcmp(c, text, length) == 0) return place;
+        c = end ? end + 1 : NULL;
+    }
+    return -1;
 }

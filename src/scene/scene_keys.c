@@ -42,8 +42,9 @@
 const struct key keys[] = {
     KEY("name", KEY_NAME, UNIT_NONE, AT(scene, name), ANY, "(the file's name)", "names the run and its results folder"),
     KEY("include", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(1, 64), NONE,
-        "scenes that this one changes: its mappings of keys are laid over theirs, other values replace them, an empty "
-        "one takes a key away; their names are not taken; files are sought in the folder of the scene that names them",
+        "scenes that this one changes: its mappings of keys are merged into theirs, other values replace theirs, an "
+        "empty value removes a key; their names are not used; files are sought in the folder of the scene that names "
+        "them",
         .words = "file name or list of them"),
     KEY("variables", KEY_HAND, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
         "quantities that every number of the scene may contain: {a: 3 mm, b: 2*a + 1 mm}", .words = "mapping of names"),
@@ -73,49 +74,50 @@ const struct key keys[] = {
     KEY("solver_tolerance", KEY_REAL, UNIT_NONE, AT(scene, solver_tolerance), BETWEEN(1e-12, 0.1), "1e-5",
         "largest residual force over the applied force or the reactions (relaxation, cg, static)"),
     KEY("solver_steps", KEY_INT, UNIT_NONE, AT(scene, solver_steps), BETWEEN(1, 1000000000), "200000",
-        "most steps (relaxation, cg); a run that needs more fails"),
+        "largest number of iterations (relaxation, cg); a run that needs more fails"),
     KEY("steps", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE,
-        "load steps of solver static: loads and supports are functions of a pseudo-time, which goes to duration"),
+        "load steps of solver static: loads and supports are functions of a pseudo-time from 0 to duration"),
     KEY("steps.number", KEY_INT, UNIT_NONE, AT(scene, steps.number), BETWEEN(1, 1000000), "100",
-        "load steps of the duration; with control energy or opening: the most that are made"),
+        "number of load steps in the duration; with control energy or opening: the largest number of steps"),
     KEY("steps.control", KEY_CHOICE, UNIT_NONE, AT(scene, steps.control), ANY, "load",
-        "what a step goes by: pseudo-time alone; energy: pseudo-time grows until a bond is at its limit, and goes back "
-        "where the body releases more than steps.energy, so that snap-back is followed; opening: the distance of two "
-        "places grows evenly, and pseudo-time follows",
+        "quantity that controls a load step: load: pseudo-time; energy: pseudo-time grows until a bond reaches its "
+        "limit, and decreases where the body releases more than steps.energy, so that snap-back is followed; opening: "
+        "the distance between two points grows evenly, and pseudo-time follows from it",
         .words = "load|energy|opening"),
     KEY("steps.path", KEY_CHOICE, UNIT_NONE, AT(scene, steps.path), ANY, "auto",
-        "how a crack finds its way: bonds: its most overloaded bonds break; hoop: its tip, in space its straight front "
-        "through the body, cuts what is on the next two spacings in the direction of the largest hoop stress, by its "
-        "stress-intensity factors; where no tip is left, bonds; auto: hoop where a body of one material has pre-cracks "
-        "that end in it, in space with such fronts",
+        "criterion of the crack path: bonds: the bonds with the largest ratio of stretch to critical stretch break; "
+        "hoop: the tip, in space the straight front through the body, advances by two spacings in the direction of the "
+        "largest hoop stress, from its stress-intensity factors, and cuts the bonds there; where no tip is left, "
+        "bonds; auto: hoop where a body of one material has pre-cracks that end in it, in space with such fronts",
         .words = "auto|bonds|hoop"),
     KEY("steps.energy", KEY_REAL, UNIT_ENERGY, AT(scene, steps.energy), ABOVE(0), "auto",
-        "of an advance of the crack: what its bonds cost; auto: those of two spacings of what it cuts, materials or "
-        "interfaces",
+        "energy of the bonds of one crack increment; auto: that of an increment of two spacings through the material "
+        "or interface that it cuts",
         .words = "auto", .word_value = 0),
     KEY("steps.from", KEY_POINT, UNIT_LENGTH, AT(scene, steps.from), ANY, "(required with control opening)",
-        "one of the two places; the particle nearest to it is followed", .has = FLAG(scene, steps.has_from)),
+        "first of the two points between which the opening is measured: the particle nearest to it",
+        .has = FLAG(scene, steps.has_from)),
     KEY("steps.to", KEY_POINT, UNIT_LENGTH, AT(scene, steps.to), ANY, "(required with control opening)",
         "the other one", .has = FLAG(scene, steps.has_to)),
     KEY("steps.opening", KEY_REAL, UNIT_LENGTH, AT(scene, steps.opening), ABOVE(0), "(required with control opening)",
-        "how far they are moved apart in all steps together", .words = "none", .word_value = 0),
+        "increase of the distance between the two points in all steps together", .words = "none", .word_value = 0),
     KEY("steps.then", KEY_CHOICE, UNIT_NONE, AT(scene, steps.then), ANY, "equilibrium",
-        "control load: what follows an advance of the crack that another one follows under the same loads; explicit: "
-        "the body is let go and moves in time until it is at rest, then load steps go on",
+        "control load: what follows a crack increment after which the crack grows further under the same loads: the "
+        "next equilibrium; explicit: the body moves in time until it is at rest, then load steps continue",
         .words = "equilibrium|explicit"),
     KEY("steps.breaks", KEY_INT, UNIT_NONE, AT(scene, steps.breaks), BETWEEN(1, 1000000), "8",
-        "path bonds: most bonds that break before equilibrium is found again, the most overloaded first, in space for "
-        "each spacing of the front; those that are alike break together"),
+        "path bonds: largest number of bonds that break before the next equilibrium, in space for each spacing of the "
+        "front, in descending order of stretch over critical stretch; bonds of equal ratio break together"),
     KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
-        "of these only such as are overloaded like the first, up to this share"),
+        "of these bonds only those whose ratio of stretch to critical stretch is within this share of the largest"),
     KEY("accept", KEY_SET, UNIT_NONE, AT(scene, accept), ANY, "none",
         "figures of this scene that look like mistakes of units and are meant, a list: speed of waves, critical "
-        "stretch, "
-        "stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves travel, "
-        "particles across a body with a crack",
+        "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves "
+        "travel, particles across a body with a crack, density, yield stress over Young's modulus, number of times "
+        "that waves cross the body",
         .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
-        "method auto: largest error of a figure, which pilot runs find out",
+        "method auto: largest error of a figure, which pilot runs estimate",
         .words = "a share, as 2 %, or {of: figure, within: share, budget: time}"),
     KEY("accuracy.of", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(first probe, start of cracks or an energy)",
         "figure of summary.json, its names joined by points", .words = "name, as crack.start_time"),
@@ -124,8 +126,8 @@ const struct key keys[] = {
 
 #include "scene_keys_materials.h"
 
-    KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "called by name wherever solids are read, as region: grip",
-        .words = "mapping of names to solids"),
+    KEY("regions", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
+        "named solids, used by name wherever solids are read, as region: grip", .words = "mapping of names to solids"),
     KEY("sections", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
         "shapes of the plane, called by name as the shape of extrude; space solid only",
         .words = "mapping of names to solids of the plane"),
@@ -136,7 +138,7 @@ const struct key keys[] = {
     KEY("bodies", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 255), "(required, or body)",
         "several bodies; each has the keys below"),
     KEY("bodies.name", KEY_NAME, UNIT_NONE, AT(scene_body, name), ANY, "(body0, body1, ..)",
-        "what boundary and initial call it"),
+        "name by which boundary and initial refer to it"),
     KEY("bodies.material", KEY_MATERIAL, UNIT_NONE, AT(scene_body, material), ANY, "(the only one)",
         "name of its material"),
     KEY("bodies.shape", KEY_REGION, UNIT_NONE, AT(scene_body, shape), ANY, "(required, or particles)",
@@ -147,24 +149,26 @@ const struct key keys[] = {
     KEY("bodies.parts", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(1, 10000), NONE,
         "regions of it that are of another material; later entries overwrite earlier ones"),
     KEY("bodies.parts.region", KEY_REGION, UNIT_NONE, AT(scene_part, region), ANY, REQUIRED,
-        "where, by the places of the lattice or list; what lies outside the body has no effect"),
+        "region, by the reference positions of the particles; parts of it outside the body have no effect"),
     KEY("bodies.parts.material", KEY_MATERIAL, UNIT_NONE, AT(scene_part, material), ANY, REQUIRED,
         "name of the material there"),
     KEY("bodies.frame", KEY_CHOICE, UNIT_NONE, AT(scene_body, frame), ANY, "(mpm.frame)", "its own mpm.frame",
         .words = "current|reference|auto"),
     KEY("bodies.velocity", KEY_POINT, UNIT_SPEED, AT(scene_body, velocity), ANY, "(0)",
-        "initial velocity; of a rigid body without a mass the one that it keeps"),
+        "initial velocity; of a rigid body without a mass its constant velocity"),
     KEY("bodies.rigid", KEY_FLAG, UNIT_NONE, AT(scene_body, rigid), ANY, "false",
-        "keeps its form, has no particles; peridynamic particles meet it; without mass and velocity it stands still"),
+        "rigid body: it does not deform and has no particles; peridynamic particles are in contact with it; without "
+        "mass and velocity it is at rest"),
     KEY("bodies.mass", KEY_REAL, UNIT_MASS, AT(scene_body, mass), ABOVE(0), NONE,
-        "rigid: it flies and turns under the forces of contact; in the plane of its thickness, in line of its section"),
+        "rigid: mass of a body that moves and turns freely under the forces of contact; in plane spaces for the "
+        "thickness, in line for the section"),
     KEY("bodies.force", KEY_POINT, UNIT_FORCE, AT(scene_body, force), ANY, "(0)",
-        "rigid, with a mass: at its centre, all the time; its weight, or what presses it on"),
+        "rigid, with a mass: constant force at its centre, such as a weight"),
     KEY("bodies.ramp", KEY_REAL, UNIT_TIME, AT(scene_body, ramp), FROM(0), NONE,
-        "rigid, with a velocity that it keeps: until then the velocity grows in proportion"),
+        "rigid, with a prescribed velocity: time until which the velocity grows in proportion to time"),
 
     KEY("interfaces", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,
-        "what lies between two bodies, of method pd or mpm; without, they meet by contact"),
+        "interfaces between two bodies, method pd or mpm; bodies without an interface interact by contact"),
     KEY("interfaces.bodies", KEY_HAND, UNIT_NONE, NOWHERE, ANY, REQUIRED, "which two", .words = "list of two names"),
     KEY("interfaces.joined", KEY_FLAG, UNIT_NONE, AT(scene_interface, joined), ANY, "true",
         "bonds go from one to the other where they touch: one body of two materials, the first one's number in frames"),
@@ -200,8 +204,8 @@ const struct key keys[] = {
         "(bulk with mospd and irregularity 0, and with pd.surface moments, else local)",
         "ospd and mospd: constants from the family a particle has, or from a full one", .words = "local|bulk"),
     KEY("pd.last_force", KEY_CHOICE, UNIT_NONE, AT(scene, last_force), ANY, "moment",
-        "of a bond that breaks: it acts until the moment, within a step, at which its stretch is critical; or with "
-        "half, all (as in other programs) or none of itself in the first step beyond",
+        "last force of a bond that breaks: it acts until the moment, within a step, at which its stretch is critical; "
+        "or half of it, the whole of it (as in other programs) or none acts in the first step after that",
         .words = "moment|half|whole|none"),
     KEY("pd.region", KEY_REGION, UNIT_NONE, AT(scene, pd_region), ANY, NONE,
         "peridynamic from the start (method adaptive)", .has = FLAG(scene, has_pd_region)),
@@ -209,11 +213,11 @@ const struct key keys[] = {
     KEY("contact", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "forces between particles that no bond joins"),
     KEY("contact.between", KEY_CHOICE, UNIT_NONE, AT(scene, contact_between), ANY,
         "(all where bonds may break, with cracks, several bodies or rigid ones; else none)",
-        "which peridynamic particles push each other apart when they meet: none, those of two bodies, or all near a "
-        "face (bodies, fragments, faces of cracks)",
+        "peridynamic particles between which contact forces act: none, those of two bodies, or all near a face "
+        "(bodies, fragments, faces of cracks)",
         .words = "none|bodies|all"),
     KEY("contact.law", KEY_CHOICE, UNIT_NONE, AT(scene, contact_form), ANY, "surface",
-        "what meets: smooth faces, or pairs of particles, as in other programs, whose faces mesh like gears",
+        "contact of smooth faces, or of pairs of particles, as in other programs, whose faces interlock like gears",
         .words = "surface|pair"),
     KEY("contact.distance", KEY_CHOICE, UNIT_NONE, AT(scene, contact_distance), ANY, "spacing",
         "contact.law: pair: a spacing, no more than in the reference state; or the rule of LAMMPS' peri/pmb, for "
@@ -223,7 +227,7 @@ const struct key keys[] = {
         "method: adaptive: material points within three spacings of another body become peridynamic, and meet it as "
         "particles do"),
     KEY("contact.friction", KEY_REAL, UNIT_NONE, AT(scene, contact_friction), BETWEEN(0, 100), "0",
-        "coefficient of Coulomb's friction between all that meets (contact.law: surface)"),
+        "coefficient of Coulomb's friction of all contact (contact.law: surface)"),
     KEY("contact.stiffness", KEY_REAL, UNIT_NONE, AT(scene, contact_stiffness), INSIDE(0, 4.001), "1",
         "of contact, in units of that of a cell of the material (15 c V^2/delta at 3.015 spacings); above 1 it may "
         "need a smaller step"),
@@ -231,11 +235,12 @@ const struct key keys[] = {
     KEY("mpm", KEY_MAP, UNIT_NONE, NOWHERE, ANY, NONE, "material point method"),
     KEY("mpm.cell", KEY_REAL, UNIT_NONE, AT(scene, cell), BETWEEN(1, 8), "2", "node distance of the grid, in spacings"),
     KEY("mpm.shape", KEY_CHOICE, UNIT_NONE, AT(scene, shape), ANY, "(gimp; linear with coupling pm and pmg)",
-        "shape functions; a scene that says them wants the current frame",
-        .words = "linear|gimp|cpgimp|quadratic|cubic", .has = FLAG(scene, has_shape)),
+        "shape functions; a scene with this key gets the current frame", .words = "linear|gimp|cpgimp|quadratic|cubic",
+        .has = FLAG(scene, has_shape)),
     KEY("mpm.transfer", KEY_CHOICE, UNIT_NONE, AT(scene, transfer), ANY, "(flip; apic with solver relaxation)",
-        "grid to particle; apic not with linear; a scene that says it wants the current frame", .words = "flip|apic",
-        .has = FLAG(scene, has_transfer)),
+        "transfer of velocities from grid to particles; apic not with linear; a scene with this key gets the current "
+        "frame",
+        .words = "flip|apic", .has = FLAG(scene, has_transfer)),
     KEY("mpm.frame", KEY_CHOICE, UNIT_NONE, AT(scene, frame), ANY, "auto",
         "configuration the grid lives in; reference: linear cells with their state on the nodes and material points as "
         "their quadrature, for bodies on a lattice that keep their neighbours and do not meet others, a tenth to a "
@@ -259,14 +264,15 @@ const struct key keys[] = {
         "of the body and the rise of the loads allow",
         .words = "0|1|2|3|4|auto"),
     KEY("mpm.fill", KEY_CHOICE, UNIT_NONE, AT(scene, fill), ANY, "auto",
-        "frame reference: particles that are made; needed: none in coarse cells; auto: so where these are many",
+        "frame reference: particles that are created; needed: none inside coarse cells; auto: needed if coarse cells "
+        "contain many particles",
         .words = "auto|all|needed"),
     KEY("mpm.origin", KEY_POINT, UNIT_LENGTH, AT(scene, grid_origin), ANY,
         "(on the first mirror across each axis, else at the first body's lower corner)", "a node of the grid",
         .has = FLAG(scene, has_grid_origin)),
 
     KEY("coupling", KEY_CHOICE, UNIT_NONE, AT(scene, coupling), ANY, "partial stress",
-        "of material points and bonds where both meet", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
+        "coupling of material points and bonds at their interfaces", .words = "partial stress|handshake|pm|pg|pmg|pgg"),
 
     KEY("interface_damping", KEY_REAL, UNIT_NONE, AT(scene, interface_damping), FROM(0), "0.25",
         "coupling partial stress with transfer flip: damping of motion beside peridynamic particles that the grid "
@@ -278,11 +284,11 @@ const struct key keys[] = {
     KEY("conversion.stress", KEY_REAL, UNIT_PRESSURE, AT(scene, conversion.stress), ABOVE(0), "auto",
         "largest principal stress sigma_max; auto: young x critical stretch", .words = "auto", .word_value = NAN),
     KEY("conversion.alpha", KEY_REAL, UNIT_NONE, AT(scene, conversion.alpha), INSIDE(0, 1), "0.95",
-        "share of it that converts"),
+        "share of it at which a material point converts"),
     KEY("conversion.block", KEY_FLAG, UNIT_NONE, AT(scene, conversion.block), ANY, "true",
-        "a particle takes its horizon neighbours along"),
+        "neighbours of a particle within its horizon convert with it"),
     KEY("conversion.criteria", KEY_SET, UNIT_NONE, AT(scene, conversion.criteria), ANY, "([bond, stress])",
-        "what converts: a broken bond, the stress; a list, or none", .words = "bond|stress"),
+        "criteria of conversion: a broken bond, the stress; a list, or none", .words = "bond|stress"),
     KEY("conversion.tips", KEY_REAL, UNIT_NONE, AT(scene, conversion.tips), BETWEEN(0, 1000), "0",
         "peridynamic from the start this many horizons round the ends of pre-cracks; 2 starts cracks when peridynamics "
         "does"),
@@ -300,30 +306,33 @@ const struct key keys[] = {
     KEY("conversion.low_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
         "reversion: what low stress is, as a share of the one that converts; lower: fewer reversions"),
 
-    KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks there at the start"),
+    KEY("cracks", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 10000), NONE, "cracks at the start (pre-cracks)"),
     KEY("cracks.from", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "one end of a segment (plane)"),
     KEY("cracks.to", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "the other end"),
-    KEY("cracks.at", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "place of a cut (line)"),
+    KEY("cracks.at", KEY_POINT, UNIT_LENGTH, NOWHERE, ANY, NONE, "position of a cut (line)"),
     KEY("cracks.polygon", KEY_HAND, UNIT_LENGTH, NOWHERE, BETWEEN(3, 1000), NONE, "plane convex polygon (solid)",
         .words = "list of points"),
     KEY("cracks.width", KEY_REAL, UNIT_LENGTH, AT(crack, width), FROM(0), "0",
-        "of a notch: with contact.between all its faces meet once they have come so much nearer"),
+        "width of a notch: with contact.between: all its faces are in contact once their distance has decreased by "
+        "this"),
     KEY("growth", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 64), NONE,
-        "cracks that grow at a given speed, by themselves or while a sif probe asks for it (plane, model with bonds)"),
+        "cracks that grow at a given speed, from the start or while the stress-intensity factors of a sif probe are "
+        "large enough (plane, model with bonds)"),
     KEY("growth.name", KEY_NAME, UNIT_NONE, AT(growth_rule, name), ANY, "(growth0, growth1, ..)",
         "what probes call it"),
     KEY("growth.at", KEY_POINT, UNIT_LENGTH, AT(growth_rule, at), ANY, REQUIRED, "where the tip starts"),
     KEY("growth.direction", KEY_POINT, UNIT_NONE, AT(growth_rule, direction), ANY, REQUIRED, "of growth, any length"),
     KEY("growth.speed", KEY_REAL, UNIT_SPEED, AT(growth_rule, speed), ABOVE(0), REQUIRED,
-        "of the tip; follow: such that K_eq of its probe stays at toughness", .words = "follow", .word_value = NAN),
+        "speed of the tip; follow: the speed at which K_eq of its probe stays equal to toughness", .words = "follow",
+        .word_value = NAN),
     KEY("growth.fastest", KEY_REAL, UNIT_SPEED, AT(growth_rule, fastest), ABOVE(0), "auto",
-        "bound of a speed that follows; auto: 0.9 of the Rayleigh speed, which is the largest", .words = "auto",
+        "largest speed with speed: follow; auto: 0.9 of the Rayleigh speed, the upper limit", .words = "auto",
         .word_value = NAN),
     KEY("growth.start", KEY_REAL, UNIT_TIME, AT(growth_rule, start), FROM(0), "0 s", "it rests before"),
     KEY("growth.length", KEY_REAL, UNIT_LENGTH, AT(growth_rule, length), ABOVE(0), "inf", "it stops there",
         .infinite = true),
     KEY("growth.damping", KEY_REAL, UNIT_LENGTH, AT(growth_rule, damping), FROM(0), "half",
-        "a crossed bond fades while the crack grows by this; half: a horizon's half; 0: at once", .words = "half",
+        "crack growth during which a crossed bond fades; half: half a horizon; 0: at once", .words = "half",
         .word_value = NAN),
     KEY("growth.exponent", KEY_REAL, UNIT_NONE, AT(growth_rule, exponent), ABOVE(0), "4",
         "fades as (1 - growth/damping)^exponent"),
@@ -343,7 +352,7 @@ const struct key keys[] = {
     KEY("initial.region", KEY_REGION, UNIT_NONE, AT(scene_initial, region), ANY, "(everywhere)", "where"),
     KEY("initial.body", KEY_BODY, UNIT_NONE, AT(scene_initial, body), ANY, "(any)", "name of the body it holds for"),
     KEY("initial.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, "(0)",
-        "velocity at the centre; a formula of x, y, z: at every place", .words = "list of number or formula"),
+        "velocity at the centre; a formula of x, y, z: at every position", .words = "list of number or formula"),
     KEY("initial.velocity_gradient", KEY_MATRIX, UNIT_RATE, AT(scene_initial, velocity_gradient), ANY, "(0)",
         "G: v += G (X - centre)", .has = FLAG(scene_initial, sets_velocity)),
     KEY("initial.displacement_gradient", KEY_MATRIX, UNIT_NONE, AT(scene_initial, displacement_gradient), ANY, "(0)",
@@ -378,7 +387,7 @@ const struct key keys[] = {
         "it out",
         .words = "none", .word_value = INFINITY, .of_process = true),
     KEY("time.active_set", KEY_FLAG, UNIT_NONE, AT(scene, active_set), ANY, "true",
-        "what no wave has reached is not computed; the results are the same to the last bit, false is slower"),
+        "regions still at rest are not computed; the results are the same to the last bit, false is slower"),
     KEY("time.safety", KEY_REAL, UNIT_NONE, AT(scene, safety), INSIDE(0, 2), "(0.8, or 0.5 where bonds may break)",
         "share of the critical step; above 1 shows instability"),
 
@@ -486,7 +495,7 @@ const struct key keys[] = {
     KEY("probes.sif.speed", KEY_REAL, UNIT_SPEED, AT(probe_request, speed), ABOVE(0), "auto",
         "of the tip once it moves; auto: of its growth over crack.speed_window", .words = "auto", .word_value = NAN),
     KEY("probes.growth", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "a crack that grows as it is told: place and length of its tip, angle of its path"),
+        "a crack with prescribed or SIF-controlled growth: position and length of its tip, angle of its path"),
     KEY("probes.growth.name", KEY_NAME, UNIT_NONE, AT(probe_request, name), ANY, "(growth)", "name in the results"),
     KEY("probes.growth.of", KEY_NAME, UNIT_NONE, AT(probe_request, of), ANY, "(the first)", "name of the growth"),
     KEY("probes.growth.experiment", KEY_REAL, UNIT_NONE, AT(probe_request, experiment), BETWEEN(0, 180), NONE,

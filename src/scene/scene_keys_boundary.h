@@ -9,11 +9,11 @@ KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
     KEY("boundary.body", KEY_BODY, UNIT_NONE, AT(boundary, body), ANY, "(any)", "name of the body it acts on"),
     KEY("boundary.fixed", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE, "components held at rest",
         .words = "all or list of x|y|z"),
-    KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE, "components driven; free ones are left alone",
+    KEY("boundary.velocity", KEY_HAND, UNIT_SPEED, NOWHERE, ANY, NONE, "components prescribed; free ones are not",
         .words = "list of number, formula or free"),
     KEY("boundary.displacement", KEY_HAND, UNIT_LENGTH, NOWHERE, ANY, NONE,
-        "components driven to reference place + value x time, exactly; free ones are left alone; explicit: from 0 at "
-        "t = 0, static: the value at the end",
+        "components prescribed as reference position + value x time; free ones are not; explicit: from 0 at t = 0, "
+        "static: the value at the end",
         .words = "list of number, formula or free"),
     KEY("boundary.rotation", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "all components driven on circles; 2D and 3D, explicit; time is a factor on its rate"),
@@ -22,19 +22,18 @@ KEY("boundary", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 255), NONE,
         "of any length, right-handed", .words = "list of three numbers"),
     KEY("boundary.rotation.rate", KEY_REAL, UNIT_RATE, AT(boundary, rate), ANY, REQUIRED, "angle over time [rad/s]"),
     KEY("boundary.traction", KEY_HAND, UNIT_PRESSURE, NOWHERE, ANY, NONE,
-        "force per area across the face, on the first particle of each column: steps and curves too, walls of holes "
-        "only "
-        "where region leaves out what hides them",
+        "force per area on the face, applied to the first particle of each column, on steps and curves, too; on walls "
+        "of holes only if region excludes the particles in front of them",
         .words = "list of number or formula"),
     KEY("boundary.pressure", KEY_HAND, UNIT_PRESSURE, NOWHERE, ANY, NONE,
-        "on every free face of the particles in region and body, walls of holes too, inwards; faces of cracks are "
-        "none; may be a formula of x, y, z and t, as numbers of velocity, traction and body_force",
+        "inward pressure on every free face of the particles in region and body, walls of holes included, faces of "
+        "cracks excluded; a number or a formula of x, y, z and t, as are velocity, traction and body_force",
         .words = "number"),
     KEY("boundary.follow", KEY_FLAG, UNIT_NONE, AT(boundary, follow), ANY, "false",
         "pressure acts along normals and on areas of the deformed body; a regular lattice, explicit"),
     KEY("boundary.face", KEY_HAND, UNIT_NONE, NOWHERE, ANY, NONE,
-        "outward normal of the face (with traction, absorbing; fixed, velocity, displacement and rotation may have "
-        "one); what region and body show to who looks from there",
+        "outward normal of the face (required with traction and absorbing, possible with fixed, velocity, displacement "
+        "and rotation): the particles of region and body that are visible from that side",
         .words = "x+|x-|y+|y-|z+|z-"),
     KEY("boundary.depth", KEY_HAND, UNIT_LENGTH, NOWHERE, ABOVE(0), "(a horizon; method mpm: a spacing)",
         "of the layer behind the face that fixed, velocity, displacement or rotation drives", .words = "number"),

@@ -17,22 +17,23 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
     KEY("material.toughness", KEY_HAND, UNIT_TOUGHNESS, NOWHERE, ABOVE(0), NONE,
         "K_Ic; gives G_c = K^2/E (line, plane stress) or K^2 (1 - nu^2)/E", .words = "number"),
     KEY("material.yield_stress", KEY_REAL, UNIT_PRESSURE, AT(material, yield_stress), ABOVE(0), "inf",
-        "stress at which it yields (von Mises; bonds one by one: plates of them bear 1.4, solids 1.8 times as much); "
-        "inf: elastic",
+        "stress at which it yields (von Mises; bonds yield one by one, so that plates of them carry 1.4, solids 1.8 "
+        "times as much); inf: elastic",
         .infinite = true),
     KEY("material.yield_tangent", KEY_REAL, UNIT_PRESSURE, AT(material, yield_tangent), FROM(0), "0 Pa",
         "E_t, slope of the uniaxial stress-strain curve once it yields; below young"),
     KEY("material.yield_hardening", KEY_HAND, UNIT_PRESSURE, NOWHERE, FROM(0), NONE,
-        "H, yield stress over plastic strain; says the same as yield_tangent = E H/(E + H)", .words = "number"),
+        "H, increase of the yield stress over that of plastic strain; equivalent to yield_tangent = E H/(E + H)",
+        .words = "number"),
     KEY("material.viscosity", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "bulk viscosity: a pressure against rapid compression, so that shocks do not ring; model bond, explicit steps, "
-        "not in plane stress"),
+        "bulk viscosity: a pressure against rapid compression, so that stress does not oscillate behind shocks; model "
+        "bond, explicit steps, not in plane stress"),
     KEY("material.viscosity.linear", KEY_REAL, UNIT_NONE, AT(material, viscosity.linear), BETWEEN(0, 2), "0.2",
         "q = rho h (quadratic h D^2 - linear c D) at the rate D < 0 of volume; h: spacing, c: wave speed"),
     KEY("material.viscosity.quadratic", KEY_REAL, UNIT_NONE, AT(material, viscosity.quadratic), BETWEEN(0, 10), "1.5",
         "the same"),
     KEY("material.scatter", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "its strength scatters from place to place, about what is given above as the mean"),
+        "random strength that varies in space, with the values above as its mean"),
     KEY("material.scatter.of", KEY_CHOICE, UNIT_NONE, AT(strength_scatter, of), ANY, "strength",
         "what has the distribution; strength, stretch and toughness go in proportion, energy_release_rate as their "
         "square",

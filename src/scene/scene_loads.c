@@ -178,7 +178,7 @@ static status read_absorbing(struct reader *r, const struct node *map, const str
     const struct node *time = node_find(map, "time");
     if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; leave the boundary out where no wave shall leave", node_shown(r, n));
+    return fault(r, n, "%s is not true; absorbing: true is expected, or no such boundary", node_shown(r, n));
 }
 
 /* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
@@ -270,6 +270,10 @@ static status read_kind(struct reader *r, const struct node *n, const struct nod
         depth = node_find(n, "depth");
     if (depth) return fault(r, depth, "has no meaning without fixed, velocity, displacement or rotation; leave it out");
     if (boundary_is_force(b) || b->kind == BOUNDARY_MIRROR) face = node_find(n, "face");
+    if (face && b->kind == BOUNDARY_PRESSURE)
+        return fault(r, face,
+                     "pressure acts on every free face of the particles in `region`: give a region in place of face, "
+                     "or a traction on the face");
     if (face && b->kind != BOUNDARY_TRACTION) return fault(r, face, "has no meaning with %s; leave it out", kind->key);
     if (b->follow && b->kind != BOUNDARY_PRESSURE)
         return fault(r, node_find(n, "follow"), "has no meaning without pressure; leave it out");
@@ -308,7 +312,7 @@ static status gravity_add(struct reader *r, const struct node *n)
     struct scene *s = r->scene;
     struct boundary *b = &s->boundary[s->boundaries];
     if (s->boundaries == BOUNDARIES_MAX)
-        return fault(r, n, "is one load more than the %d that there may be", BOUNDARIES_MAX);
+        return fault(r, n, "is one boundary condition more than the %d that are possible", BOUNDARIES_MAX);
     for (int k = 0; k < s->boundaries; k++)
         if (strcmp(s->boundary[k].name, "gravity") == 0)
             return fault(r, n, "a boundary has this name; another one is expected there");
@@ -371,13 +375,16 @@ static status check_probe_boundary(struct reader *r, const struct node *n, const
     const struct scene *s = r->scene;
     int nearest = 0;
     if (p->kind != PROBE_REACTION) return OK;
-    if (s->boundaries == 0) return fault(r, n, "there is no boundary condition to measure; boundary is expected");
+    if (s->boundaries == 0)
+        return fault(r, n,
+                     "there is no boundary condition whose force could be measured; a list `boundary` is expected");
     for (int k = 0; k < s->boundaries; k++) {
         if (strcmp(s->boundary[k].name, p->boundary) == 0) return OK;
         if (edit_distance(s->boundary[k].name, p->boundary) < edit_distance(s->boundary[nearest].name, p->boundary))
             nearest = k;
     }
-    return fault(r, n, "there is no boundary %s; the nearest is %s", p->boundary, s->boundary[nearest].name);
+    return fault(r, n, "there is no boundary %s; the nearest of %d is %s (a boundary gets its name by the key `name`)",
+                 p->boundary, s->boundaries, s->boundary[nearest].name);
 }
 
 /* Returns REFUSED for a probe with a closed-form solution unless the scene is in space line. REFUSED if a number of

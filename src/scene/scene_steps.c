@@ -27,7 +27,7 @@ static status check_steps_motion(struct reader *r, const struct node *root)
             return fault(r, node_find(root, "initial"), "load steps have no velocities; solver: explicit is expected");
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE)
-            return fault(r, solver, "static has no waves for probe %s to measure; explicit is expected",
+            return fault(r, solver, "solver: static computes no waves, which probe %s measures; explicit is expected",
                          s->probe[k].name);
     return OK;
 }
@@ -74,9 +74,10 @@ status check_load_steps(struct reader *r, const struct node *root)
     TRY(check_steps_loads(r, root));
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
-        return fault(r, tree_find(root, "steps.then"),
-                     "a release in time belongs to control load: %s follows the crack while it is unstable",
-                     opening ? "opening" : "energy");
+        return fault(
+            r, tree_find(root, "steps.then"),
+            "explicit is possible with steps.control: load only; %s follows an unstable crack through equilibria",
+            opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
         return fault(r, tree_find(root, "steps.path"),
                      "hoop leads the tips of cracks; bonds, or auto, is expected on a line");

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { NUMBER_LONGEST = 60, UNIT_LONGEST = 40 };
 
@@ -143,7 +144,7 @@ static bool unit_read(struct measure *sum, const char *text)
         sum->ten += sign * m.ten;
         if (*c && !strchr(" */", *c)) return false;
     }
-    return sum->ten % 2 == 0;
+    return true;
 }
 
 static const struct unit_row *unit_of(const int twice[3])
@@ -183,7 +184,7 @@ static size_t unit_length(struct measure *sum, const char *text)
         sum->ten += *sign == '/' ? -m.ten : m.ten;
         end = c;
     }
-    return sum->ten % 2 == 0 ? (size_t)(end - text) : 0;
+    return (size_t)(end - text);
 }
 
 void unit_name_text(const int twice[3], char *text, size_t room)
@@ -234,9 +235,10 @@ static size_t number_length(const char *c)
     return (size_t)(c - start);
 }
 
-/* Returns the number in the first `length` characters times 10^ten, rounded once. */
-static real number_value(const char *c, size_t length, int ten)
+/* Returns the number in the first `length` characters times 10^(twice_ten/2), rounded once for a whole power. */
+static real number_value(const char *c, size_t length, int twice_ten)
 {
+    const int half = twice_ten % 2 != 0, ten = (twice_ten - half) / 2; /* an odd one is half a power more */
     char text[NUMBER_LONGEST + 32];
     size_t mantissa = strcspn(c, "eE");
     long exponent = 0;
@@ -245,7 +247,7 @@ static real number_value(const char *c, size_t length, int ten)
     if (exponent > 100000) exponent = 100000;
     if (exponent < -100000) exponent = -100000;
     snprintf(text, sizeof text, "%.*se%ld", (int)mantissa, c, exponent + ten);
-    return strtod(text, NULL);
+    return half ? sqrt(10) * strtod(text, NULL) : strtod(text, NULL);
 }
 
 /* Returns a message if the text after or in a number shows a notation of other languages: grouped digits, decimal
@@ -276,17 +278,46 @@ static bool complain(struct complaint c, const char *wrong, enum unit unit)
     return false;
 }
 
-/* Sets *ten to the power of ten that converts the unit to SI. Returns false, with a message, for a unit of another
- * kind. */
+/* Writes `text` with the letters of each symbol in the case that makes it a unit: GPa for Gpa. Returns false if that is
+ * no unit, or if nothing changes. */
+static bool unit_in_other_case(const char *text, char *out, size_t room)
+{
+    struct measure m;
+    snprintf(out, room, "%s", text);
+    for (char *c = out; *c; c += *c != '\0') {
+        char word[16];
+        const size_t length = symbol_length(c);
+        bool found = length == 0;
+        for (size_t s = 0; s < COUNT_OF(symbols) && !found; s++)
+            for (size_t p = 0; p <= COUNT_OF(prefixes) && !found; p++) {
+                /* MPa for mpa, but mm for MM: large prefixes first where the symbol is a capital letter */
+                const size_t q = isupper((unsigned char)*symbols[s].name) ? COUNT_OF(prefixes) - p : p;
+                snprintf(word, sizeof word, "%s%s", q ? prefixes[q - 1].name : "", symbols[s].name);
+                found = strlen(word) == length && strncasecmp(word, c, length) == 0;
+            }
+        if (found && length > 0) memcpy(c, word, length);
+        c += length;
+    }
+    return strcmp(out, text) != 0 && unit_read(&m, out);
+}
+
+/* Sets *ten to twice the power of ten that converts the unit to SI. Returns false, with a message, for a unit of
+ * another kind. */
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
     char wrong[64];
     *ten = 0;
     if (*unit_text == '\0') return true;
-    if (!unit_read(&m, unit_text)) return complain(c, "has an unknown unit", unit);
+    if (!unit_read(&m, unit_text)) {
+        char other[UNIT_LONGEST + 1];
+        if (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other))
+            return complain(c, "has an unknown unit", unit);
+        snprintf(wrong, sizeof wrong, "has an unknown unit (%s?)", other);
+        return complain(c, wrong, unit);
+    }
     const signed char *twice = unit_rows[unit].twice;
-    *ten = m.ten / 2;
+    *ten = m.ten;
     if (m.twice[0] == twice[0] && m.twice[1] == twice[1] && m.twice[2] == twice[2]) return true;
     const struct unit_row *row = unit_of(m.twice);
     snprintf(wrong, sizeof wrong, "is %s%s", row ? "" : "not ", row ? row->name : unit_rows[unit].name);
@@ -401,8 +432,8 @@ size_t quantity_read_unit(struct quantity *q, const char *text)
 {
     struct measure m;
     const size_t length = isdigit((unsigned char)*text) ? 0 : symbol_length(text);
-    if (length == 0 || !symbol_read(&m, text, length) || m.ten % 2 != 0) return 0;
-    *q = (struct quantity){.value = number_value("1", 1, m.ten / 2)};
+    if (length == 0 || !symbol_read(&m, text, length)) return 0;
+    *q = (struct quantity){.value = number_value("1", 1, m.ten)};
     memcpy(q->twice, m.twice, sizeof q->twice);
     return length;
 }
@@ -419,7 +450,7 @@ bool number_quantity(struct quantity *q, const char *text)
     const real radians = angle_radians(rest);
     if (divisor == 0 || (!clock && radians == 0 && !unit_read(&m, rest))) return false;
     if (clock) m.twice[2] = 2;
-    *q = (struct quantity){number_scaled(text, length, m.ten / 2, clock, divisor), {0}, *rest == '\0'};
+    *q = (struct quantity){number_scaled(text, length, m.ten, clock, divisor), {0}, *rest == '\0'};
     if (radians > 0) q->value *= radians;
     memcpy(q->twice, m.twice, sizeof q->twice);
     return true;
@@ -439,7 +470,7 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
     *q = (struct quantity){.bare = true};
     if (is_time) m.twice[2] = 2;
     if (with_unit && !letters) letters = unit_length(&m, unit);
-    q->value = factor * number_value(text, length, m.ten / 2);
+    q->value = factor * number_value(text, length, m.ten);
     q->bare = letters == 0;
     memcpy(q->twice, m.twice, sizeof q->twice);
     return letters ? (size_t)(unit - text) + letters : length;

@@ -143,19 +143,6 @@ const char *word_list(struct reader *r, const char *words)
     return text;
 }
 
-int word_index(const char *words, const char *text)
-{
-    size_t length = strlen(text);
-    int place = 0;
-    for (const char *c = words; c; place++) {
-        const char *end = strchr(c, '|');
-        size_t word = end ? (size_t)(end - c) : strlen(c);
-        if (word == length && memcmp(c, text, length) == 0) return place;
-        c = end ? end + 1 : NULL;
-    }
-    return -1;
-}
-
 /* ---- keys -------------------------------------------------------------------------------------------------------- */
 
 static status fault_unknown(const struct reader *r, const struct node *n, const char *group)
@@ -166,11 +153,13 @@ static status fault_unknown(const struct reader *r, const struct node *n, const 
     const char *leaf = nearest ? key_leaf(nearest) : "";
     int most = (int)strlen(leaf) / 2 > 2 ? (int)strlen(leaf) / 2 : 2;
     if (nearest && edit_distance(leaf, n->key) <= most) return fault(r, n, "unknown key; the nearest is %s", leaf);
-    for (int k = 0; k < keys_count; k++)
-        if (keys[k].type != KEY_GROUP && strcmp(key_leaf(&keys[k]), n->key) == 0)
-            return strchr(keys[k].path, '.')
-                       ? fault(r, n, "does not belong here; it is the key %s", keys[k].path)
-                       : fault(r, n, "does not belong here; %s is a key of its own, at the left margin", n->key);
+    int others;
+    const struct key *other = key_elsewhere(n->key, &others);
+    if (other && !strchr(other->path, '.'))
+        return fault(r, n, "does not belong here; %s is a key of its own, at the left margin", n->key);
+    if (others == 1) return fault(r, n, "does not belong here; it is the key %s", other->path);
+    if (others > 1)
+        return fault(r, n, "does not belong here; `cleave help %s` lists the %d keys of that name", n->key, others);
     return fault(r, n, "unknown key; `cleave help%s%s` lists what is known", *group ? " " : "", group);
 }
 

@@ -160,8 +160,8 @@ static status loads_balanced(const struct static_body *body)
     const real turning = loads_add_inertia_relief(l, body->part);
     if (turning <= TURNING_MOST) return OK;
     return status_set(REFUSED,
-                      "nothing keeps the body from turning under loads whose moment is %.3g of what they could make; "
-                      "balance the loads, or hold the body somewhere",
+                      "no support keeps the body from turning, and the moment of the loads is %.3g of the largest that "
+                      "they could have; balance the loads, or hold the body",
                       turning);
 }
 

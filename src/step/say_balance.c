@@ -5,7 +5,7 @@
 #include "probes/diagnostics.h"
 #include "coupling/coupling_part.h"
 #include "step/report.h"
-#include "step/viscosity.h"
+#include "step/shock.h"
 #include "run/say.h"
 #include "step/checks.h"
 
@@ -20,11 +20,11 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     char text[320];
     const real released = energy_released(w);
     if (scene_at_rest(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
-    snprintf(
-        text, sizeof text,
-        "bonds released %.3g J more than they held when they broke (energy.fracture %.3g): with model %s, particles "
-        "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
-        released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
+    snprintf(text, sizeof text,
+             "bonds released %.3g J more than they had stored when they broke (energy.fracture %.3g): with model %s, "
+             "particles under pressure gain energy as they lose bonds; compare with model: bond, and do not trust "
+             "later results",
+             released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
     warnings_add_and_print(to, text);
 }
 
@@ -56,8 +56,9 @@ static void say_damped(real share, struct warnings *to)
     char text[320];
     if (!(share > DAMPED_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.0f %% of the energy was damped beside bonds (energy.damped): interface_damping takes vibrations of "
-             "some spacings, in small bodies all there are; interface_damping: 0 keeps them, as method pd does",
+             "%.0f %% of the energy was damped at interfaces of bonds and points (energy.damped): interface_damping "
+             "takes vibrations with wavelengths of some spacings, which in small bodies are all; interface_damping: 0 "
+             "keeps them, as method pd does",
              100 * share);
     warnings_add_and_print(to, text);
 }
@@ -68,12 +69,11 @@ static bool shock_text(const struct scene *s, const struct diagnostics *w, char 
 {
     const struct shock shock = fastest_collision_expected(s);
     if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM) return false;
-    snprintf(
-        text, room,
-        "bonds broke, the first at %.4g s, in a collision at %.3g m/s, %.2g times the speed of a front that breaks or "
-        "yields them: fronts ring by 10 to 30 %%, and bonds break too early for it; material.viscosity: {} shows "
-        "whether they break without",
-        w->break_time, shock.speed, shock.share);
+    snprintf(text, room,
+             "the first bond broke at %.4g s, in a collision at %.3g m/s, %.2g times the speed at which the front of "
+             "the wave breaks or yields the bodies; stress oscillates by 10 to 30 %% behind the front, so that bonds "
+             "can break too early: %s",
+             w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
 }
 
@@ -83,7 +83,7 @@ void warn_of_imbalance(struct run *e)
     const bool apic = e->scene->transfer == TRANSFER_APIC && e->part.n_free > 0;
     const bool round_off = energy_is_round_off(w, e->mass, e->tables.wave_speed);
     const real error = w->now.balance_error;
-    char text[400];
+    char text[640];
     if (e->report->excerpt) return;
     say_spin(w, apic, &e->warnings);
     say_released(e->scene, w, &e->warnings);
@@ -92,7 +92,7 @@ void warn_of_imbalance(struct run *e)
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
-        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust what came after",
+        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
         error < 0 && apic
             ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"

@@ -244,9 +244,9 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
         return;
     }
     snprintf(text, room,
-             "it took %s%.0f steps to grow tenfold, and what a time step too long makes grow takes less than %d: a "
-             "smaller one (now "
-             "%.2f of the critical %.3g s) need not help; something here gains energy: try %s, and report the scene",
+             "the energy error took %s%.0f steps to grow tenfold; an unstable time step takes fewer than %d, so that a "
+             "smaller step (now %.2f of the critical %.3g s) may not help; a method of this scene gains energy: try "
+             "%s, and report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
              e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
 }

@@ -247,57 +247,6 @@ void viscosity_add_nodal_forces(struct run *e)
     for (int d = 0; d < dim; d++) memory_free(f[d]);
 }
 
-/* ---- shocks that a scene expects --------------------------------------------------------------------------------- */
-
-#define SHOCK                                                                                                          \
-    0.1 /* least collision speed that is reported, over the speed at which a front breaks or yields a body             \
-         */
-
-/* Returns the smallest particle speed of a front that breaks or yields a material: its strain limit times its wave
- * speed [m/s]; INFINITY without limits. */
-static real speed_limit(const struct scene *s)
-{
-    real least = INFINITY;
-    for (int m = 0; m < s->materials; m++) {
-        const struct material *own = &s->material[m];
-        real strain = s->method == METHOD_MPM ? INFINITY : own->critical_stretch;
-        if (material_yields(own)) strain = real_min(strain, own->yield_stress / own->young);
-        least = real_min(least, strain * own->wave_speed);
-    }
-    return least;
-}
-
-/* Returns the speed at which bodies a and b approach along the axis on which their bounding boxes are apart [m/s]; 0
- * if they do not meet within the duration. */
-static real closing_speed(const struct scene *s, const struct scene_body *a, const struct scene_body *b)
-{
-    real from[2][DIM_MAX], to[2][DIM_MAX], gap = -INFINITY, speed = 0;
-    if (a->file || b->file || !region_bounds(&a->shape, s->dim, from[0], to[0]) ||
-        !region_bounds(&b->shape, s->dim, from[1], to[1]))
-        return 0;
-    for (int d = 0; d < s->dim; d++) {
-        const real above = from[1][d] - to[0][d], below = from[0][d] - to[1][d];
-        if (real_max(above, below) <= gap) continue;
-        gap = real_max(above, below);
-        speed = (above > below ? 1 : -1) * (a->velocity[d] - b->velocity[d]);
-    }
-    return speed > 0 && gap <= speed * s->duration ? speed : 0;
-}
-
-struct shock fastest_collision_expected(const struct scene *s)
-{
-    struct shock shock = {0, 0};
-    bool viscous = true;
-    for (int m = 0; m < s->materials; m++) viscous = viscous && material_viscous(&s->material[m]);
-    for (int a = 0; a < s->bodies; a++)
-        for (int b = a + 1; b < s->bodies + s->rigids; b++)
-            if (b >= s->bodies || s->contact_between != CONTACT_NONE)
-                shock.speed = real_max(shock.speed, closing_speed(s, &s->body[a], &s->body[b]));
-    const bool acts = !viscous && scene_moves(s) && s->space != SPACE_PLANE_STRESS && s->model == MODEL_BOND;
-    if (acts && shock.speed > SHOCK * speed_limit(s)) shock.share = shock.speed / speed_limit(s);
-    return shock;
-}
-
 /* ---- in a run ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the largest speed that load l gives to its particles, or 0 if the load is unbounded or of another kind [m/s].

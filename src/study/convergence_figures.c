@@ -173,9 +173,10 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     if (*figures > 0) return OK;
     memory_free(*figure);
     *figure = NULL;
-    return status_set(
-        FAILED, "nothing to extrapolate: no quantity has a value at every spacing, as some runs failed: see %s/logs",
-        s->study.folder);
+    return status_set(FAILED,
+                      "nothing to extrapolate: no figure has a value at every spacing, as some runs failed; their "
+                      "messages are in %s/logs",
+                      s->study.folder);
 }
 
 /* ---- converge.csv ------------------------------------------------------------------------------------------------ */
@@ -262,10 +263,10 @@ static void figure_print(const struct figure_study *f, int own)
         printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
     }
     printf("; %s", verdict_name[c->verdict]);
-    if (isfinite(c->order)) printf(", order %.2f on the finest three", c->order);
+    if (isfinite(c->order)) printf(", order %.2f from the finest three spacings", c->order);
     if (isfinite(c->order_likely)) {
         certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
-        printf("; order %.1f +- %.1f by all, towards %s", c->order_likely, c->order_error, text);
+        printf("; order %.1f +- %.1f from all spacings, limit %s", c->order_likely, c->order_error, text);
     }
     if (isfinite(c->index)) printf("; grid convergence index %.2g", c->index);
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
@@ -276,25 +277,29 @@ static void figure_print(const struct figure_study *f, int own)
         printf("; at the scene's own %.4g mm %s +- %.2g", 1e3 * c->level[own].spacing, text, c->uncertainty[own]);
     }
     if (c->level[0].runs > 1 || c->level[0].deviation > 0)
-        printf("; a run by itself scatters by %.2g", 2 * c->level[0].deviation);
+        printf("; a single run differs from its mean by up to %.2g", 2 * c->level[0].deviation);
     else
-        printf("; scatter not known, by one run");
-    printf("; moved most by: %s\n", mover(f));
+        printf("; scatter unknown, as there is one run");
+    printf("; most sensitive to: %s\n", mover(f));
 }
 
 void figures_print(const struct convergence_study *s, const struct figure_study *figure, int figures)
 {
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
     int lost = 0;
-    printf("means at each spacing; what they converge to; the 95 %% interval of the true value round that at %.4g mm\n",
-           1e3 * s->spacings.at[0][0]);
+    printf(
+        "figures: mean at each spacing, kind and order of convergence; then the value at %.4g mm +- half of the 95 %% "
+        "interval of the true value\n",
+        1e3 * s->spacings.at[0][0]);
     for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
     if (lost > 0)
-        printf("%d of %d figures do not converge at these spacings: theirs are bounds, no errors\n", lost, figures);
+        printf(
+            "%d of %d figures do not converge at these spacings: their +- is a bound, not an estimate of the error\n",
+            lost, figures);
     if (shown < figures)
-        printf("%d more", figures - shown);
+        printf("%d more figures", figures - shown);
     else
-        printf("all");
+        printf("all figures");
     printf(" in %s/converge.csv\n", printable_name(s->study.folder).text);
 }

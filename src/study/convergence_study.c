@@ -169,7 +169,7 @@ static status first_run(struct convergence_study *s, const struct convergence_re
     *refused = run->state == CASE_FAILED && run->ended == REFUSED;
     if (run->state == CASE_STOPPED || run->state == CASE_WAITING)
         return status_set(REFUSED,
-                          "%.3g s are too little: one run at %.4g mm, the coarsest, takes longer (a larger budget)",
+                          "--budget %.3g s is too small: one run at %.4g mm, the coarsest spacing, takes longer",
                           s->budget, 1e3 * s->point[s->first].spacing);
     if (run->state == CASE_FAILED)
         return status_set(FAILED, "the coarsest run has failed: the reason is in %s/logs", s->study.folder);
@@ -224,11 +224,12 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
     static const int finer_first[] = {-2, -1, 0, 1, 2, 3, 4, 5, 6}, own_first[] = {0, -1, -2, 1, 2, 3, 4, 5, 6};
     const double left = s->budget - (wall_clock() - s->begun);
     double need = 0;
+    bool planned = false;
     for (size_t k = 0; k < COUNT_OF(own_first); k++) {
         const int shift = w->finer ? finer_first[k] : own_first[k];
         if (!levels_plan(s, w, shift) || (shift < 0 && !w->finer && !isfinite(s->refused))) continue;
         const bool fits = runs_fit(s, w->runs, jobs, left) && horizon_at(s, s->spacings.at[0][0]) <= HORIZON_MOST;
-        if (shift <= 0) need = s->expected;
+        if (shift <= 0) need = s->expected, planned = true;
         if (!fits) continue;
         s->own = shift > 0 ? -1 : -shift;
         struct study_point *first = &s->point[s->first];
@@ -237,8 +238,12 @@ static status plan_fit(struct convergence_study *s, const struct convergence_req
             if (fabs(s->spacings.at[l][0] / first->spacing - 1) < 1e-9) first->level = l;
         return OK;
     }
-    return status_set(REFUSED,
-                      "%.3g s are too little: three runs at each spacing would take about %.3g s (a larger budget)",
+    if (!planned)
+        return status_set(REFUSED,
+                          "no %d spacings at and above that of the scene suit it: use fewer --levels, or a smaller "
+                          "particles.spacing",
+                          w->levels);
+    return status_set(REFUSED, "--budget %.3g s is too small: three runs at each spacing would take about %.3g s",
                       s->budget, need + s->spent);
 }
 
@@ -263,10 +268,11 @@ static void plan_print(const struct convergence_study *s)
         fprintf(stderr, " %.4g mm (%d runs)%s", 1e3 * s->spacings.at[k][0], s->runs[k], k > 0 ? "," : "");
     fprintf(stderr, ": about %.3g s of a budget of %.3g s\n", s->expected + s->spent, s->budget);
     if (s->own < 0)
-        fprintf(stderr,
-                "warning: the scene's own spacing, %.4g mm, would take longer than the budget: what follows is "
-                "for %.4g mm\n",
-                1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
+        fprintf(
+            stderr,
+            "warning: runs at the scene's own spacing, %.4g mm, would take longer than the budget: the results are for "
+            "%.4g mm\n",
+            1e3 * s->scene.spacing, 1e3 * s->spacings.at[0][0]);
 }
 
 /* Plans a convergence study within its budget, runs it and reads the figures of all runs into s->table. */
@@ -288,14 +294,16 @@ static status study_go(struct convergence_study *s, const struct convergence_req
     TRY(plan_fit(s, w, options.jobs));
     if (!options.quiet) plan_print(s);
     runs_add_all(s);
+    if (!options.quiet)
+        fprintf(stderr, "[1/%d] %s: done in %.3g s\n", s->study.n, s->study.at[s->first].name, s->spent);
     TRY(study_check(&s->study, false));
     options.until = s->begun + s->budget;
     TRY(study_run(&s->study, options));
     int failed = 0;
     for (int k = s->first; k < s->study.n; k++) failed += s->study.at[k].state == CASE_FAILED;
     if (failed > 0)
-        fprintf(stderr, "warning: %d of %d runs have failed and are left out: see %s/logs\n", failed, s->study.n,
-                s->study.folder);
+        fprintf(stderr, "warning: %d of %d runs failed and are left out; their messages are in %s/logs\n", failed,
+                s->study.n, s->study.folder);
     return study_table_read(&s->table, &s->study);
 }
 

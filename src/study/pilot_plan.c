@@ -44,6 +44,26 @@ static void candidates_find(struct pilot_search *p)
         candidate_add(p, bond ? "adaptive bonds" : "adaptive states", "adaptive", bond ? "bond" : "mospd");
 }
 
+/* Returns true if a boundary drives, loads or turns particles: a support alone does not. */
+static bool boundary_acts(const struct boundary *b, int dim)
+{
+    bool acts = b->rotates || b->time_unit;
+    for (int d = 0; d < dim; d++) acts |= b->formula[d].n > 0 || b->value[d] != 0;
+    return acts && b->kind != BOUNDARY_MIRROR && b->kind != BOUNDARY_ABSORBING;
+}
+
+/* Returns true if something moves or loads the bodies of a scene: loads, driven supports, gravity, initial states,
+ * rigid bodies with a velocity or force. */
+static bool scene_acts(const struct scene *s)
+{
+    bool acts = s->initials > 0 || s->growths > 0;
+    for (int b = 0; b < s->boundaries; b++) acts |= boundary_acts(&s->boundary[b], s->dim);
+    for (int d = 0; d < s->dim; d++) acts |= s->gravity[d] != 0;
+    for (int b = 0; b < s->bodies + s->rigids; b++)
+        for (int d = 0; d < s->dim; d++) acts |= s->body[b].velocity[d] != 0 || s->body[b].force[d] != 0;
+    return acts;
+}
+
 /* ---- the plan ---------------------------------------------------------------------------------------------------- */
 
 /* Lists the methods that are applicable to the scene. REFUSED if there is none, or if pilot runs are not possible. */
@@ -60,6 +80,11 @@ status pilot_plan(struct pilot_search *p)
         return status_set(REFUSED,
                           "%s: the scene has no length from which pilot runs could choose a spacing; give method and "
                           "particles.spacing",
+                          p->scene);
+    if (!scene_acts(s))
+        return status_set(REFUSED,
+                          "%s: method: auto judges results, and nothing moves or loads the bodies: no boundary with a "
+                          "value, gravity, initial or velocity is given",
                           p->scene);
     if (p->wish.figure[0]) TRY(figure_name_check(s, p->wish.figure));
     candidates_find(p);

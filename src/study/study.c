@@ -345,7 +345,7 @@ void study_print_same(const struct study *s, FILE *out)
     for (int k = 0; k < s->n; k++)
         if (s->at[k].state == CASE_SAME) one = &s->at[k], same++;
     if (same > 0)
-        fprintf(out, "warning: %d of %d combinations are the same scene as others, as %s is as %s: each is run once\n",
+        fprintf(out, "warning: %d of %d combinations are the same scene as others (%s as %s): each scene is run once\n",
                 same, s->n, one->name, s->at[one->same].name);
 }
 

@@ -136,7 +136,8 @@ static status case_guard(const struct study *s, const struct study_case *c)
     static const char *const begin[] = {log_mark, "warning: "};
     const struct path folder = study_folder(s, c), log = log_path(s, c);
     if (path_is_link(folder.text))
-        return status_set(REFUSED, "%s is a link: the run would be somewhere else; choose another -o", folder.text);
+        return status_set(REFUSED, "%s is a symbolic link, and results would be written elsewhere; choose another -o",
+                          folder.text);
     TRY(file_check_replaceable(log.text));
     return file_check_beginning(log.text, begin, COUNT_OF(begin));
 }
@@ -187,7 +188,7 @@ static status case_start(struct runner *r, struct study_case *c, int slot)
     close(fd);
     memory_free(pairs);
     memory_free(word);
-    if (c->process < 0) return status_set(FAILED, "cannot start a run as a process of its own: %s", strerror(fault));
+    if (c->process < 0) return status_set(FAILED, "cannot start a process for a run: %s", strerror(fault));
     c->state = CASE_RUNNING;
     c->slot = slot;
     r->running++;

@@ -104,8 +104,8 @@ static bool row_read(struct row *r, const struct varied_key *k, const char *text
     const double steps = (r->number[1] - r->number[0]) / r->number[2];
     if (*s == OK && !(steps >= 0 && steps < VALUES_MOST))
         *s = status_set(REFUSED,
-                        "-s %s: %s: from:to:step with a step that leads from one to the other in less than "
-                        "%d steps is expected",
+                        "-s %s: %s: from:to:step is expected, with a step that leads from the first value to the "
+                        "second one in fewer than %d steps",
                         k->key, text, VALUES_MOST);
     return true;
 }

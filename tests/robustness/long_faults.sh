@@ -76,7 +76,7 @@ for what in run run/frames; do
     mv "$work/gone/$what" "$work/gone/moved"
     wait $process
     result=$?
-    refusing "$what goes" "cannot write .*No such file\|was moved, removed or exchanged"
+    refusing "$what goes" "cannot write .*No such file\|was moved, removed or replaced"
 done
 result=0
 "$cleave" run -q -o "$work/$(awk 'BEGIN { for (k = 0; k < 300; k++) printf "n" }')" $small 2>"$work/err" || result=$?

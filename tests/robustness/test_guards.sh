@@ -55,7 +55,7 @@ calm "$work/gone" $small
 kill -CONT $first
 wait $first
 is "a folder that is moved: exit status" $? 1
-holds "a folder that is moved: said" grep -q "gone was moved, removed or exchanged" "$work/err_gone"
+holds "a folder that is moved: said" grep -q "gone was moved, removed or replaced" "$work/err_gone"
 same "a folder that is moved: the next run" "$work/once" "$work/gone"
 
 # A lock file that is also a link to another user's file.
@@ -79,7 +79,7 @@ holds "a link is not written through" test ! -e "$work/elsewhere/made"
 mkdir "$work/linked"
 touch "$work/elsewhere/000000.hdf"
 ln -s "$work/elsewhere" "$work/linked/frames"
-refused "a folder of frames that is a link" "$work/linked" "frames is a link" $small
+refused "a folder of frames that is a symbolic link" "$work/linked" "frames is a symbolic link" $small
 holds "what it leads to stays" test -e "$work/elsewhere/000000.hdf"
 
 cp -r "$work/once" "$work/|touch PWNED;echo "
@@ -95,7 +95,7 @@ is "a picture writes through no link" "$(cat "$work/thesis")" thesis
 rm -r "$work/once/pictures"
 ln -s "$work" "$work/once/pictures"
 "$cleave" plot "$work/once" >"$work/out" 2>"$work/err"
-is "a folder of pictures that is a link" $? 2
+is "a folder of pictures that is a symbolic link" $? 2
 rm "$work/once/pictures"
 tabbed=$(printf '%s/a\tb' "$work")
 cp -r "$work/once" "$tabbed"
@@ -239,7 +239,7 @@ same "no descriptors" "$work/once" "$work/closed"
 # ---- numbers that are not finite ---------------------------------------------------------------------------------
 
 sed 's/^boundary:/boundary:\n  - {mirror: {axis: y, at: 0}}\n  - {mirror: {axis: y, at: 0, tangential: held}}/' inputs/kalthoff_winkler.yaml >"$work/twice.yaml"
-refused "two mirrors in one place" "$work/twice" "its mirror plane is that of" "$work/twice.yaml"
+refused "two mirrors in one place" "$work/twice" "its mirror plane is also that of" "$work/twice.yaml"
 "$cleave" run -q -o "$work/lost" $small -s material.young=1e-300 2>"$work/err"
 holds "a modulus of nothing: exit status" test $? -ne 0
 holds "a modulus of nothing: no number that is none" test -z "$(cut -d, -f3-8 "$work/lost/history.csv" 2>/dev/null | grep -i 'nan\|inf')"
@@ -339,7 +339,7 @@ holds "a copy of frames stays" test -s "$work/sided/frames_kept/000000.hdf"
 rm -rf "$work/sided/frames_kept" "$work/sided/frames_side" "$work/far"
 mkdir "$work/far"
 ln -s "$work/far" "$work/sided/frames_side"
-declined "frames that are a link" "frames_side is a link" run -q "$work/side.yaml" -o "$work/sided" --overwrite
+declined "frames that are a link" "frames_side is a symbolic link" run -q "$work/side.yaml" -o "$work/sided" --overwrite
 holds "the older run stays" test -s "$work/sided/summary.json" -a -s "$work/sided/checkpoint.h5"
 
 # Links: folders in a study, a history with a second name.
@@ -349,7 +349,7 @@ for name in pictures logs; do
     rm -rf "$work/study/$name" "$work/far"
     mkdir "$work/far"
     ln -s "$work/far" "$work/study/$name"
-    declined "$name of a study that are a link" "$name is a link" sweep "$work/strip.yaml" -s material.density=2440,2600 -o "$work/study" -q
+    declined "$name of a study that are a link" "$name is a symbolic link" sweep "$work/strip.yaml" -s material.density=2440,2600 -o "$work/study" -q
     is "$name: nothing is written there" "$(ls "$work/far")" ""
     rm "$work/study/$name"
 done
@@ -358,7 +358,7 @@ rm -rf "$run_of_study" "$work/far"
 mkdir "$work/far"
 ln -s "$work/far" "$run_of_study"
 "$cleave" sweep "$work/strip.yaml" -s material.density=2440,2500 -o "$work/study" -q >"$work/out" 2>&1
-holds "a run of a study that is a link: $(cat "$work/out")" grep -q "is a link" "$work/out"
+holds "a run of a study that is a symbolic link: $(cat "$work/out")" grep -q "is a symbolic link" "$work/out"
 is "a run of a study: nothing is written there" "$(ls "$work/far")" ""
 interrupted "$work/twin" 20 $small
 ln "$work/twin/history.csv" "$work/backup.csv"
@@ -378,8 +378,8 @@ for link in results results/bench; do
     mkdir -p "$(dirname "$work/$link")"
     ln -s "$work/far" "$work/$link"
     (cd "$work" && timeout 20 "$cleave" bench threads --quick >out 2>err)
-    is "$link that is a link: exit status" $? 2
-    holds "$link that is a link: $(cat "$work/err")" grep -q "^$link is a link" "$work/err"
+    is "$link that is a symbolic link: exit status" $? 2
+    holds "$link that is a symbolic link: $(cat "$work/err")" grep -q "^$link is a symbolic link" "$work/err"
     is "$link: nothing is written there" "$(ls "$work/far")" ""
     rm -r "$work/results"
 done
@@ -397,7 +397,7 @@ others_stay()
     rm "$file"
     if [ -e "$work/aside" ]; then mv "$work/aside" "$file"; fi
 }
-foreign="is there already and \(not of\|was not drawn by\) cleave; move it away"
+foreign="exists and was not \(written\|drawn\) by cleave; move or remove it"
 others_stay "a picture" "$work/once/pictures/damage.png" "damage.png $foreign" plot "$work/once"
 others_stay "a picture of a field" "$work/once/pictures/field_speed.png" "field_speed.png $foreign" plot "$work/once" --field speed
 others_stay "a history" "$work/own/history.csv" "history.csv $foreign" run -q "$work/strip.yaml" -s duration=2us -o "$work/own" --overwrite
@@ -436,7 +436,7 @@ boundary: [{traction: [0, 1 MPa], face: y+, time: {file: pipe.csv}}]') >"$work/c
 (head_of; echo 'body: {image: {file: pipe.stl, pixel: 1 mm, above: 100}}') >"$work/e.yaml"
 for scene in a b c d e; do declined "a pipe in scene $scene" "$scene.yaml\|pipe" check "$work/$scene.yaml"; done
 declined "a pipe for a run to plot" "is a file" plot "$work/pipe.yaml"
-declined "a pipe for a run to compare" "no run there" compare "$work/pipe.yaml" "$work/once"
+declined "a pipe for a run to compare" "holds no run" compare "$work/pipe.yaml" "$work/once"
 
 # ---- no escape sequences in output ---------------------------------------------------------------------------------
 

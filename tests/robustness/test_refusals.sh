@@ -98,6 +98,20 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
 6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
 8|  - sphere: {radius: 1}|8:5|here it is `ball`
+2|space: plane stress^crack: {from: [0, 0], to: [1 mm, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
+13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
+16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
+16|    force: [0, 1 N]|16:5|a force on a face is a traction [Pa]
+16|    encastre: true|16:5|encastre: unknown key; a support is {fixed: all, face: x-}
+8|  - mesh: {file: a.inp, size: 1 mm}|8:25|particles.spacing sets the distance of particles
+2|space: plane stress^mesh: {size: 1 mm}|3:1|a file is a shape, as body: {mesh: {file: part.inp, unit: mm}}
+2|space: plane stress^run: 1000|3:1|here it is `duration`
+2|space: plane stress^time: {end: 1 us}|3:8|the simulated time is the key `duration`
+6|material: {young: 190 Gpa, density: 7800}|6:12|190 Gpa has an unknown unit (GPa?)
+6|material: {young: 190 GPa, density: 7800, gc: 100}|6:43|here it is `energy_release_rate`
+6|material: {bulk: 190 GPa, density: 7800}|6:12|here it is `young`
+19|output: {length: 2}|19:10|`cleave help length` lists the 2 keys of that name
+20|probes: [{reaction: {boundary: bottom}}]|20:22|there is no boundary bottom; the nearest of 1 is pull
 2|space: plane|2:1|plane stress
 2|space: solid|3:1|thickness
 2||1:1|space: missing
@@ -166,7 +180,7 @@ done <<'END'
 18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times ascend
 18|    time: whenever|18:5|no function of time
 19|time: {step: 0}|19:8|out of range
-19|time: {step: 1e-30}|19:8|1e12 is the most
+19|time: {step: 1e-30}|19:8|1e12 is the largest number
 19|time: {safety: 3}|19:8|out of range
 19|output: {frames: -1}|19:10|frames
 19|output: {frames: 1e9}|19:10|frames
@@ -209,9 +223,9 @@ done <<'END'
 20|probes: [sif]|bad.yaml:20:10: probes[0]: probe|leaves the body
 14|boundary:^  - {name: push, body_force: [0, 1], region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary push|no particle
 14|boundary:^  - {mirror: {axis: x, at: 5 mm}}|bad.yaml:15:5: boundary[0]: boundary boundary0|cuts the body
-14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|one is enough
+14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|remove one of the two
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|no particle
-14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|before it
+14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|are in front of every particle
 14|boundary:^  - {absorbing: true, face: x+}^  - {absorbing: true, face: y+}^  - {absorbing: true, face: x+, region: {box: {from: [15 mm, 4 mm], to: [20 mm, 6 mm]}}}|bad.yaml:17:5: boundary[2]: boundary boundary2|boundary0 absorbs at this face already
 14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
@@ -383,6 +397,9 @@ velocity|boundary.velocity
 nu|material.poisson
 Young-modulus|material.young
 END
+"$cleave" run good.yaml -o kept --resume >out 2>err
+is "--resume of a finished run" "$? $(grep -c '^kept holds the finished run: no step is left' err)" "0 1"
+
 # The first word of each row of the table has a page whose keys there are.
 sed -n 's/^    {"\([^|"]*\).*/\1/p' "$root/src/scene/scene_foreign.c" >kept/words
 between "rows of the table" "$(wc -l <kept/words)" 50 200

@@ -21,6 +21,10 @@ for words in nonsense accuracy=nonsense accuracy=auto stability=nonsense "--slow
     [ "$(wc -l <err)" -eq 1 ] || fail "bench $words: $(wc -l <err) lines on standard error"
     [ ! -e results ] || fail "bench $words left files behind"
 done
+"$cleave" bench >out 2>err || fail "bench without a name: exit status $?"
+grep -q "^  kernels  *time of every kernel" out && grep -q "^  all  " out || fail "bench without a name lists no names: $(cat out)"
+[ ! -e results ] || fail "bench without a name left files behind"
+"$cleave" bench scatter >out 2>err && fail "bench scatter"
 grep -q "inputs" err || fail "scatter does not say what it misses"
 
 # One scene with a quarter of the particles: the files exist and have the columns of the contract.
@@ -102,7 +106,7 @@ awk -F, 'NR > 1 { near = $10 < 0.02 && $11 < 0.02 }
 cd ../..
 # Beside LAMMPS, particle by particle, where it is installed.
 if command -v lmp >/dev/null; then
-    awk -F, 'NR > 1 && !($11 < 1e-9) { bad = 1 } END { exit bad || NR != 13 }' results/bench/peers.csv || fail "beside LAMMPS: $(cat results/bench/peers.csv)"
+    awk -F, 'NR > 1 && !($12 < 1e-9) { bad = 1 } END { exit bad || NR != 13 }' results/bench/peers.csv || fail "beside LAMMPS: $(cat results/bench/peers.csv)"
 fi
 
 # Growth over the spacing for the plate in 3D: the exponents of two rows are those of their ratios.

@@ -67,7 +67,7 @@ is "nothing on standard error" "$(cat err)" ""
 sed 's/frames: 0/times: [1 us, 2 us]/' bar.yaml >times.yaml
 "$cleave" converge times.yaml -o times --runs 1 -q >out 2>err
 is "frames at given times" $? 0
-grep -q "scatter not known, by one run" out && pass || fail "one run: $(cat out)"
+grep -q "scatter unknown, as there is one run" out && pass || fail "one run: $(cat out)"
 "$cleave" converge bar.yaml -o limit -s time.safety=1 -q >out
 is "no two runs are equal" "$(cat limit/spacing*/scene.yaml | grep -c '^time')" "$(for run in limit/spacing*; do cksum <"$run/scene.yaml"; done | sort -u | wc -l | tr -d ' ')"
 
@@ -133,11 +133,11 @@ between "share of known answers held" "$held" 0.87 1
 "$cleave" converge bar.yaml -o dear -s particles.spacing=0.0005mm --budget 3 >out 2>err
 case $? in                               # a busy machine may have time for none
     0) grep -q "would take longer than the budget" err && pass || fail "coarser: $(cat err)" ;;
-    *) grep -q -e "are too little" -e "no quantity has a value at every spacing" err && pass || fail "too dear: $(cat err)" ;;
+    *) grep -q -e "is too small" -e "no figure has a value at every spacing" err && pass || fail "too dear: $(cat err)" ;;
 esac
 "$cleave" converge bar.yaml -o dearer -s particles.spacing=0.0001mm --budget 0.3 >out 2>err
 is "too dear" $? 2
-grep -q "are too little" err && pass || fail "too dear: $(cat err)"
+grep -q "is too small" err && pass || fail "too dear: $(cat err)"
 
 # ---- refusals --------------------------------------------------------------------------------------------------------
 
@@ -149,7 +149,7 @@ refused()
     grep -qF -e "$wanted" err && pass || fail "$*: $(cat err)"
 }
 refused "no scene given" -o none
-refused "are too little" bar.yaml --budget 1us -o tiny
+refused "is too small" bar.yaml --budget 1us -o tiny
 refused "10.5 is the most" bar.yaml --horizon --levels 6 -o none
 refused "a time is expected" bar.yaml --budget 10mm -o none
 refused "a number from 3 to 6" bar.yaml --levels 2 -o none

@@ -69,7 +69,7 @@ between "bonds: damage by then" "$(broken)" 10 1000
 "$cleave" compare here there >compared || fail "compare: $(cat compared)"
 between "displacement at the end [m]" "$(sed -n 's/^  displacement \[m\] *\([0-9.e+-]*\).*/\1/p' compared)" 0 1e-9
 is "frames at the same steps" "$(sed -n 's/^last common frame.*step \([0-9]*\), \([0-9]*\);.*/\1 \2/p' compared)" "225 225"
-holds "velocities are half a step apart" grep -q "^velocities of A are half a step older" compared
+holds "velocities are half a step apart" grep -q "^velocities of A are taken half a step before" compared
 is "particle by particle" "$(tail -n 1 compared)" "comparable particle by particle: yes"
 
 if command -v mpirun >/dev/null; then agrees bonds 2; fi

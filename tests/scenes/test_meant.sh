@@ -1,6 +1,7 @@
 #!/bin/sh
 # Advice of `cleave check` where a scene may differ from its author's intention: numbers in another unit, isolated particles, curves of
 # meshes, values of images. Each case has a control without advice.
+# Takes 20 s: 120 scenes are set up.
 test_name=test_meant
 . tests/support/summary.sh
 . tests/support/scenes.sh
@@ -8,7 +9,7 @@ test_name=test_meant
 # says WHAT PATTERN SCENE [ARGUMENT...]: checks that the pattern is in the output of check for the scene. silent: that it is not.
 checked() { "$cleave" check "$@" --no-trial >"$work/said" 2>&1; }
 says() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what: $(cat "$work/said")" grep -q "$pattern" "$work/said"; }
-silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "grep -q 'is sound' '$work/said' && ! grep -q '$pattern' '$work/said'"; }
+silent() { what=$1 pattern=$2; shift 2; checked "$@"; holds "$what" sh -c "grep -q 'is sound$\|can be run[;,]' '$work/said' && ! grep -q '$pattern' '$work/said'"; }
 
 # ---- units -------------------------------------------------------------------------------------------------------------
 
@@ -25,9 +26,9 @@ particles: {spacing: a}
 cracks: [{from: [0, 0], to: [24.9*a, 0]}]
 boundary: [{traction: [0, 12 MPa], face: y+}, {traction: [0, -12 MPa], face: y-}]
 END
-glass=$work/glass.yaml units='have the units that are meant'
+glass=$work/glass.yaml units='check the units of'
 silent "glass" "$units" "$glass"
-says "lengths in mm" '^warning: time: in the duration waves travel 0.23[0-9]* spacings, below 1: see whether duration, lengths (mm?)' "$glass" \
+says "lengths in mm" '^warning: time: in the duration waves travel 0.23[0-9]* spacings, below 1: check the units of duration, lengths (mm?)' "$glass" \
     -s 'variables.a=1 m'
 says "a modulus in MPa" '^warning: boundary boundary0: its load over Young.s modulus is 167 ' "$glass" -s 'variables.E=72000 Pa'
 says "a modulus in MPa: slow waves" '^warning: material material: the speed of its waves is 5.7[0-9]* m/s, below 10: ' "$glass" -s 'variables.E=72000 Pa'
@@ -38,9 +39,17 @@ says "a stretch of nothing" 'at a stretch of 1e-07, at 7.2e+03 Pa, below 1e-06: 
 says "a load of nothing beside it" '^warning: loads: the largest stress .* is 1.67e+03 (1.2e+07 Pa; E s_c is 7.2e+03 Pa), above 1e+03' \
     "$glass" -s variables.limit=1e-7
 says "a density in g/cm^3" '^warning: material material: the speed of its waves is 1.82e+05 m/s, above 2e+04: ' "$glass" -s 'variables.rho=2.44 kg/m^3'
-says "a few steps" '^warning: time: the number of time steps is 2 of .* s, below 5: see whether duration' "$glass" -s duration=0.25us
+says "a few steps" '^warning: time: the number of time steps is 2 of .* s, below 5: check the units of duration' "$glass" -s duration=0.25us
 says "very many steps" '^warning: time: the number of time steps is [0-9.]*e+08 of .* s, above 1e+08: ' "$glass" -s duration=100s
 says "a spacing of 1 cm" '^warning: body body: it has a crack, and its least number of particles across is 4, along y, below 8: ' "$glass" -s particles.spacing=1cm
+says "a density in g/m^3" '^warning: material material: its density is 2.44e+06 kg/m^3, above 3e+04: check the units of density' "$glass" -s variables.rho=2.44e6
+says "a yield stress in MPa" '^warning: material material: its yield stress over Young.s modulus is 4.17e-09 (300 Pa over 7.2e+10 Pa), below 2e-05' "$glass" \
+    -s material.yield_stress=300
+says "a yield stress in GPa" "its yield stress over Young.s modulus is 4.17 .*, above 0.3" "$glass" -s material.yield_stress=300GPa
+silent "a yield stress in Pa" "$units" "$glass" -s material.yield_stress=300MPa
+# 49 mm between the outermost particles, 5.76 mm/us: 0.04 s are 4700 passages and 286,000 steps.
+says "a duration in ms" '^warning: time: the number of times that waves cross the bodies in the duration is 4.7[0-9]*e+03 (0.04 s, 0.049 m at' "$glass" -s duration=40ms
+silent "a duration in ms that is meant" "$units" "$glass" -s duration=40ms -s 'accept=[passages]'
 # rho c v of 1 mm/s is 1.4e4 Pa, E u/L of the 20 nm that it goes over 50 mm 2.88e4 Pa, 0.0004 of the strength of 72 MPa; 1 um makes 1.44 MPa,
 # 0.02 of it, 1 m 20,000 times the strength.
 boundary() { echo "boundary=[{fixed: all, face: x-, depth: 1 mm}, {$1, face: x+, depth: 1 mm, time: {ramp: {until: 40 us}}}]"; }
@@ -51,6 +60,31 @@ says "a displacement in m" '^warning: loads: .*above 1e+03' "$glass" -s cracks=[
 silent "figures that are meant" "$units" "$glass" -s variables.limit=0.1 -s 'accept=[stretch, stress]'
 "$cleave" run "$glass" -q -o "$work/glass" -s variables.limit=0.1 -s output.frames=0 -s duration=2us >/dev/null 2>"$work/said"
 is "run says it, too: $(cat "$work/said")" "$(grep -c "$units" "$work/said")" 2
+
+# ---- cracks, horizon, time step ----------------------------------------------------------------------------------------
+
+far='warning: crack 1 is outside of every body, 0.1[78][0-9]* m from the nearest particle, and has no effect'
+says "a crack outside" "$far" "$glass" -s 'cracks=[{from: [0, 0.2], to: [25 mm, 0.2]}]'
+silent "a crack inside" 'outside of every body' "$glass"
+says "a crack outside in space" 'crack 1 is outside of every body, 0.016 m from' "$glass" -s space=solid -s thickness= -s boundary=[] -s particles.spacing=2mm \
+    -s 'body={box: {from: [0, 0, 0], to: [20 mm, 20 mm, 20 mm]}}' -s 'cracks=[{polygon: [[0, 0, 35 mm], [20 mm, 0, 35 mm], [20 mm, 20 mm, 35 mm], [0, 20 mm, 35 mm]]}]'
+says "a horizon of one spacing" 'warning: particles.horizon: 1: each particle has bonds along the axes of the lattice only (4)' "$glass" -s particles.horizon=1
+silent "a horizon of eight neighbours" 'particles.horizon:' "$glass" -s particles.horizon=1.5
+says "a step above the critical one" 'warning: .* time.step is 1e-06 s, 3.[0-9]* times the critical .* use at most' "$glass" -s time.step=1us
+says "a tip that nothing moves" 'warning: probe tip: no bond can break, as no material has an energy_release_rate' "$glass" -s 'probes=[tip]' -s material.critical_stretch=
+silent "a tip that moves" 'no bond can break' "$glass" -s 'probes=[tip]'
+silent "a tip that is grown" 'no bond can break' inputs/kalthoff_sif.yaml
+
+# ---- the verdict -------------------------------------------------------------------------------------------------------
+
+silent "sound: no line before it" "^warning\|^accuracy" "$glass"
+is "sound: the last line" "$(tail -n 1 "$work/said")" "$glass is sound"
+checked "$glass" -s particles.horizon=1
+is "a warning: the last line" "$(tail -n 1 "$work/said")" "$glass can be run, but read first the warning above (1)"
+checked "$glass" -s cracks=[] -s 'body={box: {from: [0, -4*a], to: [50*a, 4*a]}}'
+is "a remark: the last line" "$(tail -n 1 "$work/said")" "$glass can be run; read first the remark on accuracy above (1)"
+"$cleave" check "$glass" --no-trial -s particles.horizon=1 2>/dev/null >"$work/said"
+holds "warnings go to standard error" sh -c "! grep -q ^warning '$work/said'"
 
 # ---- isolated particles ------------------------------------------------------------------------------------------------
 
@@ -316,5 +350,32 @@ silent "a displacement that grows slowly faster" 'beside it break' "$free" -s \
     "boundary.pull={name: pull, displacement: ['10 mm*(t/(1 ms))^2', free], face: x+}"
 says "a displacement that begins with a jump of its velocity" 'changes by up to 10 m/s within' "$free" -s \
     "boundary.pull={name: pull, displacement: ['10 mm*t/(1 ms)', free], face: x+}"
+
+# ---- collisions --------------------------------------------------------------------------------------------------------
+
+# Two plates; the first has its speed by `initial`. What each scene can do differs.
+cat >"$work/plates.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 20 us
+method: pd
+material: {young: 72 GPa, density: 2440, energy_release_rate: 10 J/m^2}
+bodies:
+  - {name: a, shape: {box: {from: [0, 0], to: [20 mm, 10 mm]}}}
+  - {name: b, shape: {box: {from: [21 mm, 0], to: [41 mm, 10 mm]}}}
+particles: {spacing: 0.5 mm}
+initial: [{body: a, velocity: [200, 0]}]
+END
+plates=$work/plates.yaml hits='^accuracy  *bodies collide at 200 m/s, .* bonds can break too early: '
+says "a collision in plane stress" "${hits}viscosity does not act in plane stress" "$plates"
+says "a collision in plane strain" "${hits}material.viscosity: {} spreads the front" "$plates" -s 'space=plane strain'
+says "a collision of ospd" "${hits}viscosity acts with model bond only" "$plates" -s 'space=plane strain' -s model=ospd
+silent "a collision with viscosity" 'bodies collide' "$plates" -s 'space=plane strain' -s 'material.viscosity={}'
+silent "bodies that part" 'bodies collide' "$plates" -s 'initial.0.velocity=[-200, 0]'
+silent "a speed elsewhere" 'bodies collide' "$plates" -s 'initial=[{velocity: [200, 0], region: {box: {from: [50 mm, 0], to: [60 mm, 10 mm]}}}]'
+says "without contact" '^warning: contact.between: none: peridynamic bodies pass through each other; with contact.between: bodies, or all, they meet' \
+    "$plates" -s contact.between=none
+silent "without contact: no collision" 'bodies collide' "$plates" -s contact.between=none
+says "without contact, adaptive" 'warning: particles that become peridynamic pass .*; here contact.between is none' "$plates" -s contact.between=none -s method=adaptive
 
 finish

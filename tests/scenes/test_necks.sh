@@ -28,7 +28,7 @@ named()
     width=$(echo "$part" | sed 's/.*\(a part [0-9.]* m\).*/\1/')
     for spacing in $(sed -n "/$width /s/.*particles.spacing \([0-9.]*\) m\( or \([0-9.]*\) m\)* divides it/\1 \3/p" "$work/said"); do
         checked "$@" -s particles.spacing="$spacing"
-        holds "$what at $spacing m" sh -c "grep -q 'is sound' '$work/said' && ! grep -q '$width ' '$work/said'"
+        holds "$what at $spacing m" sh -c "grep -q 'is sound$\|can be run[;,]' '$work/said' && ! grep -q '$width ' '$work/said'"
     done
 }
 # silent WHAT [ARGUMENT...]: checks that check reports no part.
@@ -36,7 +36,7 @@ silent()
 {
     what=$1; shift
     checked "$@"
-    holds "$what: $(cat "$work/said")" sh -c "grep -q 'is sound' '$work/said' && ! grep -q 'a part .* of particles\|its section' '$work/said'"
+    holds "$what: $(cat "$work/said")" sh -c "grep -q 'is sound$\|can be run[;,]' '$work/said' && ! grep -q 'a part .* of particles\|its section' '$work/said'"
 }
 
 # ---- ligaments -----------------------------------------------------------------------------------------------------------

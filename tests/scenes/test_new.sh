@@ -11,7 +11,7 @@ cd "$work" || exit 1
 for kind in $kinds; do
     holds "$kind: written" "$cleave" new "a_$kind.yaml" "$kind" >/dev/null
     holds "$kind: sound" "$cleave" check --no-trial "a_$kind.yaml" >"$work/check"
-    is "$kind: advice" "$(grep -E '^(accuracy|hints)|have the units that are meant' "$work/check" | grep -v 'bodies collide')" ""
+    is "$kind: advice" "$(grep -E '^(accuracy|hints)|check the units of' "$work/check" | grep -v 'bodies collide')" ""
     coarse=$([ $kind = stl ] && echo "-s particles.spacing=3mm")           # half of its time is the fit of surface weights
     holds "$kind: runs" "$cleave" run "a_$kind.yaml" -q $coarse -s duration=1us -o "$work/results_$kind" 2>/dev/null
 done
@@ -29,9 +29,9 @@ refused()
     is "$what" "$(cat "$work/.message")" "$message"
     is "$what: files" "$(ls | wc -l)" "$files"
 }
-refused "a scene that is there" "bar.yaml: is there already and stays as it is; another name is expected" bar
+refused "a scene that is there" "bar.yaml exists and is not replaced; another name is expected" bar
 touch c.stl
-refused "a part that is there" "c.stl: is there already and stays as it is; another name is expected" c stl
+refused "a part that is there" "c.stl exists and is not replaced; another name is expected" c stl
 refused "an unknown kind" "there is no kind impct; the nearest is impact, and cleave new lists all" b impct
 refused "a name with a blank" "b c: no name of a scene; letters, digits, _ and - are expected" "b c"
 refused "a name that is none" ".yaml: no name of a scene; letters, digits, _ and - are expected" .yaml

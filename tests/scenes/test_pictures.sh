@@ -104,6 +104,10 @@ is "a film without ffmpeg: exit status" $? 2
 holds "a film without ffmpeg: one line names it" grep -q "the package ffmpeg" err
 
 refused "von_mises" results/strip --field van_mises
+refused "it has several components, draw one of strain_xx, strain_yy" results/strip --field strain
+refused "There are damage, kind, material" results/strip --field nonsense
+"$cleave" plot results/strip --field principal_stress >out 2>err
+holds "principal_stress: which one is drawn" grep -q "principal_stress is the largest one; the others are principal_stress_2" err
 refused "runs in space" results/strip --slice z=1mm
 refused "do you mean --field" results/strip --feild speed
 refused "a time is expected" results/strip --times 5kg
@@ -147,15 +151,15 @@ is "plot --slice: exit status" $? 0
 holds "a slice has the particles of a layer" grep -q "of 2 frames, 72 particles" out
 "$cleave" plot results/block --field speed --view x+ --times last >out 2>err
 holds "what is the same everywhere is not drawn" grep -q "speed is 0 m/s everywhere" out
-refused "no particle is there; they lie from 0.5 to 5.5 mm" results/block --slice z=9mm
+refused "no particle is at this position; they are from 0.5 to 5.5 mm" results/block --slice z=9mm
 refused "one of them" results/block --slice z=3mm --view iso
 
 
 # ---- files of others, a disk that is full, films that are stopped ----------------------------------------------------
 
 echo mine >photo.png
-refused "photo.png is there already and was not drawn by cleave" results/strip --field speed -o photo.png
-refused "photo.png is there already" --scene strip.yaml -o photo.png
+refused "photo.png exists and was not drawn by cleave" results/strip --field speed -o photo.png
+refused "photo.png exists" --scene strip.yaml -o photo.png
 is "a picture of others" "$(cat photo.png)" mine
 "$cleave" plot results/strip --field body -o photo.png --overwrite >out 2>err
 is "nothing is drawn, and nothing removed" "$(cat photo.png)" mine

@@ -143,6 +143,7 @@ refused()
 refused "summary.json has no such figure" collide.yaml -s accuracy.of=energy.nonsense
 refused "found no method that is accurate to 1e-07 %" collide.yaml -s accuracy.within=1e-9 -s accuracy.budget=3s
 refused "no method that is accurate to 0.1 % at its spacing" plate.yaml -s particles.spacing=1mm -s accuracy.within=0.1%
+refused "nothing moves or loads the bodies" plate.yaml -s boundary=[]
 refused "no time is left for it" collide.yaml -s accuracy.budget=1ms
 refused "accuracy_table: is no longer a key, as .method: auto. chooses by pilot runs alone; remove it" plate.yaml -s accuracy_table=mine.csv
 refused "auto does not do load steps" plate.yaml -s steps.number=3

@@ -33,7 +33,7 @@ END
 printf '%s\n' inputs/*.yaml | xargs -P 2 -n 1 sh "$work/say" "$cleave" "$work"
 for scene in inputs/*.yaml; do
     said=$work/$(basename "$scene" .yaml)
-    holds "$scene: $(cat "$said")" grep -q ' is sound$' "$said"
+    holds "$scene: $(cat "$said")" grep -q ' is sound$\| can be run[;,]' "$said"
     is "$scene: $(tail -n 1 "$said")" "$(grep -c '^failed$' "$said")" 0
     is "$scene" "$(unanswered "$scene" "$said")" ""
 done

@@ -235,12 +235,12 @@ no "a control that is none" 'control' -s steps.control=crack
 no "opening of nothing" 'steps.from and steps.to' -s steps.control=opening
 refused "a front within the body" "$work/no" 'hoop leads straight fronts.*bonds, or auto, is expected' "$work/space.yaml" -s "$ends" -s steps.path=hoop
 no "friction" 'friction' -s contact.friction=0.3
-no "a release in time under energy" 'control load' -s steps.then=explicit
+no "a release in time under energy" 'steps.control: load only' -s steps.then=explicit
 no "no load" 'nothing loads the body' -s 'boundary=[{name: top, fixed: [x], face: y+}, {name: bottom, fixed: [x, y], face: y-}]'
 no "waves" 'initial' -s 'initial=[{velocity: [1, 0]}]'
 no "no load step" 'number' -s steps.number=0
 
-stopped "nothing holds it" "$work/loose" 'load step 1, .*nothing holds the body .*, round x = .* hold it there' $pulled -s "$grips]" -s 'probes=[]'
+stopped "nothing holds it" "$work/loose" 'load step 1, .*nothing holds the body .*, around x = .* hold it there' $pulled -s "$grips]" -s 'probes=[]'
 # Loads on material points act on nodes of the mesh: the same pulled body by both methods that have such points.
 for method in adaptive mpm; do
     stopped "nothing holds its points, $method" "$work/loose_$method" 'load step 1, .*nothing holds the body' $pulled -s "$grips]" -s 'probes=[]' \

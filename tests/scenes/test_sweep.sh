@@ -28,7 +28,7 @@ is "no logs of runs that said nothing" "$(ls two/logs 2>/dev/null)" ""
 head -n 1 two/sweep.csv | grep -q '^run,state,particles.spacing,boundary.0.traction,steps,' && pass || fail "columns: $(head -n 1 two/sweep.csv | cut -c 1-90)"
 is "cells with commas are in quotes" "$(sed -n 2p two/sweep.csv | cut -d, -f1-6)" '"spacing=1mm,traction=5MPa,0",done,1mm,"[5 MPa'
 is "maps and lines" "$(ls two/pictures | paste -s -d ' ' -)" "boundary.0.traction.png map.png particles.spacing.png"
-grep -q '^6 runs: 6 done; two/sweep.csv$' out && pass || fail "what is printed: $(cat out)"
+grep -q '^6 runs: 6 done; table: two/sweep.csv$' out && pass || fail "what is printed: $(cat out)"
 # The table agrees with the runs; twice the load does four times the work (linear body; 1e-3 for rounding and large displacements).
 one=$(figure two/spacing=1mm,traction=5MPa,0 energy.external_work) two=$(figure two/spacing=1mm,traction=10MPa,0 energy.external_work)
 near "work over load squared" "$two" "$(compute "4 * $one")" 1e-3
@@ -40,7 +40,7 @@ cp two/sweep.csv before.csv
 stamp=$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)
 "$cleave" sweep bar.yaml -s particles.spacing=1mm,0.5mm -s boundary.0.traction='[5 MPa, 0],[10 MPa, 0],[20 MPa, 0]' -o two >out 2>err
 is "again" $? 0
-grep -q '^6 runs: 6 done (6 before)' out && pass || fail "nothing to do: $(cat out)"
+grep -q '^6 runs: 6 done (6 of them by an earlier sweep)' out && pass || fail "nothing to do: $(cat out)"
 is "untouched" "$(find two -name history.csv -exec ls -l --time-style=full-iso {} + | sort)" "$stamp"
 holds "the same table" cmp -s two/sweep.csv before.csv
 
@@ -79,7 +79,7 @@ is "with the whole name of the program" $? 0
 # Keys in another order: the same runs, none added.
 "$cleave" sweep bar.yaml -s boundary.0.traction='[10 MPa, 0],[5 MPa, 0]' -s particles.spacing=0.5mm,1mm -o two >out 2>err
 is "keys in another order" $? 0
-grep -q '^4 runs: 4 done (4 before)' out && pass || fail "keys in another order: $(cat out err)"
+grep -q '^4 runs: 4 done (4 of them by an earlier sweep)' out && pass || fail "keys in another order: $(cat out err)"
 # A value in other units: one run, a row for each.
 "$cleave" sweep bar.yaml -s particles.spacing=1mm,0.001,2mm -s material.density=2440,2500 -o units >out 2>err
 is "values in other units" $? 0
@@ -109,7 +109,7 @@ sed '/^particles/d' bar.yaml >part.yaml
 "$cleave" sweep part.yaml -s particles.spacing=1mm,2mm -o part -q >out 2>err
 is "a scene in part" $? 0
 "$cleave" sweep part.yaml -s particles.spacing=4mm,2mm -o part -q >out 2>err
-grep -q '^2 runs: 2 done (1 before)' out && pass || fail "more values: $(cat out err)"
+grep -q '^2 runs: 2 done (1 of them by an earlier sweep)' out && pass || fail "more values: $(cat out err)"
 
 # ---- pictures --------------------------------------------------------------------------------------------------------
 
@@ -171,6 +171,6 @@ wait $first 2>/dev/null
 sleep 0.5
 "$cleave" sweep bar.yaml -s duration=8us,20us -s particles.spacing=0.5mm -o long >out 2>err
 is "after a kill" $? 0
-grep -q '^2 runs: 2 done (1 before)' out && pass || fail "after a kill: $(cat out err)"
+grep -q '^2 runs: 2 done (1 of them by an earlier sweep)' out && pass || fail "after a kill: $(cat out err)"
 
 finish

@@ -278,8 +278,8 @@ static void bad_gmsh(void **state)
         const char *from, *to, *message;
     } bad[] = {{"2.2 0", "4.0 0", ":2: format 4.0 of Gmsh; 2.2 and 4.1 are read"},
                {"$MeshFormat", "Meshformat", "$MeshFormat is expected first"},
-               {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes are more than the rest of the file holds"},
-               {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are more"},
+               {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes are announced, more than the rest of the file"},
+               {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are announced, more"},
                {"2 1 0 0\n", "2 1 nan 0\n", ":13: nan is no coordinate"},
                {"2 1 0 0\n", "1 1 0 0\n", "node 1 is given twice"},
                {"2 3 6 102", "2 3 66 102", ":29: an element has node 66, which is not among the nodes"},

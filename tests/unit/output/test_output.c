@@ -364,7 +364,7 @@ static void tables_of_others_stay(void **state)
         assert_true(path_exists(path.text) == (table[k].ended != OK));
         if (table[k].ended == OK) continue;
         assert_true(file_has_contents(path.text, table[k].text, length));
-        assert_message("is there already and not of cleave; move it away");
+        assert_message("exists and was not written by cleave; move or remove it");
         assert_int_equal(unlink(path.text), 0);
     }
 }
@@ -469,7 +469,7 @@ static void summary_has_the_figures(void **state)
     assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
     assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
-    assert_message("summary was moved, removed or exchanged");
+    assert_message("summary was moved, removed or replaced");
     run_parts_free(e);
     memory_free(e);
     output_close(&o);

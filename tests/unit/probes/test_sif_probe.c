@@ -151,9 +151,9 @@ static void bad_requests_are_refused(void **state)
     struct plate p, two, corner;
     plate_make(&p, 0, start);
     refused(&p, &(struct probe_request){.inner = 0}, "no pre-crack ends inside a body");
-    refused(&p, &(struct probe_request){.has_at = true, .at = {30, 30}}, "direction has to say");
+    refused(&p, &(struct probe_request){.has_at = true, .at = {30, 30}}, "give `direction`, in which");
     refused(&p, &(struct probe_request){.has_at = true, .at = {90, 30}, .has_direction = true, .direction = {1, 0}},
-            "no body ahead");
+            "no particle is ahead");
     plate_free(&p);
     plate_make(&p, 1, start);
     refused(&p, &(struct probe_request){.outer = 31}, "leaves the body at (");

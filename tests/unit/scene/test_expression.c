@@ -42,6 +42,7 @@ static status compile(struct expression *e, const char *text, enum unit unit)
     F(UNIT_LENGTH, "sqrt(x^2 + y^2 + z^2)", sqrt(x *x + y * y + z * z))                                                \
     F(UNIT_LENGTH, "(x^2 + y^2)^0.5", sqrt(x *x + y * y))                                                              \
     F(UNIT_TOUGHNESS, "60 MPa sqrt(m)*x/m", 60e6 * x)                                                                  \
+    F(UNIT_TOUGHNESS, "60 MPa mm^0.5*x/m", 60e6 * sqrt(1e-3) * x)                                                      \
     F(UNIT_TOUGHNESS, "5 MPa*sqrt(pi*x)", 5e6 * sqrt(PI * x))                                                          \
     F(UNIT_NONE, "atan2(y, x) + atan(y/x)", atan2(y, x) + atan(y / x))                                                 \
     F(UNIT_LENGTH, "min(x, y, z) + 2*max(x, 3 mm)", fmin(x, fmin(y, z)) + 2 * fmax(x, 3e-3))                           \
@@ -154,12 +155,11 @@ static void faults_are_placed(void **state)
         const char *text, *message;
     } wrong[] = {
         {UNIT_LENGTH, "x + t",
-         "x + t has a length and a time about + (character 3); both are expected to have one unit"},
+         "x + t combines a length and a time by + (character 3); both are expected to have the same unit"},
         {UNIT_LENGTH, "x + 3",
-         "x + 3 has a length and a plain number about + (character 3); both are expected to have one unit"},
+         "x + 3 combines a length and a plain number by + (character 3); both are expected to have the same unit"},
         {UNIT_NONE, "2*exp(x)",
-         "2*exp(x) takes exp of a length (character 3); a plain number is expected there, as "
-         "(t/5us)"},
+         "2*exp(x) applies exp to a length (character 3); a plain number is expected, as (t/5us)"},
         {UNIT_PRESSURE, "3 mm*x/m", "3 mm*x/m is a length; a stress is expected, as 190 GPa"},
         {UNIT_PRESSURE, "12e6*sin(t/us)", "12e6*sin(t/us) is a plain number; a stress is expected, as 190 GPa"},
         {UNIT_NONE, "x*x", "x*x is an area; a plain number is expected, as 0.25"},
@@ -187,12 +187,13 @@ static void faults_are_placed(void **state)
          "number without it"},
         {UNIT_NONE, "2/(1 - 1)", "2/(1 - 1) divides by 0 (character 2)"},
         {UNIT_NONE, "log(-1)*t/s", "log(-1)*t/s has a part that is no finite number"},
-        {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); a plain number is expected there"},
+        {UNIT_LENGTH, "x^t", "x^t has a time as a power (character 2); a plain number is expected"},
         {UNIT_LENGTH, "x^(t/s)",
-         "x^(t/s) has a length to a power that varies (character 2); a given number is expected there"},
+         "x^(t/s) raises a length to a power that varies (character 2); a constant number is expected as the power"},
         {UNIT_LENGTH, "x^0.3",
          "x^0.3 has a length to a power (character 2) that makes no unit; whole and half powers of m, kg and s do"},
-        {UNIT_LENGTH, "sqrt(sqrt(x))", "sqrt(sqrt(x)) takes sqrt of in m^0.5 (character 1), which has no unit"},
+        {UNIT_LENGTH, "sqrt(sqrt(x))",
+         "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root"},
         {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, as 0.5 mm"},
     };
     for (size_t k = 0; k < COUNT_OF(wrong); k++) {

@@ -72,7 +72,7 @@ static const struct {
     {"thickness: 10 mm\n", "", "1:1: thickness: missing; a length is expected, as 0.5 mm"},
     {"  spacing: 1 mm\n", "", "14:1: spacing: missing in particles; a length is expected, as 0.5 mm"},
     {"190 GPa", "190 mm", "7:3: young: 190 mm is a length; a stress is expected, as 190 GPa"},
-    {"190 GPa", "190 gpa", "7:3: young: 190 gpa has an unknown unit; a stress is expected, as 190 GPa"},
+    {"190 GPa", "190 gpa", "7:3: young: 190 gpa has an unknown unit (GPa?); a stress is expected, as 190 GPa"},
     {"190 GPa", "190_000",
      "7:3: young: 190_000 is not a number here: digits cannot be grouped by _; write 1000 or 1e3"},
     {"190 GPa", "1,9", "7:3: young: 1,9 is not a number here: the decimal sign is a point; write 1.5"},
@@ -227,7 +227,9 @@ static const struct {
     {"face: x+", "face: z+", "30:40: face: z+ is no face in space plane stress; x+, x-, y+ or y- is expected"},
     {"name: pull", "name: impact", "30:5: boundary[1]: impact is the name of another boundary; every one has its own"},
     {"name: impact\n", "name: impact\n    body: plat\n", "27:5: body: there is no body plat; the nearest is plate"},
-    {"boundary: impact", "boundary: impct", "36:16: boundary: there is no boundary impct; the nearest is impact"},
+    {"boundary: impact", "boundary: impct",
+     "36:16: boundary: there is no boundary impct; the nearest of 2 is impact (a boundary gets its name by the key "
+     "`name`)"},
     {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is the name of another probe; give it a name of its own"},
     {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
      "34:11: inner: 20 mm is not less than outer, 0.015 m; about half of it is usual"},
@@ -256,7 +258,7 @@ static const struct {
     {"  - tip\n", "  - tips\n", "34:5: tips: unknown key; the nearest is tip"},
     {", at: [1 mm, 1 mm]", "", "35:5: at: missing in probes.point; a list of numbers is expected"},
     {"step: auto", "step: 0", "31:8: step: 0 is out of range; a time above 0 is expected, as 20 us"},
-    {"step: auto", "step: 1e-30", "31:8: step: 1e-30 would take 5.0e+25 steps; 1e12 is the most"},
+    {"step: auto", "step: 1e-30", "31:8: step: 1e-30 would take 5.0e+25 time steps; 1e12 is the largest number"},
     {"step: auto", "step: always", "31:8: step: always is not a number; a time is expected, as 20 us"},
     {"step: auto", "safety: 2.5", "31:8: safety: 2.5 is out of range; a plain number above 0 up to 2 is expected"},
     {"frames: 20", "frames: 1.5", "32:10: frames: 1.5 is not a whole number; digits alone are expected, as 20"},
@@ -442,7 +444,7 @@ static void test_files(void **state)
     static const struct scene_override o[] = {{"bodies[0].shape", ""}, {"bodies[0].particles", "grains.csv"}};
     assert_int_equal(scene_read(&s, path, o, 2), REFUSED);
     assert_string_equal(status_message(), "-s bodies[0].particles=grains.csv: particles: grains.csv cannot be read; "
-                                          "a particle list in the scene's folder is expected");
+                                          "a particle list is expected in the folder of the scene");
     out = fopen(list, "w");
     assert_non_null(out);
     fputs("x,y,volume\n", out);

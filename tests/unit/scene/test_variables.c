@@ -105,9 +105,10 @@ static void wrong_ones_are_refused(void **state)
         {"a: b/2", "2:3: b: 2*a + 4 mm needs b, which depends on itself"},
         {"a: a", "2:3: b: 2*a + 4 mm needs a, which depends on itself"},
         {"a: 3 s",
-         "2:3: b: 2*a + 4 mm has a time and a length about + (character 5); both are expected to have one unit"},
-        {"a: 3", "2:3: b: 2*a + 4 mm has a plain number and a length about + (character 5); both are expected to have "
-                 "one unit"},
+         "2:3: b: 2*a + 4 mm combines a time and a length by + (character 5); both are expected to have the same unit"},
+        {"a: 3",
+         "2:3: b: 2*a + 4 mm combines a plain number and a length by + (character 5); both are expected to have "
+         "the same unit"},
         {"aa: 3 mm", "2:3: b: 2*a + 4 mm has an unknown name a; the nearest variable is aa"},
         {"a: 3 mm\n  a: 2 mm", "4:3: a: given twice, first in line 3; keep one"},
         {"a: 3 mm\n  s: 1", "4:3: s: is a unit in expressions; another name is expected, as s1"},

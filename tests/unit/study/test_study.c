@@ -55,7 +55,7 @@ static void wrong_values_are_refused(void **state)
         {"a=1:2:0", "1:2:0: from:to:step"},
         {"a=1:2:-1", "from:to:step"},
         {"a=1mm:2cm:1mm", "one unit is expected"},
-        {"a=0:1:1e-9", "in less than 10000 steps"},
+        {"a=0:1:1e-9", "in fewer than 10000 steps"},
     };
     struct varied_key k;
     for (size_t b = 0; b < COUNT_OF(bad); b++) assert_refused(varied_key_read(&k, bad[b].text), bad[b].message);

@@ -1,0 +1,112 @@
+/* Warnings of pre-cracks that have no effect, and of probes of cracks where nothing can break. */
+#include <math.h>
+
+#include "engine_internal.h"
+
+enum { ALONG = 32 }; /* positions along a segment, or along each of two sides of a triangle, of a crack */
+
+/* Returns true if pre-cracks have cut a bond. */
+static bool bonds_are_cut(const struct bonds *b)
+{
+    for (int64_t row = 0; row < b->rows; row++)
+        for (struct bond_iterator it = bonds_of_row(b, row); bond_next(&it);)
+            if (it.bond.inverse_length < 0) return true;
+    return false;
+}
+
+/* Returns true if a crack may cut a bond of length `reach` [m] of a particle. */
+static bool crack_meets_particles(const struct crack *c, const struct particles *p, real reach)
+{
+    bool meets = false;
+    for (int64_t i = 0; i < p->n && !meets; i++) {
+        real X[DIM_MAX];
+        particle_place(p, i, X);
+        meets = crack_may_cut_near(c, X, reach, p->dim);
+    }
+    return meets;
+}
+
+/* Returns the distance of X from its nearest particle [m]. */
+static real particle_distance(const struct particles *p, const real *X)
+{
+    real least2 = INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        real r2 = 0;
+        for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
+        least2 = real_min(least2, r2);
+    }
+    return sqrt(least2);
+}
+
+/* Returns the least distance of a crack from a particle [m], from positions on the segments of a line, or on the
+ * triangles from the first corner of a polygon. */
+static real crack_distance(const struct crack *c, const struct particles *p)
+{
+    real least = INFINITY;
+    const bool polygon = p->dim > 2 && c->n > 2;
+    for (int k = polygon ? 2 : 1; k < c->n; k++) {
+        const real *from = c->corner[polygon ? 0 : k - 1], *one = c->corner[polygon ? k - 1 : k], *two = c->corner[k];
+        for (int a = 0; a <= ALONG; a++)
+            for (int b = 0; b <= (polygon ? ALONG - a : 0); b++) {
+                real X[DIM_MAX];
+                for (int d = 0; d < p->dim; d++)
+                    X[d] = from[d] + (a * (one[d] - from[d]) + b * (two[d] - from[d])) / ALONG;
+                least = real_min(least, particle_distance(p, X));
+            }
+    }
+    return least;
+}
+
+/* Returns true if the box round a crack is farther than `reach` from the box low to high [dim, m]. */
+static bool crack_box_apart(const struct crack *c, const real *low, const real *high, int dim, real reach)
+{
+    bool apart = false;
+    for (int d = 0; d < dim; d++) {
+        real from = INFINITY, to = -INFINITY;
+        for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
+        apart |= from > high[d] + reach || to < low[d] - reach;
+    }
+    return apart;
+}
+
+/* Warns of the first pre-cracks that are farther from all particles than `reach`, the length of bonds [m]. Of many
+ * cracks only boxes are compared. Returns true if there are any. */
+static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
+{
+    enum { SEARCHED = 16, NAMED = 3 };
+    real low[DIM_MAX], high[DIM_MAX];
+    int far = 0;
+    for (int d = 0; d < s->dim && s->cracks > 0; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    for (int k = 0; k < s->cracks && s->dim > 1 && far < NAMED; k++) {
+        const struct crack *c = &s->crack[k];
+        if (s->cracks > SEARCHED ? !crack_box_apart(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
+            continue;
+        far++;
+        warnings_add(
+            to,
+            "crack %d is outside of every body, %.3g m from the nearest particle, and has no effect: check its "
+            "coordinates and their unit (mm?)",
+            k + 1, crack_distance(c, p));
+    }
+    return far > 0;
+}
+
+/* Warns of probes of crack tips and first breaks in a run in which no bond can break and no crack is grown. */
+static void warn_of_unbreakable(const struct scene *s, struct warnings *to)
+{
+    const bool breaks = s->method != METHOD_MPM && (scene_bonds_break(s) || s->growths > 0);
+    for (int k = 0; k < s->probes && !breaks; k++)
+        if (s->probe[k].kind == PROBE_TIP || s->probe[k].kind == PROBE_BREAK)
+            warnings_add(to, "probe %s: no bond can break, as %s: the probe will have no result", s->probe[k].name,
+                         s->method == METHOD_MPM ? "method mpm has no bonds (use pd or adaptive)"
+                                                 : "no material has an energy_release_rate, toughness or "
+                                                   "critical_stretch");
+}
+
+void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,
+                           struct warnings *to)
+{
+    warn_of_unbreakable(s, to);
+    if (s->method == METHOD_MPM || s->cracks == 0 || warn_of_far_cracks(s, p, reach, to)) return;
+    if (!bonds_are_cut(b)) warnings_add(to, "the pre-cracks cut no bond: check that they are inside the body");
+}
