@@ -106,7 +106,10 @@ static ALWAYS_INLINE void point_yield(struct particles *p, const struct elastic 
     p->plastic_strain[i] += more;
     if (keeps_zz) p->out_of_plane[i] = zz;
     for (int c = 0; c < n; c++) p->stress[c][i] = stress[c];
-    if (!(stress_principal(stress, dim) > point_trigger(m, p, i))) p->flag[i] &= (uint8_t)~FLAG_STRESSED;
+    if (!(p->flag[i] & FLAG_STRESSED)) return;
+    const real trigger = point_trigger(m, p, i);
+    if (!(stress_bound(stress, dim) > trigger && stress_principal(stress, dim) > trigger))
+        p->flag[i] &= (uint8_t)~FLAG_STRESSED;
 }
 
 /* Adds the displacements `step` [m] to the positions of the points of stencil s. Returns a bit mask: bit k is set if

@@ -16,6 +16,8 @@
 /* Rotation angle of a step above which the exact rotation replaces the two-term one, whose error is a sixth of the cube
  * of the angle [rad]. */
 #define SPIN_SMALL 1e-3
+/* Rotation angle of a step up to which power series give the exact rotation to round-off [rad]. */
+#define SPIN_SERIES 0.0625
 /* Rotation angle of a step below which one term is enough [rad]: stresses grow by the square of the angle, 1e-4 in 1e5
  * steps. */
 #define SPIN_NONE 3e-5
@@ -72,6 +74,28 @@ static ALWAYS_INLINE void stress_spin(const row_of_points *s, const row_of_point
     more[5] = w[2] * (s[0] - s[2]) + w[0] * s[4] - w[1] * s[3];
 }
 
+/* Computes the change of the stress of a few points by an exact rotation, each by its own angle up to SPIN_SERIES.
+ * angle2: square of the angle [rad^2]. With A s = W s - s W, whose eigenvalues are 0, +-i a and +-2i a at the angle a,
+ *     R s R^T = s + c1 A s + c2 A^2 s + c3 A^3 s + c4 A^4 s,
+ *     c1 = (8 sin a - sin 2a)/6a, c2 = (15 - 16 cos a + cos 2a)/12a^2,
+ *     c3 = (2 sin a - sin 2a)/6a^3, c4 = (3 - 4 cos a + cos 2a)/12a^4. */
+static ALWAYS_INLINE void stress_turn(const row_of_points *s, const row_of_points *w, const row_of_points angle2,
+                                      row_of_points *more, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    const row_of_points c[4] = {1 + angle2 * angle2 * (-1.0 / 30 + angle2 * (1.0 / 252 - angle2 * (1.0 / 4320))),
+                                0.5 + angle2 * angle2 * (-1.0 / 180 + angle2 * (1.0 / 2016 - angle2 * (1.0 / 43200))),
+                                1.0 / 6 + angle2 * (-1.0 / 24 + angle2 * (1.0 / 240 - angle2 * (17.0 / 72576))),
+                                1.0 / 24 + angle2 * (-1.0 / 144 + angle2 * (1.0 / 1920 - angle2 * (17.0 / 725760)))};
+    row_of_points sum[SYM_MAX];
+    for (int k = 0; k < n; k++) sum[k] = c[3] * s[k];
+    for (int power = 2; power >= 0; power--) {
+        stress_spin(sum, w, more, dim);
+        for (int k = 0; k < n; k++) sum[k] = c[power] * s[k] + more[k];
+    }
+    stress_spin(sum, w, more, dim);
+}
+
 /* Rotates the stress s of a few points (one per lane), each by its own antisymmetric matrix W with components w [rad]:
  * to first order for angles below SPIN_NONE, exactly above SPIN_SMALL, to second order between. */
 static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w, const int dim)
@@ -86,7 +110,12 @@ static ALWAYS_INLINE void stress_rotate(row_of_points *s, const row_of_points *w
         stress_spin(middle, w, second, dim);
         for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_NONE * SPIN_NONE - angle2, second[c], more[c]);
     }
-    const int large = points_signs(SPIN_SMALL * SPIN_SMALL - angle2);
+    if (__builtin_expect(points_signs(SPIN_SMALL * SPIN_SMALL - angle2), 0)) {
+        row_of_points exact[SYM_MAX];
+        stress_turn(s, w, angle2, exact, dim);
+        for (int c = 0; c < n; c++) more[c] = points_choose(SPIN_SMALL * SPIN_SMALL - angle2, exact[c], more[c]);
+    }
+    const int large = points_signs(SPIN_SERIES * SPIN_SERIES - angle2);
     for (int k = 0; k < POINTS && __builtin_expect(large, 0); k++) {
         real turned[SYM_MAX];
         if (!(large >> k & 1)) continue;

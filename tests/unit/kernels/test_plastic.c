@@ -206,6 +206,31 @@ static void test_rotation(void **state)
     }
 }
 
+/* Compares rotations by power series with R s R^T by sine and cosine, about any axis, up to and beyond SPIN_SERIES. */
+static void test_rotation_by_series(void **state)
+{
+    (void)state;
+    static const real angle[] = {1.1e-3, 5e-3, 0.02, 0.05, 0.0624, 0.0626, 0.3};
+    uint64_t seed = 8;
+    for (int dim = 2; dim <= 3; dim++)
+        for (size_t k = 0; k < COUNT_OF(angle); k++)
+            for (int times = 0; times < 100; times++) {
+                const int n = symmetric_count(dim);
+                real s[SYM_MAX], axis[3] = {1}, size = 0;
+                row_of_points turned[SYM_MAX], w[3];
+                for (int c = 0; c < 3 && dim == 3; c++) axis[c] = cloud_between(&seed, -1, 1);
+                for (int c = 0; c < 3; c++) size += square(axis[c]);
+                for (int c = 0; c < 3; c++) axis[c] *= angle[k] / sqrt(size), w[c] = points_of(axis[c]);
+                for (int c = 0; c < n; c++) turned[c] = points_of(s[c] = cloud_between(&seed, -1, 1));
+                stress_rotate(turned, w, dim);
+                if (dim == 2)
+                    stress_rotate_2d(s, axis[0]);
+                else
+                    stress_rotate_3d(s, axis[0], axis[1], axis[2]);
+                for (int c = 0; c < n; c++) assert_near(turned[c][0], s[c], 2e-15); /* some roundings of each */
+            }
+}
+
 /* ---- one space against another ----------------------------------------------------------------------------------- */
 
 /* Plane strain agrees with eps_zz = 0 in 3D, along an irregular path with spin. */
@@ -427,6 +452,7 @@ int main(void)
         cmocka_unit_test(test_conditions),
         cmocka_unit_test(test_unloading),
         cmocka_unit_test(test_rotation),
+        cmocka_unit_test(test_rotation_by_series),
         cmocka_unit_test(test_plane_strain_is_solid),
         cmocka_unit_test(test_plane_stress_is_solid),
         cmocka_unit_test(test_bilinear_law),
