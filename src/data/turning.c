@@ -130,86 +130,111 @@ static bool on_grid(const struct particles *p, int32_t i)
     return p->kind[i] == KIND_MPM && !(p->flag[i] & FLAG_MESHED);
 }
 
-/* Loop over the members i of group g that are on the grid. */
-#define FOR_POINTS(t, g, p, i)                                                                                         \
-    for (int64_t m = (g)->first; m < (g)->end; m++)                                                                    \
-        for (int32_t i = (t)->member[m], once = on_grid(p, i); once; once = 0)
+/* Loop over the members i of group g that are on the grid; all: all members are. */
+#define FOR_POINTS(t, g, p, i, all)                                                                                    \
+    for (int64_t m = (g)->first, last = (g)->end; m < last; m++)                                                       \
+        for (int32_t i = (t)->member[m], once = (all) || on_grid(p, i); once; once = 0)
+
+/* Returns true if all members of group g are on the grid, by the count of sum_mass. */
+static ALWAYS_INLINE bool all_on_grid(const struct turning_group *g) { return g->points == g->end - g->first; }
+
+/* Loop over the components c of spins: in 2D z alone. */
+#define FOR_SPINS(c, dim) for (int c = (dim) == 2 ? 2 : 0; c < 3; c++)
 
 /* Sums points, mass and first moment of group g. */
-static void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+static ALWAYS_INLINE void sum_mass(const struct turning_groups *t, struct turning_group *g, const struct particles *p,
+                                   const int dim)
 {
-    g->points = 0, g->mass = 0;
-    memset(g->moment, 0, sizeof g->moment);
-    FOR_POINTS(t, g, p, i)
+    real mass = 0, moment[DIM_MAX] = {0};
+    int32_t points = 0;
+    FOR_POINTS(t, g, p, i, false)
     {
-        g->points++, g->mass += p->mass[i];
-        for (int d = 0; d < p->dim; d++) g->moment[d] += p->mass[i] * p->x[d][i];
+        points++, mass += p->mass[i];
+        for (int d = 0; d < dim; d++) moment[d] += p->mass[i] * p->x[d][i];
     }
+    g->points = points, g->mass = mass;
+    memcpy(g->moment, moment, sizeof moment);
 }
 
 /* Sums the angular momentum that the points of group g have lost in the transfer to nodes and back (t->turn). */
-static void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+static ALWAYS_INLINE void sum_lack(const struct turning_groups *t, struct turning_group *g, const struct particles *p,
+                                   const int dim)
 {
-    memset(g->sum, 0, sizeof g->sum);
-    FOR_POINTS(t, g, p, i)
-    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) g->sum[c] += t->turn[c][i];
+    real sum[3] = {0};
+    const bool all = all_on_grid(g);
+    FOR_POINTS(t, g, p, i, all)
+    FOR_SPINS(c, dim) sum[c] += t->turn[c][i];
+    memcpy(g->sum, sum, sizeof sum);
 }
 
-/* Computes the vector r from the centre of mass of `root`, the group that others have joined, to point i [m]. */
-static void arm_of(const struct particles *p, int32_t i, const struct turning_group *root, real *r)
+/* Computes the arm r of point i about the centre of mass `centre` [m]. */
+static ALWAYS_INLINE void arm_of(const struct particles *p, int32_t i, const real *centre, real *r, const int dim)
 {
-    for (int d = 0; d < DIM_MAX; d++) r[d] = d < p->dim ? p->x[d][i] - root->moment[d] : 0;
+    for (int d = 0; d < DIM_MAX; d++) r[d] = d < dim ? p->x[d][i] - centre[d] : 0;
 }
 
-/* Adds the angular momentum of point i with arm r to `sum`. */
-static void spin_add(const struct particles *p, int32_t i, const real *r, real *sum)
+/* Adds the angular momentum of a point with mass m, arm r and velocity v to `sum`. */
+static ALWAYS_INLINE void spin_add(real m, const real *r, const real *v, real *sum, const int dim)
 {
-    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) {
+    FOR_SPINS(c, dim)
+    {
         const int a = (c + 1) % 3, b = (c + 2) % 3;
-        sum[c] += p->mass[i] * (r[a] * p->v[b][i] - r[b] * p->v[a][i]);
+        sum[c] += m * (r[a] * v[b] - r[b] * v[a]);
     }
 }
 
 /* Sums tensor of inertia and angular momentum of the points of group g about the centre of mass of its root, the group
  * that it has joined. */
-static void sum_inertia(const struct turning_groups *t, struct turning_group *g, const struct particles *p)
+static ALWAYS_INLINE void sum_inertia(const struct turning_groups *t, struct turning_group *g,
+                                      const struct particles *p, const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
-    real sum[3][3] = {{0}}, r[DIM_MAX];
-    memset(g->sum, 0, sizeof g->sum);
-    FOR_POINTS(t, g, p, i)
+    const real centre[DIM_MAX] = {root->moment[0], root->moment[1], root->moment[2]};
+    real inertia[3][3] = {{0}}, sum[3] = {0}, r[DIM_MAX], v[DIM_MAX] = {0};
+    const bool all = all_on_grid(g);
+    FOR_POINTS(t, g, p, i, all)
     {
-        arm_of(p, i, root, r);
-        spin_add(p, i, r, g->sum);
+        const real mass = p->mass[i];
+        arm_of(p, i, centre, r, dim);
+        for (int d = 0; d < dim; d++) v[d] = p->v[d][i];
+        spin_add(mass, r, v, sum, dim);
         for (int a = 0; a < 3; a++)
-            for (int b = 0; b <= a; b++) sum[a][b] += p->mass[i] * ((a == b ? dot(r, r, 3) : 0) - r[a] * r[b]);
+            for (int b = 0; b <= a; b++) inertia[a][b] += mass * ((a == b ? dot(r, r, 3) : 0) - r[a] * r[b]);
     }
-    memcpy(g->inertia, sum, sizeof sum);
+    memcpy(g->sum, sum, sizeof sum);
+    memcpy(g->inertia, inertia, sizeof inertia);
 }
 
 /* Adds the rotation root->spin of the root of group g, the group that it has joined, to the velocities of the points of
  * group g, and sums their angular momentum about the root's centre of mass. */
-static void spin_apply(const struct turning_groups *t, struct turning_group *g, struct particles *p)
+static ALWAYS_INLINE void spin_apply(const struct turning_groups *t, struct turning_group *g, struct particles *p,
+                                     const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
-    real r[DIM_MAX];
-    memset(g->sum, 0, sizeof g->sum);
-    FOR_POINTS(t, g, p, i)
+    const real centre[DIM_MAX] = {root->moment[0], root->moment[1], root->moment[2]};
+    const real spin[3] = {root->spin[0], root->spin[1], root->spin[2]};
+    real sum[3] = {0}, r[DIM_MAX], v[DIM_MAX] = {0};
+    const bool all = all_on_grid(g);
+    FOR_POINTS(t, g, p, i, all)
     {
-        arm_of(p, i, root, r);
-        for (int d = 0; d < p->dim; d++)
-            p->v[d][i] += root->spin[(d + 1) % 3] * r[(d + 2) % 3] - root->spin[(d + 2) % 3] * r[(d + 1) % 3];
-        spin_add(p, i, r, g->sum);
+        arm_of(p, i, centre, r, dim);
+        for (int d = 0; d < dim; d++)
+            p->v[d][i] = v[d] = p->v[d][i] + (spin[(d + 1) % 3] * r[(d + 2) % 3] - spin[(d + 2) % 3] * r[(d + 1) % 3]);
+        spin_add(p->mass[i], r, v, sum, dim);
     }
+    memcpy(g->sum, sum, sizeof sum);
 }
 
 /* Stores the angular velocity of the root of group g, the group that it has joined, in t->turn for all points of group
  * g. */
-static void spins_store(struct turning_groups *t, const struct turning_group *g, const struct particles *p)
+static ALWAYS_INLINE void spins_store(struct turning_groups *t, const struct turning_group *g,
+                                      const struct particles *p, const int dim)
 {
     const struct turning_group *root = &t->group[g->root];
-    FOR_POINTS(t, g, p, i)
-    for (int c = p->dim == 2 ? 2 : 0; c < 3; c++) t->turn[c][i] = root->spin[c];
+    const real spin[3] = {root->spin[0], root->spin[1], root->spin[2]};
+    const bool all = all_on_grid(g);
+    FOR_POINTS(t, g, p, i, all)
+    FOR_SPINS(c, dim) t->turn[c][i] = spin[c];
 }
 
 /* ---- groups ------------------------------------------------------------------------------------------------------ */
@@ -314,24 +339,33 @@ static void inertias_find(struct turning_groups *t, real spacing, int dim)
     }
 }
 
-#define EACH_GROUP(CALL) TEAM_LOOP(t->groups > 16, for (int32_t g = 0; g < t->groups; g++) CALL;)
+/* Calls SUM for each group, with the number of dimensions as a constant. */
+#define EACH_GROUP_OF(SUM, t, p, dim)                                                                                  \
+    TEAM_LOOP((t)->groups > 16, for (int32_t g = 0; g < (t)->groups; g++) SUM(t, &(t)->group[g], p, dim);)
+#define EACH_GROUP(SUM, t, p)                                                                                          \
+    do {                                                                                                               \
+        if ((p)->dim == 2)                                                                                             \
+            EACH_GROUP_OF(SUM, t, p, 2);                                                                               \
+        else                                                                                                           \
+            EACH_GROUP_OF(SUM, t, p, 3);                                                                               \
+    } while (0)
 
 void turning_compute_spins(struct turning_groups *t, struct particles *p, real spacing)
 {
-    EACH_GROUP(sum_mass(t, &t->group[g], p));
+    EACH_GROUP(sum_mass, t, p);
     few_join(t);
     centres_find(t);
-    EACH_GROUP(sum_inertia(t, &t->group[g], p));
+    EACH_GROUP(sum_inertia, t, p);
     inertias_find(t, spacing, p->dim);
     spins_find(t, p->dim);
-    EACH_GROUP(spins_store(t, &t->group[g], p));
+    EACH_GROUP(spins_store, t, p);
 }
 
 void turning_restore_spins(struct turning_groups *t, struct particles *p)
 {
-    EACH_GROUP(sum_lack(t, &t->group[g], p));
+    EACH_GROUP(sum_lack, t, p);
     spins_find(t, p->dim); /* gain of spin */
-    EACH_GROUP(spin_apply(t, &t->group[g], p));
+    EACH_GROUP(spin_apply, t, p);
     spins_find(t, p->dim); /* spin */
-    EACH_GROUP(spins_store(t, &t->group[g], p));
+    EACH_GROUP(spins_store, t, p);
 }
