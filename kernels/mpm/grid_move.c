@@ -5,13 +5,29 @@
 #include "kernels/dashpot.h"
 #include "kernels/kernels.h"
 
+/* Calls CALL(I, dimensions) for all nodes I of grid g, with the number of dimensions as a constant: nodes fill the
+ * lanes of vectors. */
+#define NODES_OF(D, CALL)                                                                                              \
+    case D:                                                                                                            \
+        _Pragma("omp parallel for simd schedule(static)") for (int64_t I = 0; I < g->n; I++) CALL(I, D);               \
+        break;
+#define EACH_NODE(CALL)                                                                                                \
+    switch (g->dim) {                                                                                                  \
+        NODES_OF(1, CALL)                                                                                              \
+        NODES_OF(2, CALL)                                                                                              \
+        NODES_OF(3, CALL)                                                                                              \
+    }
+
+static ALWAYS_INLINE void node_clear(struct grid *g, int64_t I, const int dim)
+{
+    g->mass[I] = 0;
+    for (int d = 0; d < dim; d++) g->momentum[d][I] = g->force[d][I] = 0;
+}
+
 void grid_clear(struct grid *g)
 {
-#pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < g->n; I++) {
-        g->mass[I] = 0;
-        for (int d = 0; d < g->dim; d++) g->momentum[d][I] = g->force[d][I] = 0;
-    }
+#define CLEAR(I, D) node_clear(g, I, D)
+    EACH_NODE(CLEAR)
 }
 
 /* Sets one velocity component of a node to the velocity that the wall w prescribes; the reaction replaces the force,
@@ -220,20 +236,25 @@ static void grid_absorb_again(struct grid *g)
         }
 }
 
+/* Computes the velocity of node I and its change, which replaces the force; clears the momentum. Nodes lighter than
+ * smallest_mass [kg] get none. */
+static ALWAYS_INLINE void node_advance(struct grid *g, int64_t I, real dt_velocity, real smallest_mass, const int dim)
+{
+    const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
+    for (int d = 0; d < dim; d++) {
+        const real change = g->force[d][I] * (dt_velocity * inverse);
+        g->force[d][I] = change;
+        g->velocity[d][I] = g->momentum[d][I] * inverse + change;
+        g->momentum[d][I] = 0;
+    }
+}
+
 void grid_advance(struct grid *g, enum transfer transfer, real dt_velocity, real smallest_mass)
 {
     grid_mirror_nodes_gather(g, transfer, dt_velocity);
     followers_in(g, transfer, smallest_mass);
-#pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < g->n; I++) {
-        const bool moves = g->mass[I] >= smallest_mass;
-        const real inverse = moves ? 1 / g->mass[I] : 0;
-        for (int d = 0; d < g->dim; d++) {
-            g->force[d][I] *= dt_velocity * inverse;
-            g->velocity[d][I] = g->momentum[d][I] * inverse + g->force[d][I];
-            g->momentum[d][I] = 0;
-        }
-    }
+#define ADVANCE(I, D) node_advance(g, I, dt_velocity, smallest_mass, D)
+    EACH_NODE(ADVANCE)
     grid_absorb(g, dt_velocity, smallest_mass);
 }
 
@@ -245,17 +266,21 @@ void grid_constrain(struct grid *g, enum transfer transfer, real smallest_mass, 
     grid_mirror_nodes_spread(g, transfer, impulse);
 }
 
+/* Replaces the momentum of node I by its velocity. */
+static ALWAYS_INLINE void node_remapped(struct grid *g, int64_t I, real smallest_mass, const int dim)
+{
+    const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
+    for (int d = 0; d < dim; d++) g->momentum[d][I] *= inverse;
+}
+
 void grid_remapped(struct grid *g, real smallest_mass)
 {
     for (int64_t k = 0; k < g->mirror_nodes; k++)
         for (int d = 0; d < g->dim; d++)
             g->momentum[d][g->mirror_node[k].image] +=
                 g->mirror_node[k].sign[d] * g->momentum[d][g->mirror_node[k].node];
-#pragma omp parallel for schedule(static)
-    for (int64_t I = 0; I < g->n; I++) {
-        const real inverse = g->mass[I] >= smallest_mass ? 1 / g->mass[I] : 0;
-        for (int d = 0; d < g->dim; d++) g->momentum[d][I] *= inverse;
-    }
+#define REMAPPED(I, D) node_remapped(g, I, smallest_mass, D)
+    EACH_NODE(REMAPPED)
     grid_absorb_again(g);
     for (int64_t k = 0; k < g->walls; k++) g->momentum[g->wall[k].component][g->wall[k].node] = g->wall[k].velocity;
     for (int64_t k = 0; k < g->mirror_nodes; k++)

@@ -3,8 +3,7 @@
  *
  *     m_I = sum m N,   P_I = sum m v N,   f_I = sum (N f - V sigma_given . grad N)
  *
- * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate, whose L is turn_slope
- * (turn.h).
+ * with v + L (x_I - x_p) in place of v for APIC (Jiang et al. 2015) and for points that rotate (turn_slopes).
  *
  * Zeng et al. 2022, eqs. 33-36, with sums over all nodes of a point. Reads about 120 bytes per point in 2D; the nodes
  * of a block stay in cache. */
@@ -60,20 +59,13 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
     return transfer == TRANSFER_APIC || (dim > 1 && t->turn[2] && !t->momentum_only);
 }
 
-/* Returns the derivative of velocity component d along axis e with which point i extrapolates its velocity to nodes
- * [1/s]. */
-static ALWAYS_INLINE real slope_given(const struct particles *p, const struct transfer_data *t, int64_t i, int d, int e,
-                                      const int dim, const enum transfer transfer)
-{
-    if (transfer == TRANSFER_APIC) return p->gradient[d * dim + e][i];
-    return turn_slope(t, i, d, e, 0.5, dim);
-}
-
 /* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
- * row, equal for all rows, are computed once. */
+ * row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil, by which they
+ * extrapolate their velocity to nodes, from turn_slopes [1/s]; not read for APIC, nor where points do not rotate. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
-                                       const struct transfer_data *t, const struct cell_stencil *s, int at,
-                                       const int dim, const enum shape shape, const enum transfer transfer)
+                                       const struct transfer_data *t, const struct cell_stencil *s,
+                                       const row_of_points *turn, int at, const int dim, const enum shape shape,
+                                       const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
@@ -90,10 +82,12 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
     real slope[DIM_MAX][DIM_MAX] = {{0}};
     const bool continued = continues(t, dim, transfer);
     for (int k = 0; k < dim * (dim + 1) / 2; k++) pull[k] = stress[k] * row.N;
+#pragma GCC unroll 3
     for (int d = 0; d < dim; d++) {
         row_of_nodes speed = row_of(p->v[d][i]);
+#pragma GCC unroll 3
         for (int e = 0; e < dim && continued; e++) {
-            slope[d][e] = slope_given(p, t, i, d, e, dim, transfer);
+            slope[d][e] = transfer == TRANSFER_APIC ? p->gradient[d * dim + e][i] : turn[d * dim + e][at];
             if (e < along) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
         }
         momentum[d] = mass * speed;
@@ -146,9 +140,11 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
         const int points = at_once(n - k, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
+        row_of_points turn[DIM_MAX * DIM_MAX];
+        if (transfer == TRANSFER_FLIP && continues(t, dim, transfer)) turn_slopes(t, s.point, 0.5 * t->dt, turn, dim);
         for (int at = 0; at < points; at++) {
             p2g_fetch(p, list, k + at, dim, transfer);
-            p2g_particle(sum, g, p, t, &s, at, dim, shape, transfer);
+            p2g_particle(sum, g, p, t, &s, turn, at, dim, shape, transfer);
         }
     }
     FOR_ROWS(dim, shape)

@@ -74,22 +74,19 @@ SHAPE_VARIANTS_TURNING(GATHER)
 /* Sums of momentum over the points of a cell for every node that they reach, by rows of four nodes [kg m/s]. */
 typedef row_of_nodes cell_rows[DIM_MAX][ROWS_MAX];
 
-/* Adds the momentum m N (v + w x (x_I - x_p)) of point `at` of stencil s to the sums of its cell, to second order in w
- * dt (turn.h). w: spin of the group of the point, in t->turn [1/s]. */
+/* Adds the momentum m N (v + L (x_I - x_p)) of point `at` of stencil s to the sums of its cell. slope: velocity
+ * gradients L of the points of the stencil, from turn_slopes [1/s]. */
 static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g, const struct particles *p,
-                                             const struct transfer_data *t, const struct cell_stencil *s, int at,
+                                             const row_of_points *slope, const struct cell_stencil *s, int at,
                                              const int dim, const enum shape shape)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
     const row_of_nodes mass = p->mass[i] * stencil_touch(s, at, g->h, dim, shape).N;
-    real slope[DIM_MAX][DIM_MAX] = {{0}};
     row_of_nodes momentum[DIM_MAX];
-    for (int d = 0; d < dim; d++)
-        for (int e = 0; e < dim; e++) slope[d][e] = turn_slope(t, i, d, e, -0.5, dim);
     for (int d = 0; d < dim; d++) {
         row_of_nodes speed = row_of(p->v[d][i]);
-        for (int e = 0; e < along; e++) speed += slope[d][e] * stencil_along(s, at, g->h, e, dim, shape);
+        for (int e = 0; e < along; e++) speed += slope[d * dim + e][at] * stencil_along(s, at, g->h, e, dim, shape);
         momentum[d] = mass * speed;
     }
     FOR_TOUCHED(s, at, dim, shape)
@@ -98,7 +95,7 @@ static ALWAYS_INLINE void turn_scatter_point(cell_rows sum, const struct grid *g
         for (int d = 0; d < dim; d++) {
             row_of_nodes given = momentum[d];
             for (int e = along; e < dim; e++)
-                given += mass * (slope[d][e] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
+                given += mass * (slope[d * dim + e][at] * stencil_across(s, at, g->h, e, e == 1 ? k1 : k2, dim, shape));
             sum[d][PATCH(dim, shape)] += weight * given;
         }
     }
@@ -118,7 +115,9 @@ static ALWAYS_INLINE void turn_scatter_cell(const struct grid *g, const struct p
         const int points = at_once(n - k, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
-        for (int at = 0; at < points; at++) turn_scatter_point(sum, g, p, t, &s, at, dim, shape);
+        row_of_points slope[DIM_MAX * DIM_MAX];
+        turn_slopes(t, s.point, -0.5 * t->dt, slope, dim);
+        for (int at = 0; at < points; at++) turn_scatter_point(sum, g, p, slope, &s, at, dim, shape);
     }
     FOR_ROWS(dim, shape)
     for (int d = 0; d < dim; d++)

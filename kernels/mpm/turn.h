@@ -3,19 +3,29 @@
 #define CLEAVE_KERNELS_TURN
 
 #include "kernels/kernels.h"
+#include "row.h"
 
-/* Returns the derivative of velocity component d along axis e by which point i extrapolates its velocity to nodes
- * [1/s]. It follows from the spin w of the point's group, t->turn. The leap-frog velocity v = (x' - x)/dt is along a
- * chord of the circle of rotation: v = w x r - share dt w x (w x r). share: 1/2 for r at the position x' at the end of
- * the step, -1/2 at its start x. Without the second-order term rotating bodies shrink: a square by 0.2 % per turn at
- * 4000 1/s. */
-static ALWAYS_INLINE real turn_slope(const struct transfer_data *t, int64_t i, int d, int e, const real share,
-                                     const int dim)
+/* Returns the derivative of velocity component d along axis e by which a few points extrapolate their velocity to nodes
+ * [1/s], from the spins w of their groups [1/s]. The leap-frog velocity v = (x' - x)/dt is along a chord of the circle
+ * of rotation: v = w x r - part w x (w x r). part: dt/2 for r at the position x' at the end of the step, -dt/2 at its
+ * start x [s]. Without the second-order term rotating bodies shrink: a square by 0.2 % per turn at 4000 1/s. */
+static ALWAYS_INLINE row_of_points turn_slope(const row_of_points *w, const real part, int d, int e, const int dim)
 {
-    if (dim == 2) return d == e ? share * t->dt * square(t->turn[2][i]) : d < e ? -t->turn[2][i] : t->turn[2][i];
-    const real part = -share * t->dt * t->turn[d][i] * t->turn[e][i];
-    if (d != e) return part + (e == (d + 1) % 3 ? -t->turn[3 - d - e][i] : t->turn[3 - d - e][i]);
-    return part + share * t->dt * (square(t->turn[0][i]) + square(t->turn[1][i]) + square(t->turn[2][i]));
+    if (dim == 2) return d == e ? part * (w[2] * w[2]) : d < e ? -w[2] : w[2];
+    const row_of_points mixed = -part * w[d] * w[e];
+    if (d != e) return mixed + (e == (d + 1) % 3 ? -w[3 - d - e] : w[3 - d - e]);
+    return mixed + part * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+}
+
+/* Computes the velocity gradients of a few points that rotate with their groups, slope[d dim + e] = dv_d/dx_e [1/s].
+ * part: as in turn_slope [s]. */
+static ALWAYS_INLINE void turn_slopes(const struct transfer_data *t, const int32_t *point, const real part,
+                                      row_of_points *slope, const int dim)
+{
+    row_of_points w[3];
+    for (int c = dim == 2 ? 2 : 0; c < 3; c++) w[c] = points_load(t->turn[c], point, dim);
+#pragma GCC unroll 9
+    for (int k = 0; k < dim * dim; k++) slope[k] = turn_slope(w, part, k / dim, k % dim, dim);
 }
 
 #endif

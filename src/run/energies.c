@@ -194,23 +194,35 @@ static real out_of_plane_energy(const struct strain_sum *s, int64_t i)
            (2 * s->m[s->p->material[i]].young) * s->p->volume[i];
 }
 
+/* Returns twice the strain energy density of point i [J/m^3]: the stress that it transmits times the strain of its
+ * stress. The material is isotropic: normal stresses cause normal strains alone. */
+static ALWAYS_INLINE real strain_density(const struct strain_sum *s, int64_t i, const int dim)
+{
+    const int n = dim * (dim + 1) / 2;
+    const real *compliance = s->compliance[s->p->material[i]];
+    real stress[SYM_MAX], given[SYM_MAX], sum = 0;
+    for (int a = 0; a < n; a++) stress[a] = s->p->stress[a][i];
+    stress_given(s->p, s->partial, i, given, dim);
+    for (int a = 0; a < dim; a++) {
+        real strain = 0;
+        for (int b = 0; b < dim; b++) strain += compliance[a * n + b] * stress[b];
+        sum += given[a] * strain;
+    }
+    for (int a = dim; a < n; a++) sum += 2 * given[a] * (compliance[a * n + a] * stress[a]); /* twice in the tensor */
+    return sum;
+}
+
 /* Returns the strain energy of the k-th listed particle if it is a material point, else 0 [J]. */
 static real strain_term(const void *context, int64_t k)
 {
     const struct strain_sum *s = context;
     const struct particles *p = s->p;
-    int64_t i = s->list[k];
-    int n = symmetric_count(p->dim);
+    const int64_t i = s->list[k];
     if (p->kind[i] != KIND_MPM) return 0;
-    real stress[SYM_MAX], given[SYM_MAX], sum = 0;
-    for (int a = 0; a < n; a++) stress[a] = p->stress[a][i];
-    stress_given(p, s->partial, i, given, p->dim);
-    for (int a = 0; a < n; a++) {
-        real strain = 0, times = a < p->dim ? 1 : 2; /* a shear component occurs twice in the tensor */
-        for (int b = 0; b < n; b++) strain += s->compliance[p->material[i]][a * n + b] * stress[b];
-        sum += times * given[a] * strain;
-    }
-    return 0.5 * sum * p->volume[i] + out_of_plane_energy(s, i);
+    const real twice = p->dim == 1   ? strain_density(s, i, 1)
+                       : p->dim == 2 ? strain_density(s, i, 2)
+                                     : strain_density(s, i, 3);
+    return 0.5 * twice * p->volume[i] + out_of_plane_energy(s, i);
 }
 
 real points_strain_energy_of_list(const struct particles *p, const struct material *m,
