@@ -9,6 +9,7 @@
 #include "tests/support/reference_points.h"
 #include "tests/support/same.h"
 #include "tests/support/sets.h"
+#include "kernels/mpm/plastic.h"
 #include "kernels/mpm/shape.h"
 #include "base/team.h"
 
@@ -99,7 +100,8 @@ static void scene_make(struct scene *s, const struct choice *k, real spin)
     uint64_t seed = 77;
     memset(s, 0, sizeof *s);
     s->dim = k->dim;
-    s->optional = (k->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0) | (k->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0);
+    s->optional = WITH_PLASTIC | (k->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0) |
+                  (k->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0);
     struct cloud_plan plan = {.space = space[k->dim], .horizon = 3, .shake = 0.3, .seed = 8, .optional = s->optional};
     memcpy(plan.count, count[k->dim], sizeof plan.count);
     cloud_make(&s->c, &plan);
@@ -443,6 +445,45 @@ static void spread_case(const struct choice *k)
 
 static void test_spread(void **state) { (void)state, for_all(spread_case); }
 
+/* ---- yielding ---------------------------------------------------------------------------------------------------- */
+
+/* Compares a point that has yielded with the return of the stress of an elastic step, strain: its plastic strain before
+ * the step. Returns true if it has yielded. */
+static bool check_yielded(const struct scene *s, const struct particles *elastic, int64_t i, real strain)
+{
+    const struct particles *p = &s->c.p;
+    const struct elastic *m = &s->elastic[p->material[i]];
+    const int n = symmetric_count(s->dim);
+    real stress[SYM_MAX], none = 0;
+    for (int c = 0; c < n; c++) stress[c] = elastic->stress[c][i];
+    const real more = m->yield > 0 ? plastic_return(m, stress, strain, &none) : 0;
+    const real largest = reference_principal(stress, s->dim);
+    assert_true(fabs(largest - m->trigger) > 1e-9 * m->trigger); /* no tie that round-off could decide */
+    assert_int_equal((p->flag[i] & FLAG_STRESSED) != 0, largest > m->trigger);
+    assert_true(fabs(p->plastic_strain[i] - strain - more) <= CLOSE);
+    for (int c = 0; c < n; c++) assert_true(fabs(p->stress[c][i] - stress[c]) <= CLOSE * 1e8);
+    return more > 0;
+}
+
+/* Points of one of two materials yield as plastic_return says, and are marked by the stress that remains. */
+static void yields_case(const struct choice *k)
+{
+    static const enum space space[] = {SPACE_LINE, SPACE_LINE, SPACE_PLANE_STRESS, SPACE_SOLID};
+    struct scene s, elastic;
+    real impulse[DIM_MAX] = {0}, work = 0;
+    int64_t yielded = 0;
+    scene_make(&s, k, 200), scene_make(&elastic, k, 200);
+    s.elastic[0].yield = 6e7, s.elastic[0].hardening = 3e9, s.elastic[0].space = space[k->dim];
+    for (int64_t i = 0; i < s.c.p.n; i++) s.c.p.plastic_strain[i] = 1e-3 * (real)(i % 7);
+    scene_step(&s, k, impulse, &work), scene_step(&elastic, k, impulse, &work);
+    for (int64_t i = 0; i < s.c.p.n; i++)
+        if (s.c.p.kind[i] == KIND_MPM) yielded += check_yielded(&s, &elastic.c.p, i, 1e-3 * (real)(i % 7));
+    assert_true(yielded > 0 && yielded < s.order.n);
+    scene_free(&s), scene_free(&elastic);
+}
+
+static void test_yielding(void **state) { (void)state, for_all(yields_case); }
+
 /* ---- threads ----------------------------------------------------------------------------------------------------- */
 
 static void same_bits(const struct choice *k)
@@ -466,6 +507,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_steps),    cmocka_unit_test(test_conserved), cmocka_unit_test(test_linear_field),
         cmocka_unit_test(test_rotation), cmocka_unit_test(test_spread),    cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_yielding),
     };
     team_set_threads(2);
     int failures = 0;
