@@ -23,10 +23,11 @@
 #define TRANSFER_JOB(D, S, T)                                                                                          \
     {P2G, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},                                      \
         {G2P, D, .shape = SHAPE_##S, .transfer = TRANSFER_##T, .variant = #S " " #T},
+#define YIELDING_JOBS(D) {G2P_YIELDS, D, .shape = SHAPE_LINEAR, .transfer = TRANSFER_FLIP, .variant = "LINEAR FLIP"},
 #define TRANSFER_JOBS(D, S) TRANSFER_VARIANTS(TRANSFER_JOB, D, S)
 
-static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(DIM_JOBS)
-                                          SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS)};
+static const struct job all_jobs[] = {PD_VARIANTS(BOND_JOBS) STATE_VARIANTS(BOND_JOBS) DIM_VARIANTS(
+    DIM_JOBS) SHAPE_VARIANTS(SHAPE_JOBS) SHAPE_VARIANTS(TRANSFER_JOBS) DIM_VARIANTS(YIELDING_JOBS)};
 
 /* ---- bodies ------------------------------------------------------------------------------------------------------ */
 
@@ -74,7 +75,7 @@ static status ground_make(struct ground *g, int dim)
     static const char points_of[] = "shape: cpgimp, transfer: apic", mesh[] = "frame: reference";
     TRY(kernels_body_make(&g->engine[BONDS], &g->scene[BONDS], dim, "pd", "bond", points_of, "", false));
     TRY(kernels_body_make(&g->engine[YIELDING], &g->scene[YIELDING], dim, "pd", "bond", points_of, "", true));
-    TRY(kernels_body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, "", false));
+    TRY(kernels_body_make(&g->engine[POINTS], &g->scene[POINTS], dim, "mpm", "bond", points_of, "", true));
     if (dim > 1)
         TRY(kernels_body_make(&g->engine[STATES], &g->scene[STATES], dim, "pd", "mospd", points_of, "", false));
     TRY(kernels_body_make(&g->engine[MESH], &g->scene[MESH], dim, "mpm", "bond", mesh, "", false));
@@ -106,6 +107,32 @@ static struct run *bonds_of(const struct job *j, struct ground *g)
     return &g->engine[j->model >= PD_OSPD ? STATES : j->model == PD_BOND_PLASTIC ? YIELDING : BONDS];
 }
 
+/* Moves the points. yields: as they are of a material that yields, else of an elastic one. */
+static void g2p_call(const struct job *j, struct run *e, bool yields)
+{
+    struct elastic material = e->tables.elastic[0];
+    struct transfer_data t = e->grid->transfer;
+    if (!yields) material.yield = 0;
+    t.elastic = &material;
+    g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &t);
+}
+
+/* Stresses all points beyond their yield stress: a call maps their stress back. */
+static void points_stress(struct run *e)
+{
+    const real yield = e->tables.elastic[0].yield;
+    for (int64_t i = 0; i < e->part.n; i++) e->part.plastic_strain[i] = 0;
+    for (int c = 0; c < symmetric_count(e->part.dim); c++)
+        for (int64_t i = 0; i < e->part.n; i++) e->part.stress[c][i] = c == 0 ? 2 * yield : 0.1 * yield;
+}
+
+/* Updates the pairs in contact; changed: 1 as after particles have changed, which requires a search, else 0. */
+static void faces_update(struct run *e, int changed)
+{
+    contact_update(e->contact, &e->part, &e->bonds, &e->loads, &e->source.family, 0, e->contact->broken,
+                   e->contact->changed + changed);
+}
+
 static void job_call(const struct job *j, struct ground *g)
 {
     struct run *pd = bonds_of(j, g), *e = &g->engine[POINTS], *m = &g->engine[MESH], *cut = &g->engine[CUT];
@@ -133,7 +160,8 @@ static void job_call(const struct job *j, struct ground *g)
         remap_table[j->dim][j->shape](&e->grid->field[0].grid, &e->part, &e->grid->transfer);
         break;
     case G2P:
-        g2p_table[j->dim][j->shape][j->transfer](&e->grid->field[0].grid, &e->part, &e->grid->transfer);
+    case G2P_YIELDS:
+        g2p_call(j, e, j->kind == G2P_YIELDS);
         break;
     case SPREAD:
         spread_table[j->dim][j->shape](&e->grid->field[0].grid, &e->part, e->grid->transfer.half_width, g->list,
@@ -155,12 +183,10 @@ static void job_call(const struct job *j, struct ground *g)
         mesh_move(&m->frame->mesh, 1e-12, 1e-12, impulse, &work);
         break;
     case CONTACT_SEARCH:
-        contact_update(cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact->broken,
-                       cut->contact->changed + 1);
+        faces_update(cut, 1);
         break;
     case CONTACT_FORCE:
-        contact_update(cut->contact, &cut->part, &cut->bonds, &cut->loads, &cut->source.family, 0, cut->contact->broken,
-                       cut->contact->changed);
+        faces_update(cut, 0);
         contact_force(cut->contact, &cut->part, 0);
         break;
     default:
@@ -172,6 +198,7 @@ static void job_call(const struct job *j, struct ground *g)
 static void job_time(struct job *j, struct ground *g)
 {
     for (int k = 0; k < 2; k++) {
+        if (j->kind == G2P_YIELDS) points_stress(&g->engine[POINTS]);
         double start = wall_clock();
         job_call(j, g);
         j->seconds = fmin(j->seconds, wall_clock() - start);
@@ -253,8 +280,9 @@ static double job_bytes(const struct job *j, struct ground *g)
     case REMAP:
         return 4 + r * (3 * dim + 1 + stretch) + node * 3 * dim;
     case G2P:
-        return 6 + r * (2 * dim + 2 + 2 * symmetric + 2 * stretch + apic * (dim + dim * dim)) +
-               node * dim * (apic ? 1 : 2);
+    case G2P_YIELDS: /* plastic strain, read and written */
+        return (j->kind == G2P_YIELDS ? 2 * r : 0) + 6 +
+               r * (2 * dim + 2 + 2 * symmetric + 2 * stretch + apic * (dim + dim * dim)) + node * dim * (apic ? 1 : 2);
     case SPREAD:
         return 4 + r * (dim + 1 + stretch) + node * 2;
     case GRID_CLEAR:

@@ -16,6 +16,7 @@ enum job_kind {
     P2G,
     REMAP,
     G2P,
+    G2P_YIELDS, /* all points are stressed beyond their yield stress */
     SPREAD,
     GRID_CLEAR,
     GRID_MOVE,

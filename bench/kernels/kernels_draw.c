@@ -7,9 +7,9 @@
 #include "contact/contact.h"
 
 static const char *const job_name[JOB_KINDS] = {
-    "bond_force", "bond_energy", "bond_stress",    "pd_move",      "p2g",           "remap",
-    "g2p",        "spread",      "grid_clear",     "grid_move",    "grid_remapped", "mesh_clear",
-    "mesh_force", "mesh_move",   "contact_search", "contact_force"};
+    "bond_force", "bond_energy", "bond_stress", "pd_move",        "p2g",          "remap",
+    "g2p",        "g2p_yields",  "spread",      "grid_clear",     "grid_move",    "grid_remapped",
+    "mesh_clear", "mesh_force",  "mesh_move",   "contact_search", "contact_force"};
 
 /* ---- output ------------------------------------------------------------------------------------------------------ */
 

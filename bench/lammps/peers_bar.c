@@ -1,0 +1,73 @@
+/* The copper Taylor bar of `cleave bench peers`: material points of the current frame beside MPM3D-F90, whose time is a
+ * record of measurements on another machine. */
+#include <math.h>
+#include <stdio.h>
+
+#include "bench/common/bench.h"
+#include "bench/lammps/peers_bar.h"
+#include "base/team.h"
+
+enum { ROUNDS = 3, BARS = 2 };
+
+/* Time of MPM3D-F90 [ns per point and step]: this bar, linear shapes, MUSL, von Mises, one core of a machine with two
+ * cores and AVX-512, gfortran 12, alternating with Cleave on that machine. */
+#define MPM3D_FASTEST 253.0
+#define MPM3D_SLOWEST 296.0
+#define MPM3D_DATE "November 2026"
+
+/* Times of one bar. */
+struct bar_result {
+    const char *name;
+    double particles, steps, seconds; /* processor time of the fastest run [s] */
+};
+
+/* Runs a cylinder of copper that hits a rigid wall at 190 m/s, a plane of symmetry, for 80 us (quick: coarse,
+ * for 8 us), and keeps the shortest processor time,
+ * which other programs disturb least. yields: von Mises with linear hardening; else elastic. */
+static status bar_run(struct bar_result *r, bool yields, bool quick)
+{
+    struct scene s;
+    struct run e;
+    char text[1024];
+    snprintf(text, sizeof text,
+             "name: bar\nspace: solid\nduration: %s\nmethod: mpm\n"
+             "material: {young: 117 GPa, poisson: 0.35, density: 8930%s}\n"
+             "particles: {spacing: %s}\n"
+             "body: {cylinder: {from: [0, 0, 0], to: [0, 0, 25.4 mm], radius: 3.8 mm}}\n"
+             "boundary: [{mirror: {axis: z, at: 0}}]\ninitial: [{velocity: [0, 0, -190]}]\n"
+             "mpm: {shape: linear, transfer: flip}\noutput: {frames: 0}\n",
+             quick ? "8 us" : "80 us", yields ? ", yield_stress: 157 MPa, yield_hardening: 425 MPa" : "",
+             quick ? "0.76 mm" : "0.38 mm");
+    TRY(bench_engine_make(&e, &s, "bar", text, NULL, 0));
+    const double start = thread_cpu_clock();
+    const status ran = engine_run(&e);
+    r->seconds = fmin(r->seconds, thread_cpu_clock() - start);
+    r->particles = (double)e.part.n, r->steps = (double)e.clock.steps;
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+status peers_bar(bool quick)
+{
+    struct bar_result bar[BARS] = {{"yields", 0, 0, INFINITY}, {"elastic", 0, 0, INFINITY}};
+    struct bench_table t;
+    for (int r = 0; r < (quick ? 1 : ROUNDS); r++)
+        for (int k = 0; k < BARS; k++) TRY(bar_run(&bar[k], k == 0, quick));
+    bench_table_make(&t, "", "bar,particles,steps,ns_per_particle_step");
+    printf("  copper Taylor bar, points of the current frame, linear shapes, one core, processor time\n"
+           "  %-10s %9s %6s %17s\n",
+           "", "particles", "steps", "ns/particle/step");
+    for (int k = 0; k < BARS; k++) {
+        const double each = 1e9 * bar[k].seconds / bar[k].particles / bar[k].steps;
+        printf("  %-10s %9.0f %6.0f %17.1f\n", bar[k].name, bar[k].particles, bar[k].steps, each);
+        bench_text(&t, bar[k].name);
+        bench_number(&t, bar[k].particles), bench_number(&t, bar[k].steps), bench_number(&t, each);
+    }
+    printf(
+        "  MPM3D-F90, the bar that yields: %.0f to %.0f, not measured here but on two cores with AVX-512 in " MPM3D_DATE
+        "\n\n",
+        MPM3D_FASTEST, MPM3D_SLOWEST);
+    const status s = bench_write("peers_bar", &t, 1);
+    bench_table_free(&t);
+    return s;
+}
