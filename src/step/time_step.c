@@ -12,6 +12,9 @@
 
 /* ---- material points --------------------------------------------------------------------------------------------- */
 
+/* Returns true if cells have about two points per direction. */
+static bool two_per_cell(const struct scene *s) { return fabs(s->cell - 2) < 0.3; }
+
 /* Returns the critical step of points on a grid over h/(c + |v|), for n points per cell and direction [1].
  * Empirical: slightly below the least limit measured over all positions of the points in their cells, which a moving
  * body passes through. With FLIP and MUSL the limit hardly depends on the mass of nodes beyond an edge; with APIC,
@@ -25,7 +28,7 @@ static real points_share(const struct scene *s)
     switch (s->shape) {
     case SHAPE_LINEAR:
         if (n < 1.5) return s->dim == 1 ? 0.48 : 0.42;
-        return (fabs(n - 2) < 0.3 ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
+        return (two_per_cell(s) ? 0.52 : 0.62) * (1 + 0.4 * (s->dim - 1));
     case SHAPE_QUADRATIC:
         return apic ? 0.75 : 1.8;
     case SHAPE_CUBIC:
@@ -39,11 +42,13 @@ static real points_share(const struct scene *s)
  * have the stiffness c11 + (dim - 1) c12, waves have c11: the ratio approaches 2 in the plane and 3 in space as nu
  * approaches 1/2. The limits of points_share were measured up to a ratio of 5/3 (nu = 1/4 in space); beyond, they
  * are reduced by the root of the ratio. From nu = 0.25 to 0.499 in space, measured limits fall to 0.80 (FLIP) and
- * 0.76 (APIC), and the root gives 0.75. */
+ * 0.76 (APIC), and the root gives 0.75. Linear shapes with two points per cell and direction are limited by points on
+ * nodes at any ratio: 1.01 to 1.07 h/c in space from nu = 0.25 to 0.499, 0.84 to 0.88 in plane strain. */
 static real volume_share(const struct scene *s, const struct material_tables *tables)
 {
     const real observed = 5.0 / 3;
     real most = observed;
+    if (two_per_cell(s) && s->shape == SHAPE_LINEAR) return 1;
     for (int m = 0; m < s->materials; m++)
         most = real_max(most, 1 + (s->dim - 1) * tables->elastic[m].c12 / tables->elastic[m].c11);
     return sqrt(observed / most);
