@@ -24,6 +24,7 @@ static const struct bench benches[] = {
     {"scale=finest", bench_growth_finest, true, "the same at the finest spacing"},
     {"scale=field", bench_far_field, false, "coarse cells and absorbing faces far from a crack"},
     {"peers", bench_peers, false, "the same plate and block in LAMMPS"},
+    {"peers=bar", bench_bar, false, "a copper Taylor bar beside the recorded time of MPM3D-F90"},
     {"accuracy", bench_accuracy, false, "error against computing time; accuracy=PROBLEM, =chart, =auto: a part"},
     {"stability", bench_stability, false, "largest stable time steps; stability=lasting, =CASE: a part"},
     {"sensitivity", bench_sensitivity, false, "scatter of crack paths with the time step"},

@@ -252,6 +252,10 @@ status bench_far_field(bool quick);
 /* Compares a block and a plate in Cleave and in LAMMPS, if `lmp` is installed (bench_peers.c). */
 status bench_peers(bool quick);
 
+/* Times a copper Taylor bar of material points that yields and one that does not, prints both beside the recorded time
+ * of MPM3D-F90 and writes peers_bar.csv (peers_bar.c). Returns FAILED if a run or a file fails. */
+status bench_bar(bool quick);
+
 /* Compares the observed critical time step with the predicted one for every method, and runs scenes in which methods
  * fail, with their thresholds and remedies (bench_stability.c). */
 status bench_stability(bool quick);

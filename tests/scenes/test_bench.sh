@@ -103,6 +103,8 @@ awk -F, 'NR > 1 { near = $10 < 0.02 && $11 < 0.02 }
     $1 == "bonds everywhere" { next }
     ($2 < 3 && NR > 1 && !near) || ($2 == 4 && near) || ($2 > 0 && $3 == 0 && $4 > 0.1 * $5) || ($9 < 1.2e5 && NR > 1) { bad = 1 }
     END { exit bad }' scale_field.csv || fail "figures of scale_field.csv"
+[ "$(head -1 peers_bar.csv)" = bar,particles,steps,ns_per_particle_step ] && awk -F, 'NR > 1 && !($2 > 2000 && $4 > 0) { bad = 1 }
+    END { exit bad || NR != 3 }' peers_bar.csv || fail "figures of peers_bar.csv"
 cd ../..
 # Beside LAMMPS, particle by particle, where it is installed.
 if command -v lmp >/dev/null; then
