@@ -40,10 +40,12 @@ struct run_report {
     struct {
         real inactive;
         int64_t step;
-    } sampled;                             /* inactive and step at the last sample */
-    double loop_seconds;                   /* time in the loop without output [s] */
-    double loop_before;                    /* loop_seconds of processes before a restart [s] */
-    double began, started;                 /* wall-clock times of the start of the process, and of its first step [s] */
+    } sampled;             /* inactive and step at the last sample */
+    double setup_seconds;  /* wall-clock time before the first step, without files [s] */
+    double output_seconds; /* wall-clock time of files before and after the loop [s]; in the loop: TIMER_OUTPUT */
+    double loop_seconds;   /* time in the loop without output [s] */
+    double loop_before;    /* loop_seconds of processes before a restart [s] */
+    double began, started; /* wall-clock times of the start of the process, and of its first step [s] */
     double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
     double checkpoint_seconds;             /* longest time that a checkpoint took [s] */
     int64_t step_started;                  /* number of the first step of this process */

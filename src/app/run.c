@@ -87,7 +87,9 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     double start = wall_clock();
     engine_say_size(s);
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
+    const double made = wall_clock();
     TRY(open_folder(out, s, a));
+    e->report->output_seconds = wall_clock() - made;
     e->report->quiet = a->quiet;
     engine_warn_of_input(e);
     const struct levels_choice levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical);
@@ -104,11 +106,14 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
     output_temporal_remove(out);
+    e->report->setup_seconds = wall_clock() - start - e->report->output_seconds;
     status ran = engine_run(e);
     if (ran == OK) ran = engine_run_baseline(e);
     if (ran == OK || ran == INTERRUPTED) {
+        const double listed = wall_clock();
         const status temporal = output_write_temporal(out, s->text);
         if (temporal != OK) ran = temporal;
+        e->report->output_seconds += wall_clock() - listed;
     }
     struct error_bar bar[ERROR_BARS_MOST];
     e->report->bar = bar;

@@ -98,15 +98,19 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run. */
-static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads, double wall_seconds)
+/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run; output_seconds: of
+ * files within the loop. */
+static void put_machine(struct json *j, const struct run_report *r, int64_t steps, double output_seconds, int threads,
+                        double wall_seconds)
 {
     real updates = 0, ns = 1e9 * r->loop_seconds;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_current_kernels()->name);
     json_number(j, "wall_seconds", wall_seconds, JSON_TIMING);
+    json_number(j, "setup_seconds", r->setup_seconds, JSON_TIMING);
     json_number(j, "loop_seconds", r->loop_seconds, JSON_TIMING);
+    json_number(j, "output_seconds", r->output_seconds + output_seconds, JSON_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
@@ -132,7 +136,7 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->summary) (*p)->summary(e, &j);
     if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
-    put_machine(&j, e->report, e->clock.step, threads, wall_seconds);
+    put_machine(&j, e->report, e->clock.step, e->timers.spent[TIMER_OUTPUT], threads, wall_seconds);
     put_timers(&j, &e->timers);
     fputs("\n}\n", file);
 }

@@ -188,14 +188,17 @@ status report_start(struct run *e)
     r->loop_before = r->loop_seconds;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
-    TRY(sample_start(e, resumed));
-    if (!r->out) return OK;
-    contact_allocate_forces(e->contact, &e->part);
-    if (resumed) return say_lost(r->out, &e->probing->probes, &e->warnings);
-    profiles_remove(&e->probing->probes, r->out);
-    TRY(write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) |
-                            1)); /* frame 0 of the body is always written */
-    return write_checkpoint(e);
+    status s = sample_start(e, resumed);
+    if (s == OK && r->out) contact_allocate_forces(e->contact, &e->part);
+    if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
+    if (s == OK && r->out && !resumed) {
+        profiles_remove(&e->probing->probes, r->out);
+        /* frame 0 of the body is always written */
+        s = write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) | 1);
+        if (s == OK) s = write_checkpoint(e);
+    }
+    r->output_seconds += wall_clock() - r->started;
+    return s;
 }
 
 /* ---- progress ---------------------------------------------------------------------------------------------------- */
@@ -283,7 +286,12 @@ status report_step(struct run *e)
 
 status report_end(struct run *e)
 {
+    struct run_report *r = e->report;
+    const double ended = wall_clock();
     progress(e, true);
-    if (e->report->out) TRY(output_wait(e->report->out));
-    return e->report->out && e->clock.step > e->report->step_started ? write_checkpoint(e) : OK;
+    if (!r->out) return OK;
+    TRY(output_wait(r->out));
+    if (e->clock.step > r->step_started) TRY(write_checkpoint(e));
+    r->output_seconds += wall_clock() - ended;
+    return OK;
 }

@@ -25,8 +25,8 @@ static const struct figure_group {
 } groups[] = {
     {"",
      "steps time_step time_step_critical time_end particles particles_made particles_pd_start particles_pd_end "
-     "bonds_peak momentum_error angular_momentum_error threads wall_seconds loop_seconds memory_peak_bytes "
-     "ns_per_particle_step ns_per_bond_step inactive_share",
+     "bonds_peak momentum_error angular_momentum_error threads wall_seconds setup_seconds loop_seconds "
+     "output_seconds memory_peak_bytes ns_per_particle_step ns_per_bond_step inactive_share",
      NULL, NULL},
     {"levels", "changes", NULL, NULL},
     {"solver", "steps residual bonds_past_limit", scene_at_rest, "`solver: relaxation` or `cg`"},

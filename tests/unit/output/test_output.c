@@ -434,6 +434,7 @@ static void summary_has_the_figures(void **state)
     open_fresh(&o, "summary", false);
     run_parts_make(e);
     e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report->loop_seconds = 1e-3;
+    e->report->setup_seconds = 0.5, e->report->output_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
     e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->report->particle_steps[KIND_PD] = 1000;
     e->diagnostics->break_time = NAN;
@@ -458,6 +459,8 @@ static void summary_has_the_figures(void **state)
                                        "\"y\": 2",
                                        "\"ns_per_particle_step\": 1000",
                                        "\"threads\": 2",
+                                       "\"setup_seconds\": 0.5",
+                                       "\"output_seconds\": 2.25",
                                        "\"angle_deg\": 90"};
     for (size_t k = 0; k < COUNT_OF(part); k++)
         if (!strstr(text, part[k])) fail_msg("%s lacks %s", text, part[k]);
