@@ -51,9 +51,10 @@ static inline real surface_factor(const struct surface_weights *w, int64_t i, co
     int at = 0;
     if (w->class_of[i] == 0) return 1;
     for (int d = w->dim - 1; d >= 0; d--) {
-        const real step = nearbyint(xi[d] / w->spacing);
-        if (!(fabs(step) <= w->reach)) return 1;
-        at = at * (2 * w->reach + 1) + w->reach + (w->mirrors[i] >> d & 1 ? -(int)step : (int)step);
+        const real place = xi[d] / w->spacing;
+        if (!(fabs(place) < w->reach + 0.5)) return 1;
+        const int step = (int)(place + (place < 0 ? -0.5 : 0.5)); /* the nearest; quicker than nearbyint */
+        at = at * (2 * w->reach + 1) + w->reach + (w->mirrors[i] >> d & 1 ? -step : step);
     }
     return w->offset_at[at] < 0 ? 1 : w->factor[(int64_t)w->class_of[i] * w->offsets + w->offset_at[at]];
 }

@@ -117,6 +117,7 @@ struct regular_bonds {
     int n;              /* number of index distances */
     bool full;          /* every lane has a neighbour at every distance */
     int32_t *offset;    /* [n] index distances */
+    int16_t *number;    /* [n] numbers of these neighbours in a full family */
     uint8_t *from, *to; /* [n] first and last lane with a neighbour at the distance */
     uint8_t *bonds;     /* [n] bit l: lane l has a bond at the distance: one of both particles is peridynamic */
     struct stencil_cache *stencil_cache;

@@ -86,12 +86,12 @@ static bool sites_fill(struct site_map *l, const struct particles *p)
     return regular;
 }
 
-/* Returns true if the positions along an axis, in units of the last place of the largest, are whole multiples of one
- * step: neighbours then have exactly equal distances everywhere. */
+/* Returns true if the positions of the body along an axis, in units of the last place of the largest, are whole
+ * multiples of one step: neighbours then have exactly equal distances everywhere. */
 static bool axis_exact(const struct site_map *l, const struct particles *p, int d)
 {
     real low, high;
-    particles_extent(p, p->n_all, d, &low, &high);
+    particles_extent(p, p->n, d, &low, &high);
     const real power = exp2(ceil(log2(real_max(fabs(low), fabs(high))))), unit = power * 0x1p-53,
                site_map = nearbyint((high - low) / l->spacing);
     if (site_map == 0) return low == high;
@@ -99,22 +99,21 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     const int64_t from = (int64_t)(low / unit), step = ((int64_t)(high / unit) - from) / (int64_t)site_map;
     bool exact = true;
 #pragma omp parallel for schedule(static) reduction(&& : exact)
-    for (int64_t i = 0; i < p->n_all; i++) {
+    for (int64_t i = 0; i < p->n; i++) {
         const real place = p->X[d][i] / unit, k = nearbyint((p->X[d][i] - low) / l->spacing);
         exact = exact && place == (real)(int64_t)place && (int64_t)place - from == (int64_t)k * step;
     }
     return exact;
 }
 
-/* Returns true if all particles have the same volume, mass and material, and positions that are exact multiples of a
- * step: equal distances are then equal to the last bit. */
+/* Returns true if all particles of the body have one volume, mass and material, and exact positions; regular_bonds
+ * leaves out images. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
 #pragma omp parallel for schedule(static) reduction(&& : same)
-    for (int64_t i = 0; i < p->n_all; i++)
-        same = same && p->volume0[i] == p->volume0[0] && p->material[i] == p->material[0] &&
-               (i >= p->n || p->mass[i] == p->mass[0]);
+    for (int64_t i = 0; i < p->n; i++)
+        same = same && p->volume0[i] == p->volume0[0] && p->material[i] == p->material[0] && p->mass[i] == p->mass[0];
     for (int d = 0; d < p->dim && same; d++) same = axis_exact(l, p, d);
     return same;
 }
@@ -174,10 +173,10 @@ int site_map_find_neighbours(const struct site_map *l, const struct particles *p
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: of particle i; row: the
- * lattice row relative to it. Returns false if the indices of the particles on the row are not consecutive. */
+/* Appends the bonds of particles i .. i + 7 along one lattice row, whose first site is number `number` of a full
+ * family. Returns false if the particles there are not consecutive. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
-                      int64_t i, struct regular_bonds *to)
+                      int64_t i, int number, struct regular_bonds *to)
 {
     const int32_t *line = l->at + site + row->site - row->half;
     int first = 0, last = 2 * row->half + LANES - 1;
@@ -190,6 +189,7 @@ static bool row_bonds(const struct site_map *l, const struct particles *p, int64
         const int from = first - k > 0 ? first - k : 0, to_lane = last - k < LANES - 1 ? last - k : LANES - 1;
         if (from > to_lane || (row->site == 0 && k == row->half)) continue;
         if (base + k < 0 || base + k + LANES > p->n_all) return false;
+        to->number[to->n] = (int16_t)(number + k - (row->site == 0 && k > row->half));
         to->offset[to->n] = (int32_t)(base + k - i);
         to->from[to->n] = (uint8_t)from, to->to[to->n++] = (uint8_t)to_lane;
     }
@@ -207,10 +207,13 @@ static bool is_full(const struct regular_bonds *b)
 bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to)
 {
     const int64_t site = lattice_site_of(l, p, i);
+    int number = 0;
     to->n = 0;
     if (l->at[site + LANES - 1] - l->at[site] != LANES - 1) return false;
-    for (int k = 0; k < l->rows; k++)
-        if (!row_bonds(l, p, site, &l->row[k], i, to)) return false;
+    for (int k = 0; k < l->rows; k++) {
+        if (!row_bonds(l, p, site, &l->row[k], i, number, to)) return false;
+        number += 2 * l->row[k].half + (l->row[k].site != 0);
+    }
     to->full = is_full(to);
     if (to->full) return columns_by_offset(to->n, to->n);
     int bonds[LANES] = {0}, longest = 0;
@@ -223,6 +226,7 @@ bool regular_bonds_find(const struct site_map *l, const struct particles *p, int
 void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
 {
     to->offset = NEW("site_map.offset", l->most, int32_t);
+    to->number = NEW("site_map.number", l->most, int16_t);
     to->from = NEW("site_map.from", l->most, uint8_t);
     to->to = NEW("site_map.to", l->most, uint8_t);
     to->bonds = NEW("site_map.bonds", l->most, uint8_t);
@@ -232,6 +236,7 @@ void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
 void regular_bonds_free(struct regular_bonds *to)
 {
     memory_free(to->offset);
+    memory_free(to->number);
     memory_free(to->from);
     memory_free(to->to);
     memory_free(to->bonds);

@@ -19,46 +19,123 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 }
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
-/* Returns the hash of the surroundings (colour) of neighbour j, reflected by the axes in `mirrors`. colour: 2^dim
- * consecutive hashes for each particle near a face, one for each set of mirrors. Returns 1 without a particle (j < 0),
- * 2 for a particle near no face. */
-static uint64_t colour_seen(const struct near_faces *b, const uint64_t *colour, int32_t j, int mirrors)
+/* Returns random word k: step k of Splitmix64 (Steele, Lea, Flood 2014). */
+static uint64_t random_word(uint64_t k)
+{
+    uint64_t z = (k + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return z ^ z >> 31;
+}
+
+/* ---- kinds of particles ------------------------------------------------------------------------------------------ */
+
+/* Kinds of particles: those of one kind have equal surroundings without any mirror, some families deep. Each kind has
+ * 2^dim consecutive colours (hashes of the surroundings), one for each set of mirrors. Kinds are numbered in the order
+ * of their first particle. */
+struct kinds {
+    int32_t n, *of;   /* number of kinds; [near n] kind of a particle */
+    int64_t *first;   /* [n] first particle of a kind */
+    uint64_t *colour; /* [n 2^dim] */
+};
+
+static void kinds_free(struct kinds *s)
+{
+    memory_free(s->of);
+    memory_free(s->first);
+    memory_free(s->colour);
+}
+
+/* Makes one kind of all particles. */
+static void kinds_start(struct kinds *s, const struct near_faces *b)
+{
+    *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
+    s->first = NEW("surface.kind", 1, int64_t);
+    s->colour = NEW("surface.kind", 1 << b->offset.dim, uint64_t);
+    for (int m = 0; m < 1 << b->offset.dim; m++) s->colour[m] = HASH_START;
+}
+
+/* Returns the hash of the kinds of particle t and its neighbours: the sum of their products with random words, one for
+ * each offset. */
+static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, const uint64_t *factor, int64_t t)
+{
+    uint64_t sum = (uint64_t)s->of[t] + 1;
+    for (int k = 0; k < b->offset.n; k++) {
+        const int32_t j = neighbour_of(b, t, k);
+        uint64_t word = 0;
+        if (j >= 0) {
+            const struct seen seen = mirrored_source_of(b, j);
+            const int32_t near = b->place[seen.particle];
+            word = near < 0 ? 1 : 2 + ((uint64_t)s->of[near] << 3) + (uint64_t)seen.mirrors;
+        }
+        sum += word * factor[k];
+    }
+    return mixed(HASH_START, sum ^ sum >> 32);
+}
+
+/* Returns the colour of neighbour j seen in `mirrors`. */
+static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
     const struct seen seen = mirrored_source_of(b, j);
     const int64_t t = b->place[seen.particle];
-    return t < 0 ? 2 : colour[(t << b->offset.dim) + (mirrors ^ seen.mirrors)];
+    return t < 0 ? 2 : s->colour[((int64_t)s->of[t] << b->offset.dim) + (mirrors ^ seen.mirrors)];
 }
 
-/* Computes the hashes of the surroundings (colours) of all particles near faces, in all reflections, in RADIUS rounds,
- * each of which includes the neighbours' hashes of the previous one. */
-static void colours(const struct near_faces *b, uint64_t *colour)
+/* Returns the colour of particle t in `mirrors` from colours one family less deep. */
+static uint64_t colour_around(const struct near_faces *b, const struct kinds *s, int64_t t, int mirrors)
 {
     const struct offsets *o = &b->offset;
-    const int64_t all = b->n << o->dim;
-    uint64_t *before = NEW("surface.colour", all, uint64_t);
-    for (int64_t k = 0; k < all; k++) colour[k] = HASH_START;
-    for (int round = 0; round < RADIUS; round++) {
-        array_copy(before, colour, all, sizeof *colour);
-#pragma omp parallel for schedule(static)
-        for (int64_t at = 0; at < all; at++) {
-            const int mirrors = (int)(at & ((1 << o->dim) - 1));
-            uint64_t hash = mixed(HASH_START, before[at]);
-            for (int k = 0; k < o->n; k++) {
-                const int32_t j = neighbour_of(b, at >> o->dim, o->mirrored[mirrors * o->n + k]);
-                hash = mixed(hash, colour_seen(b, before, j, mirrors));
-            }
-            colour[at] = hash;
-        }
-    }
-    memory_free(before);
+    uint64_t hash = mixed(HASH_START, s->colour[((int64_t)s->of[t] << o->dim) + mirrors]);
+    for (int k = 0; k < o->n; k++)
+        hash = mixed(hash, colour_seen(b, s, neighbour_of(b, t, o->mirrored[mirrors * o->n + k]), mirrors));
+    return hash;
 }
 
-/* Returns the first set of mirrors from number `from` on in which particle t has its smallest hash (colour), -1 if
- * there is none. */
-static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_t t, int from)
+/* Numbers the particles' hashes in the order of their first particle. */
+static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 {
-    const uint64_t *own = colour + (t << b->offset.dim);
+    int64_t room = 64;
+    while (room < 2 * n) room *= 2;
+    int32_t *slot = NEW("surface.slot", room, int32_t);
+    for (int64_t t = 0; t < n; t++) {
+        int64_t at = (int64_t)(hash[t] & (uint64_t)(room - 1));
+        while (slot[at] && hash[s->first[slot[at] - 1]] != hash[t]) at = (at + 1) & (room - 1);
+        if (!slot[at]) {
+            GROW("surface.kind", s->first, s->n + 1);
+            s->first[s->n++] = t, slot[at] = s->n;
+        }
+        s->of[t] = slot[at] - 1;
+    }
+    memory_free(slot);
+}
+
+/* Divides the kinds by the kinds of their neighbours, one family deeper. colours: they get colours. */
+static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
+{
+    const int dim = b->offset.dim;
+    uint64_t *hash = NEW("surface.hash", b->n, uint64_t), *factor = NEW("surface.hash", b->offset.n, uint64_t);
+    for (int k = 0; k < b->offset.n; k++) factor[k] = random_word((uint64_t)k);
+#pragma omp parallel for schedule(static)
+    for (int64_t t = 0; t < b->n; t++) hash[t] = kinds_around(b, s, factor, t);
+    struct kinds fine = {.of = NEW("surface.kind", b->n, int32_t)};
+    kinds_number(&fine, b->n, hash);
+    if (colours) fine.colour = NEW("surface.colour", (int64_t)fine.n << dim, uint64_t);
+#pragma omp parallel for schedule(static)
+    for (int64_t at = 0; at < (colours ? (int64_t)fine.n << dim : 0); at++)
+        fine.colour[at] = colour_around(b, s, fine.first[at >> dim], (int)(at & ((1 << dim) - 1)));
+    memory_free(hash);
+    memory_free(factor);
+    kinds_free(s);
+    *s = fine;
+}
+
+/* ---- classes ----------------------------------------------------------------------------------------------------- */
+
+/* Returns the first set of mirrors >= `from` in which a kind has its smallest colour, -1 if there is none. */
+static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t kind, int from)
+{
+    const uint64_t *own = s->colour + ((int64_t)kind << b->offset.dim);
     int least = 0;
     for (int k = 1; k < 1 << b->offset.dim; k++)
         if (own[k] < own[least]) least = k;
@@ -67,30 +144,44 @@ static int mirrors_of(const struct near_faces *b, const uint64_t *colour, int64_
     return -1;
 }
 
-/* Assigns particles with equal hashes (colours) to classes, numbered in the order of their first particle from 1 on. */
-static void classes_make(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
+/* Finds the classes of kinds: kinds whose smallest colours are equal are mirror images of each other. of: [kinds] */
+static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
-    const int dim = b->offset.dim;
-    int64_t room = 64;
-    while (room < 2 * b->n) room *= 2;
-    int32_t *slot = NEW("surface.slot", room, int32_t);
+    struct kinds least = {.of = of};
+    uint64_t *hash = NEW("surface.hash", s->n, uint64_t);
+    for (int32_t kind = 0; kind < s->n; kind++)
+        hash[kind] = s->colour[((int64_t)kind << b->offset.dim) + mirrors_of(b, s, kind, 0)];
+    kinds_number(&least, s->n, hash);
+    a->classes = least.n + 1;
+    a->member = NEW("surface.member", a->classes, int64_t);
+    for (int32_t class = 1; class < a->classes; class ++) a->member[class] = s->first[least.first[class - 1]];
+    memory_free(hash);
+    memory_free(least.first);
+}
+
+/* Numbers the classes in the order of their first particle, and finds the mirrors under which each is its own image. */
+static void classes_make(struct bond_classes *a, const struct near_faces *b, const struct kinds *s)
+{
+    int32_t *of = NEW("surface.class", s->n, int32_t);
+    classes_of_kinds(a, b, s, of);
     a->class_of = NEW("surface.class_of", b->n, int32_t);
     a->mirrors = NEW("surface.mirrors", b->n, uint8_t);
-    a->member = NEW("surface.member", b->n + 1, int64_t);
-    a->members = NEW("surface.members", b->n + 1, real);
-    a->classes = 1;
+    a->members = NEW("surface.members", a->classes, real);
+    a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
     for (int64_t t = 0; t < b->n; t++) {
-        a->mirrors[t] = (uint8_t)mirrors_of(b, colour, t, 0);
-        const uint64_t own = colour[(t << dim) + a->mirrors[t]];
-        int64_t at = (int64_t)(own & (uint64_t)(room - 1));
-        while (slot[at] && colour[(a->member[slot[at]] << dim) + a->mirrors[a->member[slot[at]]]] != own)
-            at = (at + 1) & (room - 1);
-        if (!slot[at]) slot[at] = a->classes, a->member[a->classes++] = t;
-        a->class_of[t] = slot[at];
-        a->members[slot[at]]++;
+        a->class_of[t] = of[s->of[t]] + 1;
+        a->mirrors[t] = (uint8_t)mirrors_of(b, s, s->of[t], 0);
+        a->members[a->class_of[t]]++;
     }
-    memory_free(slot);
+    for (int32_t class = 1; class < a->classes; class ++) {
+        const int64_t t = a->member[class];
+        for (int m = a->mirrors[t]; m >= 0; m = mirrors_of(b, s, s->of[t], m + 1))
+            a->symmetry[class] |= (uint8_t)(1 << (m ^ a->mirrors[t]));
+    }
+    memory_free(of);
 }
+
+/* ---- groups of bonds --------------------------------------------------------------------------------------------- */
 
 /* Returns the root of k in a union-find forest, with path halving. */
 static int64_t root_of(int64_t *parent, int64_t k)
@@ -118,12 +209,14 @@ static int64_t entry_of(const struct bond_classes *a, const struct near_faces *b
     return (int64_t)a->class_of[t] * b->offset.n + b->offset.mirrored[a->mirrors[t] * b->offset.n + k];
 }
 
-/* Joins the entries of both directions of every bond, unless both particles have whole families: such bonds keep factor
- * 1. */
-static void bonds_join(const struct bond_classes *a, const struct near_faces *b, int64_t *parent)
+/* Joins the entries of both directions of every bond that may change. first: [n] first particles of kinds that
+ * determine the kinds of all neighbours. */
+static void bonds_join(const struct bond_classes *a, const struct near_faces *b, const int64_t *first, int32_t n,
+                       int64_t *parent)
 {
-    for (int64_t t = 0; t < b->n; t++)
+    for (int32_t kind = 0; kind < n; kind++)
         for (int k = 0; k < b->offset.n; k++) {
+            const int64_t t = first[kind];
             const int32_t j = neighbour_of(b, t, k);
             if (j < 0 || (b->whole[b->particle[t]] && is_whole(b, j))) continue;
             const struct seen seen = mirrored_source_of(b, j);
@@ -144,30 +237,20 @@ static void twins_join(const struct bond_classes *a, const struct near_faces *b,
             }
 }
 
-/* Finds for each class the sets of mirrors under which it is its own image, one bit each in a->symmetry. */
-static void symmetries_find(struct bond_classes *a, const struct near_faces *b, const uint64_t *colour)
-{
-    a->symmetry = NEW("surface.symmetry", a->classes, uint8_t);
-    for (int32_t class = 1; class < a->classes; class ++) {
-        const int64_t t = a->member[class];
-        for (int m = a->mirrors[t]; m >= 0; m = mirrors_of(b, colour, t, m + 1))
-            a->symmetry[class] |= (uint8_t)(1 << (m ^ a->mirrors[t]));
-    }
-}
-
 void bond_classes_make(struct bond_classes *a, const struct near_faces *b)
 {
-    uint64_t *colour = NEW("surface.colour", b->n << b->offset.dim, uint64_t);
+    struct kinds kinds;
     *a = (struct bond_classes){0};
-    colours(b, colour);
-    classes_make(a, b, colour);
-    symmetries_find(a, b, colour);
+    kinds_start(&kinds, b);
+    for (int round = 0; round < RADIUS; round++) kinds_refine(&kinds, b, true);
+    classes_make(a, b, &kinds);
+    kinds_refine(&kinds, b, false);
     const int64_t entries = (int64_t)a->classes * b->offset.n;
     a->group_of = NEW("surface.group_of", entries, int64_t);
     for (int64_t k = 0; k < entries; k++) a->group_of[k] = -1;
-    bonds_join(a, b, a->group_of);
+    bonds_join(a, b, kinds.first, kinds.n, a->group_of);
     twins_join(a, b, a->group_of);
-    memory_free(colour);
+    kinds_free(&kinds);
     for (int64_t k = 0; k < entries; k++) { /* a root precedes its members */
         if (a->group_of[k] < 0) continue;
         a->group_of[k] = a->group_of[k] == k ? a->groups++ : a->group_of[a->group_of[k]];

@@ -72,32 +72,22 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
 {
     int place = 0;
     for (int d = o->dim - 1; d >= 0; d--) {
-        const real xi = (p->X[d][j] - p->X[d][i]) / spacing, step = nearbyint(xi);
-        if (!(fabs(xi - step) < 1e-6) || fabs(step) > o->reach) return -1;
-        place = place * (2 * o->reach + 1) + o->reach + (int)step;
+        const real xi = (p->X[d][j] - p->X[d][i]) / spacing;
+        if (!(fabs(xi) < o->reach + 0.5)) return -1;
+        const int step = (int)(xi + (xi < 0 ? -0.5 : 0.5)); /* the nearest; quicker than nearbyint */
+        if (!(fabs(xi - step) < 1e-6)) return -1;
+        place = place * (2 * o->reach + 1) + o->reach + step;
     }
     return o->number[place];
 }
 
 /* ---- neighbours -------------------------------------------------------------------------------------------------- */
 
-/* Returns the particle of the body of which entry j of the particle arrays is an image (j itself, if it is not an
- * image), and the mirrors in between as one bit per reversed axis. */
-struct seen mirrored_source_of(const struct near_faces *b, int64_t j)
+struct seen source_of_image(const struct near_faces *b, int64_t j)
 {
     struct seen to = {image_root(b->p, b->source->image, j), 0};
-    for (int d = 0; d < b->p->dim && j >= b->p->n; d++)
+    for (int d = 0; d < b->p->dim; d++)
         if (fabs(b->p->X[d][j] - b->p->X[d][to.particle]) > 0.25 * b->source->family.spacing) to.mirrors |= 1 << d;
-    return to;
-}
-
-struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int k)
-{
-    const int32_t j = neighbour_of(b, b->place[from->particle], b->offset.mirrored[from->mirrors * b->offset.n + k]);
-    struct seen to = {-1, 0};
-    if (j < 0) return to;
-    to = mirrored_source_of(b, j);
-    to.mirrors ^= from->mirrors;
     return to;
 }
 
@@ -134,19 +124,37 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Returns true if the site map shows that particles first .. first + 7 have whole families, with no crack or void near.
- * False means that it is not known. */
-static bool eight_whole(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
-                        int64_t first)
+/* Finds the families of eight particles from the site map. Returns false if it does not show them. */
+static bool eight_regular(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
+                          int64_t first)
 {
     if (!map->at || first + LANES > b->p->n || !regular_bonds_find(map, b->p, first, regular)) return false;
-    bool near = !regular->full || regular->n != b->offset.n;
-    for (int l = 0; l < LANES && !near; l++) near = cuts_near_particle(b->source, b->p, first + l);
+    bool near = false;
+    for (int l = 0; l < LANES && !near; l++) near = voids_near(b->source->voids, first + l);
     return !near;
 }
 
-/* Marks the particles with whole families in b->whole. Returns false if a particle is not on the lattice of its
- * neighbours. */
+/* Lists the neighbours of particle `lane` of the eight particles from `first` by offset (to [offsets]; NULL: only
+ * counted). Returns their number. */
+static int lane_neighbours(const struct near_faces *b, const struct regular_bonds *regular, int64_t first, int lane,
+                           int32_t *to)
+{
+    const struct bond_source *s = b->source;
+    const int64_t i = first + lane;
+    const bool near = cracks_near_particle(s, b->p, i);
+    int kept = 0;
+    for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
+    for (int k = 0; k < regular->n; k++) {
+        const int32_t j = (int32_t)i + regular->offset[k];
+        if (lane < regular->from[k] || lane > regular->to[k]) continue;
+        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
+        if (to) to[regular->number[k]] = j;
+        kept++;
+    }
+    return kept;
+}
+
+/* Marks whole families. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
     const int room = bonds_most_neighbours(b->source);
@@ -158,9 +166,10 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
         regular_bonds_make(&regular, map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < b->p->n; first += LANES) {
-            const bool all = eight_whole(b, map, &regular, first);
+            const bool eight = eight_regular(b, map, &regular, first);
             for (int64_t i = first; i < first + LANES && i < b->p->n; i++) {
-                const int n = all ? b->offset.n : neighbours_find(b, &search, i, NULL);
+                const int n = eight ? lane_neighbours(b, &regular, first, (int)(i - first), NULL)
+                                    : neighbours_find(b, &search, i, NULL);
                 b->whole[i] = n == b->offset.n, lattice = lattice && n >= 0;
             }
         }
@@ -170,22 +179,83 @@ static bool whole_mark(struct near_faces *b, const struct site_map *map)
     return lattice;
 }
 
-/* Lists the particles near faces, i.e. within the cutoff of a particle or image without a whole family, and their
- * neighbours by offset. Returns false if a neighbour is not on the lattice. */
-static bool near_list(struct near_faces *b, const struct site_map *map)
+/* Marks a particle of the body; several threads may mark the same one. */
+static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
+{
+    if (i >= b->p->n) return;
+#pragma omp atomic write
+    near[i] = 1;
+}
+
+/* Marks the particles near faces: those without whole families, and the neighbours of these. Images count too: their
+ * families reach into the body. */
+static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
     const int room = bonds_most_neighbours(b->source);
-    uint8_t *near = NEW("surface.near", p->n, uint8_t);
-    struct search search = {map, NEW("surface.found", room, int32_t), room};
-    for (int64_t i = 0; i < p->n_all; i++) { /* images too: their families reach into the body */
-        if (is_whole(b, i)) continue;
-        if (i < p->n) near[i] = 1;
-        const int n = find_neighbours_of(map, b->source, p, (int32_t)i, search.found, room);
-        for (int k = 0; k < n; k++)
-            if (search.found[k] < p->n) near[search.found[k]] = 1;
+#pragma omp parallel
+    {
+        int32_t *found = NEW("surface.found", room, int32_t);
+        struct regular_bonds regular;
+        regular_bonds_make(&regular, map);
+#pragma omp for schedule(static)
+        for (int64_t first = 0; first < p->n_all; first += LANES) {
+            const int64_t end = first + LANES < p->n_all ? first + LANES : p->n_all;
+            bool whole = true;
+            for (int64_t i = first; i < end; i++) whole = whole && is_whole(b, i);
+            const bool eight = !whole && eight_regular(b, map, &regular, first);
+            for (int64_t i = first; i < end && !whole; i++) {
+                if (is_whole(b, i)) continue;
+                const int l = (int)(i - first);
+                near_put(b, near, i);
+                for (int k = 0; k < regular.n && eight; k++)
+                    if (l >= regular.from[k] && l <= regular.to[k]) near_put(b, near, i + regular.offset[k]);
+                const int n = eight ? 0 : find_neighbours_of(map, b->source, p, (int32_t)i, found, room);
+                for (int k = 0; k < n; k++) near_put(b, near, found[k]);
+            }
+        }
+        regular_bonds_free(&regular);
+        memory_free(found);
     }
-    memory_free(search.found);
+}
+
+/* Lists the neighbours of all particles near faces. Returns false if one is not on the lattice. */
+static bool neighbours_list(struct near_faces *b, const struct site_map *map)
+{
+    const struct particles *p = b->p;
+    const int room = bonds_most_neighbours(b->source);
+    bool lattice = true;
+    b->neighbour = BARE("surface.neighbour", b->n * b->offset.n, int32_t);
+#pragma omp parallel reduction(&& : lattice)
+    {
+        struct search own = {map, NEW("surface.found", room, int32_t), room};
+        struct regular_bonds regular;
+        regular_bonds_make(&regular, map);
+#pragma omp for schedule(static)
+        for (int64_t first = 0; first < p->n; first += LANES) {
+            bool any = false;
+            for (int64_t i = first; i < first + LANES && i < p->n; i++) any = any || b->place[i] >= 0;
+            const bool eight = any && eight_regular(b, map, &regular, first);
+            for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+                int32_t *to = b->neighbour + (int64_t)b->place[i] * b->offset.n;
+                if (b->place[i] < 0) continue;
+                const int n =
+                    eight ? lane_neighbours(b, &regular, first, (int)(i - first), to) : neighbours_find(b, &own, i, to);
+                lattice = lattice && n >= 0;
+            }
+        }
+        regular_bonds_free(&regular);
+        memory_free(own.found);
+    }
+    return lattice;
+}
+
+/* Lists the particles near faces. Returns false if one is not on the lattice. */
+static bool near_list(struct near_faces *b, const struct site_map *map)
+{
+    const struct particles *p = b->p;
+    uint8_t *near = NEW("surface.near", p->n, uint8_t);
+    near_mark(near, b, map);
     for (int64_t i = 0; i < p->n; i++) b->n += near[i];
     b->particle = NEW("surface.particle", b->n, int32_t);
     b->place = NEW("surface.place", p->n, int32_t);
@@ -194,17 +264,7 @@ static bool near_list(struct near_faces *b, const struct site_map *map)
         if (near[i]) b->particle[t++] = (int32_t)i;
     }
     memory_free(near);
-    b->neighbour = BARE("surface.neighbour", b->n * b->offset.n, int32_t);
-    bool lattice = true;
-#pragma omp parallel reduction(&& : lattice)
-    {
-        struct search own = {map, NEW("surface.found", room, int32_t), room};
-#pragma omp for schedule(static)
-        for (int64_t t = 0; t < b->n; t++)
-            lattice = neighbours_find(b, &own, b->particle[t], b->neighbour + t * b->offset.n) >= 0 && lattice;
-        memory_free(own.found);
-    }
-    return lattice;
+    return neighbours_list(b, map);
 }
 
 /* Finds the first pair of neighbours that is not a whole number of spacings apart along each axis and not separated by

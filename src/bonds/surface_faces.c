@@ -101,8 +101,7 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* For each particle: the projection that turns axis-parallel face areas into the mean normal, and its contribution to N
- * (x) N. Both are interpolated to those of the single face where faces are not in one plane. */
+/* Of a particle with a face: projection of areas, and contribution to N (x) N. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
@@ -137,24 +136,45 @@ static real plane_of_faces(const struct offsets *o)
     return sum;
 }
 
-/* Computes N (x) N of particle t as the mean over the faces of its family, weighted by nearness, and reduced where
- * fewer faces are near than at a plane face (`plane`: sum of weights there). rotates: of a model with rotations,
- * without this reduction. */
-static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth *smooth, real plane,
+/* Particles with faces: list, and index of each particle near faces in the list, -1 if it has no face. */
+struct smooth_faces {
+    int64_t n;
+    int32_t *at;           /* [near n] */
+    struct smooth *smooth; /* [n] */
+};
+
+/* Lists the particles with faces and computes what smooth_make does for each. */
+static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
+{
+    const struct near_faces *b = raw->body;
+    *s = (struct smooth_faces){.at = BARE("surface.smooth", b->n, int32_t)};
+    for (int64_t t = 0; t < b->n; t++) {
+        bool any = false;
+        for (int d = 0; d < b->p->dim; d++) any = any || lacks(b, t, d, 0) || lacks(b, t, d, 1);
+        s->at[t] = any ? (int32_t)s->n++ : -1;
+    }
+    s->smooth = BARE("surface.smooth", s->n, struct smooth);
+#pragma omp parallel for schedule(static)
+    for (int64_t t = 0; t < b->n; t++)
+        if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
+}
+
+/* Computes the mean of N (x) N of particle t, weighted by nearness. */
+static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth_faces *s, real plane,
                            bool rotates, int64_t t)
 {
     const int dim = b->p->dim;
-    real sum[DIM_MAX][DIM_MAX], trace = 0;
-    memcpy(sum, smooth[t].square, sizeof sum);
+    real sum[DIM_MAX][DIM_MAX] = {{0}}, trace = 0;
+    if (s->at[t] >= 0) array_copy(sum, s->smooth[s->at[t]].square, 1, sizeof sum);
     for (int k = 0; k < b->offset.n; k++) {
         const int32_t j = neighbour_of(b, t, k);
         if (j < 0) continue;
         const struct seen seen = mirrored_source_of(b, j);
-        const int64_t other = b->place[seen.particle];
+        const int64_t near = b->place[seen.particle], other = near < 0 ? -1 : s->at[near];
         for (int a = 0; a < dim && other >= 0; a++)
             for (int c = 0; c < dim; c++)
                 sum[a][c] += nearness(&b->offset, k) * mirror_sign(seen.mirrors, a) * mirror_sign(seen.mirrors, c) *
-                             smooth[other].square[a][c];
+                             s->smooth[other].square[a][c];
     }
     for (int d = 0; d < dim; d++) trace += sum[d][d];
     const real near = rotates ? 1 : pow(fmin(trace / plane, 1), NEAR);
@@ -181,7 +201,7 @@ static void face_spread(struct face_targets *f, const struct near_faces *b, cons
     for (int k = 0; k <= two; k++)
         for (int d = 0; d < b->p->dim; d++)
             f->area[b->place[chain[k].particle]][d] +=
-                mirror_sign(chain[k].mirrors, d) * area[two][k] * (up ? 1 : -1) * smooth[t].project[d][axis];
+                mirror_sign(chain[k].mirrors, d) * area[two][k] * (up ? 1 : -1) * smooth->project[d][axis];
     if (rotates && length == CHAIN)
         for (int k = 0; k < CHAIN; k++) f->dipole[b->place[chain[k].particle]] += second[k];
     else if (two)
@@ -208,27 +228,27 @@ void face_targets_make(struct face_targets *f, const struct near_faces *b, bool 
 {
     const int dim = b->p->dim, most = rotates ? THIN_ROTATING : THIN;
     struct raw_faces raw = {b, (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *raw.area)};
-    struct smooth *smooth = NEW("surface.smooth", b->n, struct smooth);
+    struct smooth_faces smooth;
     f->area = (real(*)[DIM_MAX])memory_new("surface.area", b->n, sizeof *f->area);
     f->dipole = NEW("surface.dipole", b->n, real);
     f->normal2 = (real(*)[DIM_MAX][DIM_MAX])memory_new("surface.normal", b->n, sizeof *f->normal2);
     f->thin = NEW("surface.thin", b->n, uint8_t);
     for (int64_t t = 0; t < b->n; t++)
         for (int d = 0; d < dim; d++) raw.area[t][d] = (real)lacks(b, t, d, 1) - (real)lacks(b, t, d, 0);
+    smooth_faces_make(&smooth, &raw);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++) {
-        smooth_make(&smooth[t], &raw, t);
+    for (int64_t t = 0; t < b->n; t++)
         for (int d = 0; d < dim; d++) f->thin[t] = f->thin[t] || layers(b, t, d, most) < most;
-    }
     const real plane = plane_of_faces(&b->offset);
 #pragma omp parallel for schedule(static)
-    for (int64_t t = 0; t < b->n; t++) normals_gather(f, b, smooth, plane, rotates, t);
+    for (int64_t t = 0; t < b->n; t++) normals_gather(f, b, &smooth, plane, rotates, t);
     for (int64_t t = 0; t < b->n; t++)
         for (int d = 0; d < dim; d++)
             for (int up = 0; up < 2; up++)
-                if (lacks(b, t, d, up)) face_spread(f, b, smooth, t, d, up, rotates);
+                if (lacks(b, t, d, up)) face_spread(f, b, &smooth.smooth[smooth.at[t]], t, d, up, rotates);
     memory_free(raw.area);
-    memory_free(smooth);
+    memory_free(smooth.at);
+    memory_free(smooth.smooth);
 }
 
 void face_targets_free(struct face_targets *f)

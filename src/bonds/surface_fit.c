@@ -1,4 +1,4 @@
-/* Factors of bonds near faces: a bounded linear least-squares problem, solved by conjugate gradients.
+/* Factors of bonds near faces: a bounded linear least-squares problem, solved by Newton's method on its dual.
  *
  * With the moments M4 = sum f w r nnnn and M3 = sum f w nnn of a class of particles, the factors f minimise
  *
@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/quadratic.h"
 #include "bonds_parts.h"
 #include "surface_parts.h"
 
@@ -23,11 +22,7 @@
 #define PRIOR 2e-2
 #define LEAST 0.2
 #define MOST 3.0
-#define CLOSE 1e-12   /* relative reduction of the gradient at which the solver stops */
-#define PRODUCTS 1000 /* largest number of products; in 3D 800 are enough, in 2D 250 */
-#define WORK 5e10     /* largest number of multiplications: 10 s on two cores */
-/* Moments of a bond, in this order: third, then fourth, then padding. */
-enum { STRAINS = 6, THIRDS = 10, FOURTHS = 15, MOMENTS_2D = 16, MOMENTS = 32 };
+enum { STRAINS = 6 };
 
 /* Components of symmetric tensors of rank `rank`: axes in ascending order. */
 struct components {
@@ -75,7 +70,7 @@ static real component_value(const struct components *c, int k, const real *n)
 struct moments {
     int dim, strains;
     struct components third, fourth;
-    int width;          /* moments per bond: MOMENTS_2D or MOMENTS */
+    int thirds, width;  /* third moments, and all moments, of a bond with their padding */
     real *of;           /* [offsets width] moments of the bonds, over M_1111 */
     real full[FOURTHS]; /* M over M_1111 */
     real strain[STRAINS][DIM_MAX][DIM_MAX], stress[STRAINS][DIM_MAX][DIM_MAX]; /* B_k, M:B_k */
@@ -124,10 +119,11 @@ static void moments_make(struct moments *m, const struct offsets *o)
         for (int c = 0; c < m->fourth.n; c++)
             sum[c] += o->weight[k] * o->length[k] * component_value(&m->fourth, c, o->direction[k]);
     for (int c = 0; c < m->fourth.n; c++) m->full[c] = sum[c] / sum[0];
-    m->width = o->dim < 3 ? MOMENTS_2D : MOMENTS;
+    m->thirds = o->dim < 3 ? THIRDS_2D : THIRDS;
+    m->width = o->dim < 3 ? THIRDS_2D + FOURTHS_2D : THIRDS + FOURTHS;
     m->of = NEW("surface.moments", (int64_t)o->n * m->width, real);
     for (int k = 0; k < o->n; k++) {
-        real *third = m->of + (int64_t)k * m->width, *fourth = third + m->third.n;
+        real *third = m->of + (int64_t)k * m->width, *fourth = third + m->thirds;
         for (int c = 0; c < m->third.n; c++)
             third[c] = o->weight[k] * component_value(&m->third, c, o->direction[k]) / sum[0];
         for (int c = 0; c < m->fourth.n; c++)
@@ -153,24 +149,21 @@ static real face_moment(const struct moments *m, const struct offsets *o)
 
 /* ---- a class ----------------------------------------------------------------------------------------------------- */
 
-/* The part of the least-squares problem of one class: matrices of the quadratic form in third and fourth moments, times
- * the number of members, and the target of the moments of the bonds whose factors are variable. */
-struct class_fit {
-    real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
-};
-
-/* Inverts a symmetric positive definite matrix in place by Gauss-Jordan elimination. */
-static void invert(real (*a)[STRAINS], int n)
+/* Inverts a symmetric positive definite matrix of n rows in place by Gauss-Jordan elimination. room: numbers from one
+ * row to the next. */
+static void invert(real *a, int n, int room)
 {
     for (int k = 0; k < n; k++) {
-        const real pivot = 1 / a[k][k];
-        a[k][k] = 1;
-        for (int c = 0; c < n; c++) a[k][c] *= pivot;
+        real *row = a + k * room;
+        const real pivot = 1 / row[k];
+        row[k] = 1;
+        for (int c = 0; c < n; c++) row[c] *= pivot;
         for (int r = 0; r < n; r++) {
             if (r == k) continue;
-            const real factor = a[r][k];
-            a[r][k] = 0;
-            for (int c = 0; c < n; c++) a[r][c] -= factor * a[k][c];
+            real *other = a + r * room;
+            const real factor = other[k];
+            other[k] = 0;
+            for (int c = 0; c < n; c++) other[c] -= factor * row[c];
         }
     }
 }
@@ -188,7 +181,7 @@ static void strain_weights(const struct moments *m, real (*normal2)[DIM_MAX], re
                     for (int c = 0; c < dim; c++) traction += m->stress[k][a][b] * normal2[b][c] * m->stress[l][a][c];
             P[k][l] = (k == l) + STIFF * traction;
         }
-    invert(P, m->strains);
+    invert(&P[0][0], m->strains, STRAINS);
 }
 
 /* Adds the matrix sum_k by_k^T P by_k to `to` [n][room]. by: `rows` matrices with rows for the strains and n columns,
@@ -256,45 +249,37 @@ static void class_make(struct class_fit *c, const struct moments *m, const struc
             const int *axis = m->third.axis[x];
             c->goal[x] -= 0.5 * full_of(m, axis[0], axis[1], axis[2], d) * goal->area[d];
         }
-    for (int x = 0; x < m->fourth.n; x++) c->goal[m->third.n + x] = (1 + alpha * goal->dipole) * m->full[x];
+    for (int x = 0; x < m->fourth.n; x++) c->goal[m->thirds + x] = (1 + alpha * goal->dipole) * m->full[x];
     for (int k = 0; k < b->offset.n; k++) { /* less the bonds that do not change */
         if (alike_neighbour(a, b, class, k) < 0 || a->group_of[(int64_t) class * b->offset.n + k] >= 0) continue;
         for (int x = 0; x < m->width; x++) c->goal[x] -= m->of[(int64_t)k * m->width + x];
     }
 }
 
-/* Computes to = the quadratic form of a class times the moments `moment`. */
-static void class_weigh(const struct moments *m, const struct class_fit *c, const real *moment, real *to)
+/* Returns the sum of the quadratic form of a class over the moments of each of its bonds that may change. */
+static real class_squares(const struct fit *q, const struct moments *m, int32_t class)
 {
-    const int thirds = m->third.n, fourths = m->fourth.n;
-    for (int x = 0; x < MOMENTS; x++) to[x] = 0;
-    for (int x = 0; x < thirds; x++)
-        for (int y = 0; y < thirds; y++) to[x] += c->third[x][y] * moment[y];
-    for (int x = 0; x < fourths; x++)
-        for (int y = 0; y < fourths; y++) to[thirds + x] += c->fourth[x][y] * moment[thirds + y];
+    const struct class_fit *c = &q->class[class];
+    real sum = 0;
+    for (int k = 0; k < q->offsets; k++) {
+        const real *third = m->of + (int64_t)k * m->width, *fourth = third + m->thirds;
+        if (q->alike->group_of[(int64_t) class * q->offsets + k] < 0) continue;
+        for (int x = 0; x < m->third.n; x++)
+            for (int y = 0; y < m->third.n; y++) sum += third[x] * c->third[x][y] * third[y];
+        for (int x = 0; x < m->fourth.n; x++)
+            for (int y = 0; y < m->fourth.n; y++) sum += fourth[x] * c->fourth[x][y] * fourth[y];
+    }
+    return sum;
 }
 
 /* ---- the problem ------------------------------------------------------------------------------------------------- */
 
-/* The least-squares problem for the factors of the groups of bonds. An entry is the bond of a class at an offset. */
-struct problem {
-    const struct bond_classes *alike;
-    int offsets;
-    struct moments moments;
-    struct class_fit *class;
-    int64_t *first, *entry;       /* [groups + 1] range of `entry`; entries sorted by group */
-    real *bonds;                  /* [groups] number of bonds: half of the members of its entries */
-    real *diagonal, *goal, prior; /* [groups] diagonal of the matrix; right side; weight of the prior per bond */
-    real *value;                  /* [entries] working memory */
-};
-
-/* Sorts the entries by group. */
-static void group_entries(struct problem *q)
+/* Sorts the entries by group, and counts the bonds of each group: half of the members of its entries. */
+static void group_entries(struct fit *q, real *bonds)
 {
     const struct bond_classes *a = q->alike;
     const int64_t entries = (int64_t)a->classes * q->offsets;
     q->first = NEW("surface.first", a->groups + 1, int64_t);
-    q->bonds = NEW("surface.bonds", a->groups, real);
     for (int64_t k = 0; k < entries; k++)
         if (a->group_of[k] >= 0) q->first[a->group_of[k] + 1]++;
     for (int64_t g = 0; g < a->groups; g++) q->first[g + 1] += q->first[g];
@@ -304,106 +289,28 @@ static void group_entries(struct problem *q)
     for (int64_t k = 0; k < entries; k++) {
         const int64_t g = a->group_of[k];
         if (g < 0) continue;
-        q->entry[next[g]++] = k, q->bonds[g] += 0.5 * a->members[k / q->offsets];
+        q->entry[next[g]++] = k, bonds[g] += 0.5 * a->members[k / q->offsets];
     }
     memory_free(next);
 }
 
-/* Computes for each group of bonds the sum of q->value over its entries. */
-static void group_sums(const struct problem *q, real *to)
+/* Computes the weight of the prior of each group, and inverts the quadratic forms of the classes. */
+static void prior_make(struct fit *q, const struct moments *m)
 {
+    const struct bond_classes *a = q->alike;
+    real *squares = NEW("surface.squares", a->classes, real), sum = 0, all = 0;
+    q->prior = NEW("surface.prior", a->groups, real);
+    group_entries(q, q->prior);
 #pragma omp parallel for schedule(static)
-    for (int64_t g = 0; g < q->alike->groups; g++) {
-        real sum = 0;
-        for (int64_t k = q->first[g]; k < q->first[g + 1]; k++) sum += q->value[q->entry[k]];
-        to[g] = sum;
+    for (int32_t class = 1; class < a->classes; class ++) {
+        squares[class] = class_squares(q, m, class);
+        invert(&q->class[class].third[0][0], m->third.n, THIRDS);
+        invert(&q->class[class].fourth[0][0], m->fourth.n, FOURTHS);
     }
-}
-
-/* Computes q->value of the entries of a class: for each offset the product of the moments of its bond with the
- * quadratic form times `moment`. */
-static ALWAYS_INLINE void class_back(const struct problem *q, int32_t class, const real *moment, const int width)
-{
-    real by[MOMENTS];
-    real *value = q->value + (int64_t) class * q->offsets;
-    class_weigh(&q->moments, &q->class[class], moment, by);
-    for (int k = 0; k < q->offsets; k++) {
-        const real *of = q->moments.of + (int64_t)k * width;
-        real sum[LANES] = {0};
-        for (int x = 0; x < width; x += LANES)
-            for (int l = 0; l < LANES; l++) sum[l] += of[x + l] * by[x + l];
-        value[k] = (sum[0] + sum[1] + sum[2] + sum[3]) + (sum[4] + sum[5] + sum[6] + sum[7]);
-    }
-}
-
-/* Computes q->value of the entries of a class from the factors x of the groups of bonds. */
-static ALWAYS_INLINE void class_product(const struct problem *q, int32_t class, const real *x, const int width)
-{
-    const int64_t *group = q->alike->group_of + (int64_t) class * q->offsets;
-    real moment[MOMENTS] = {0};
-    for (int k = 0; k < q->offsets; k++) {
-        if (group[k] < 0) continue;
-        const real factor = x[group[k]], *of = q->moments.of + (int64_t)k * width;
-        for (int c = 0; c < width; c++) moment[c] += factor * of[c];
-    }
-    class_back(q, class, moment, width);
-}
-
-/* Computes the product y = H x with the matrix of the least-squares problem. context: a struct problem. */
-static void fit_product(void *context, const real *x, real *y)
-{
-    const struct problem *q = context;
-    const bool plane = q->moments.width == MOMENTS_2D;
-#pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class ++) {
-        if (plane)
-            class_product(q, class, x, MOMENTS_2D);
-        else
-            class_product(q, class, x, MOMENTS);
-    }
-    group_sums(q, y);
-    for (int64_t g = 0; g < q->alike->groups; g++) y[g] += q->prior * q->bonds[g] * x[g];
-}
-
-/* Computes the diagonal of the matrix, the weight of the prior, and the right side of the least-squares problem. */
-static void diagonal_make(struct problem *q)
-{
-    const struct moments *m = &q->moments;
-    const int64_t groups = q->alike->groups;
-    real sum = 0, bonds = 0;
-#pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class ++)
-        for (int k = 0; k < q->offsets; k++) {
-            const real *of = m->of + (int64_t)k * m->width;
-            real by[MOMENTS], value = 0;
-            class_weigh(m, &q->class[class], of, by);
-            for (int x = 0; x < m->width; x++) value += of[x] * by[x];
-            q->value[(int64_t) class * q->offsets + k] = value;
-        }
-    q->diagonal = NEW("surface.diagonal", groups, real);
-    group_sums(q, q->diagonal);
-    for (int64_t g = 0; g < groups; g++) sum += q->diagonal[g], bonds += q->bonds[g];
-    q->prior = bonds > 0 ? PRIOR * sum / bonds : 0;
-    for (int64_t g = 0; g < groups; g++) q->diagonal[g] += q->prior * q->bonds[g];
-    q->goal = NEW("surface.goal", groups, real);
-#pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < q->alike->classes; class ++) class_back(q, class, q->class[class].goal, m->width);
-    group_sums(q, q->goal);
-    for (int64_t g = 0; g < groups; g++) q->goal[g] += q->prior * q->bonds[g];
-}
-
-/* Minimises over the factors between LEAST and MOST, starting from their present values; factors with fixed[k] = 1 do
- * not change. */
-static void solve(struct problem *q, real *factor, const uint8_t *fixed)
-{
-    const int64_t n = q->alike->groups;
-    const real work = 4.0 * q->alike->classes * q->offsets * q->moments.width;
-    real *low = NEW("surface.low", n, real), *high = NEW("surface.high", n, real);
-    for (int64_t k = 0; k < n; k++) low[k] = fixed[k] ? factor[k] : LEAST, high[k] = fixed[k] ? factor[k] : MOST;
-    const struct quadratic f = {fit_product, q, n, q->goal, q->diagonal, low, high};
-    quadratic_minimise(&f, factor, CLOSE, (int)fmin(PRODUCTS, WORK / work));
-    memory_free(low);
-    memory_free(high);
+    for (int32_t class = 1; class < a->classes; class ++) sum += squares[class];
+    for (int64_t g = 0; g < a->groups; g++) all += q->prior[g];
+    for (int64_t g = 0; g < a->groups; g++) q->prior[g] *= PRIOR * sum / all;
+    memory_free(squares);
 }
 
 /* Returns true if particle t is at the end of a crack or of a narrow void: a neighbour of one of its neighbours is
@@ -449,12 +356,12 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Sets and fixes the factors of bonds in parts with too few layers and at ends of cracks: to the factor of the volume
- * method (Le & Bobaru 2018), in models with rotations to 1. If bonds may break, those at ends of cracks break next and
- * get factor 1, for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
-static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, const struct face_targets *f,
-                        const struct bond_classes *a, bool rotates)
+/* Fixes the factors of bonds in thin parts, which have too few layers, and at crack ends: factor of the volume method
+ * (Le & Bobaru 2018), in models with rotations 1. If bonds may break, bonds at crack ends break next and get factor 1,
+ * for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
+static void plain_parts(struct fit *q, const struct near_faces *b, const struct face_targets *f, bool rotates)
 {
+    const struct bond_classes *a = q->alike;
     const int n = b->offset.n;
     const bool breaks = may_break(&b->source->limit);
     for (int32_t class = 1; class < a->classes; class ++) {
@@ -465,38 +372,42 @@ static void plain_parts(real *x, uint8_t *fixed, const struct near_faces *b, con
             if (g < 0) continue;
             const int64_t other = b->place[mirrored_source_of(b, alike_neighbour(a, b, class, k)).particle];
             const real both = neighbours(b, t) + neighbours(b, other);
-            x[g] = rotates || (end && breaks) ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST), fixed[g] = 1;
+            q->low[g] = q->high[g] = rotates || (end && breaks) ? 1 : fmin(fmax(2.0 * n / both, LEAST), MOST);
         }
     }
+}
+
+/* Sets the bounds of all factors. */
+static void bounds_make(struct fit *q, const struct near_faces *b, const struct face_targets *f, bool rotates)
+{
+    const int64_t groups = q->alike->groups;
+    q->low = NEW("surface.low", groups, real), q->high = NEW("surface.high", groups, real);
+    for (int64_t g = 0; g < groups; g++) q->low[g] = LEAST, q->high[g] = MOST;
+    plain_parts(q, b, f, rotates);
 }
 
 void surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
                          const struct bond_classes *a, bool rotates)
 {
-    struct problem q = {.alike = a, .offsets = b->offset.n};
-    moments_make(&q.moments, &b->offset);
-    const real alpha = rotates ? ROTATIONS : face_moment(&q.moments, &b->offset);
+    struct moments m;
+    moments_make(&m, &b->offset);
+    struct fit q = {.alike = a, .offsets = b->offset.n, .thirds = m.thirds, .fourths = m.width - m.thirds, .of = m.of};
+    const real alpha = rotates ? ROTATIONS : face_moment(&m, &b->offset);
     q.class = BARE("surface.class", a->classes, struct class_fit);
     struct class_goal *goal = NEW("surface.goal", a->classes, struct class_goal);
     class_goals(goal, b->offset.dim, b, f, a);
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < a->classes; class ++)
-        class_make(&q.class[class], &q.moments, b, &goal[class], a, class, alpha);
+        class_make(&q.class[class], &m, b, &goal[class], a, class, alpha);
     memory_free(goal);
-    group_entries(&q);
-    q.value = NEW("surface.value", (int64_t)a->classes * q.offsets, real);
-    diagonal_make(&q);
-    uint8_t *fixed = NEW("surface.fixed", a->groups, uint8_t);
-    for (int64_t g = 0; g < a->groups; g++) factor[g] = 1;
-    plain_parts(factor, fixed, b, f, a, rotates);
-    solve(&q, factor, fixed);
-    memory_free(fixed);
+    prior_make(&q, &m);
+    bounds_make(&q, b, f, rotates);
+    surface_solve(&q, factor);
+    memory_free(m.of);
     memory_free(q.class);
-    memory_free(q.moments.of);
     memory_free(q.first);
     memory_free(q.entry);
-    memory_free(q.bonds);
-    memory_free(q.value);
-    memory_free(q.diagonal);
-    memory_free(q.goal);
+    memory_free(q.prior);
+    memory_free(q.low);
+    memory_free(q.high);
 }

@@ -40,9 +40,16 @@ struct seen {
     int mirrors;
 };
 
+/* Returns the particle of the body of which image `entry` of the particle arrays is an image, and the mirrors in
+ * between as one bit per reversed axis. */
+struct seen source_of_image(const struct near_faces *b, int64_t entry);
+
 /* Returns the particle of the body of which the entry of the particle arrays is an image (`entry` itself, if it is not
  * an image), and the mirrors in between as one bit per reversed axis. */
-struct seen mirrored_source_of(const struct near_faces *b, int64_t entry);
+static inline struct seen mirrored_source_of(const struct near_faces *b, int64_t entry)
+{
+    return entry < b->p->n ? (struct seen){entry, 0} : source_of_image(b, entry);
+}
 
 /* Returns -1 if the bits `mirrors` (one per axis) contain `axis`, i.e. if the mirrors reverse that axis, else 1. */
 static inline real mirror_sign(int mirrors, int axis) { return mirrors >> axis & 1 ? -1 : 1; }
@@ -57,7 +64,15 @@ static inline int32_t neighbour_of(const struct near_faces *b, int64_t t, int k)
 /* Returns the neighbour at offset number `offset`, in space, of a particle near faces that is itself seen through
  * mirrors (from). The result has the mirrors between the neighbour and the first particle; its particle is -1 if there
  * is no neighbour or the bond is cut. */
-struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset);
+static inline struct seen mirrored_neighbour(const struct near_faces *b, const struct seen *from, int offset)
+{
+    const int32_t own = b->offset.mirrored[from->mirrors * b->offset.n + offset];
+    const int32_t j = neighbour_of(b, b->place[from->particle], own);
+    if (j < 0) return (struct seen){-1, 0};
+    struct seen to = mirrored_source_of(b, j);
+    to.mirrors ^= from->mirrors;
+    return to;
+}
 
 /* Returns true if no neighbour of particle j, or of the source particle of image j, is missing. */
 static inline bool is_whole(const struct near_faces *b, int64_t j)
@@ -126,6 +141,29 @@ static inline int32_t alike_neighbour(const struct bond_classes *a, const struct
 
 /* Releases all arrays of a. */
 void bond_classes_free(struct bond_classes *a);
+
+/* Third moments of a bond in space and in the plane, and fourth moments, each padded to an even number. */
+enum { THIRDS = 10, FOURTHS = 16, THIRDS_2D = 4, FOURTHS_2D = 6, MOMENTS = THIRDS + FOURTHS };
+
+/* A class of particles in the fit: inverse of the quadratic form of its third and of its fourth moments, times its
+ * members, and the goal of the moments of its bonds that may change. */
+struct class_fit {
+    real third[THIRDS][THIRDS], fourth[FOURTHS][FOURTHS], goal[MOMENTS];
+};
+
+/* The least-squares problem of the factors f: sum over classes of (M - goal) Q (M - goal), M being the sum of f times
+ * the moments of the bonds of the class, plus sum prior (f - 1)^2, within bounds. */
+struct fit {
+    const struct bond_classes *alike;
+    int offsets, thirds, fourths; /* neighbours of a full family; third and fourth moments of a bond */
+    const real *of;               /* [offsets (thirds + fourths)] moments of a bond */
+    struct class_fit *class;      /* [classes] */
+    int64_t *first, *entry;       /* [groups + 1] range of `entry`: entries (class, offset) by group */
+    real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
+};
+
+/* Solves the problem (surface_solve.c). factor: [groups]. Returns the number of products with the moments. */
+int surface_solve(const struct fit *q, real *factor);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations. */

@@ -9,6 +9,8 @@
 #define STEP_FINE 1e-6   /* smallest step along a segment, as a share of its length, in the first FINE_STEPS steps */
 #define STEP_COARSE 1e-3 /* and in later ones, for segments along faces inside the shape */
 enum { FINE_STEPS = 400 };
+enum { SOLIDS_MOST = 31 }; /* in bodies of more solids all pairs are tested */
+#define ALONE UINT32_MAX
 
 bool region_has_image(const struct region *r)
 {
@@ -34,9 +36,36 @@ static bool solid_convex(const struct solid *s)
     }
 }
 
+/* Extends the box from .. to by box s if both together are a box. Returns false if they are not. */
+static bool box_joins(real *from, real *to, const struct solid *s)
+{
+    int axis = -1;
+    for (int d = 0; d < DIM_MAX; d++) {
+        if (s->from[d] == from[d] && s->to[d] == to[d]) continue;
+        if (axis >= 0 || s->from[d] > to[d] || s->to[d] < from[d]) return false;
+        axis = d;
+    }
+    if (axis < 0) return true;
+    from[axis] = real_min(from[axis], s->from[axis]), to[axis] = real_max(to[axis], s->to[axis]);
+    return true;
+}
+
+/* Returns true if the solids of a region are boxes that make one box, each extending those before it. */
+static bool region_is_box(const struct region *r)
+{
+    real from[DIM_MAX], to[DIM_MAX];
+    for (int k = 0; k < r->n; k++) {
+        const struct solid *s = &r->solid[k];
+        if (!solid_is(s, SOLID_BOX) || s->subtract || s->intersect) return false;
+        if (k == 0) array_copy(from, s->from, DIM_MAX, sizeof *from), array_copy(to, s->to, DIM_MAX, sizeof *to);
+        if (k > 0 && !box_joins(from, to, s)) return false;
+    }
+    return true;
+}
+
 bool region_has_voids(const struct region *r)
 {
-    const bool convex = r->n == 0 || (r->n == 1 && solid_convex(&r->solid[0]));
+    const bool convex = region_is_box(r) || (r->n == 1 && solid_convex(&r->solid[0]));
     return !convex && !region_has_image(r);
 }
 
@@ -138,11 +167,48 @@ real voids_particle_depth(const struct voids *v, const struct particles *p, int6
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Returns VOID_NEAR if a segment from particle i to a particle of its body in `near` leaves the body, with VOID_ACROSS
- * if both surfaces that it crosses face each other; else 0. depth: [p->n_all] lower bounds of the particles' distances
- * from the surface [m]: a segment covered by the balls of these radii around its ends is inside. */
-static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, int64_t i,
-                           const struct near *near)
+/* Returns true if the body that continues in images beyond the mirrors within `reach` of X is convex if solid s is: no
+ * mirror is near, or s is a box that reaches to the plane. */
+static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
+{
+    for (int m = 0; m < v->mirrors; m++) {
+        const struct mirror_plane *plane = &v->mirror[m];
+        if (fabs(X[plane->axis] - plane->at) > reach) continue;
+        if (!solid_is(s, SOLID_BOX) || !(s->from[plane->axis] <= plane->at && plane->at <= s->to[plane->axis]))
+            return false;
+    }
+    return true;
+}
+
+/* Returns the convex solids of its body that contain particle i, one bit each, or ALONE if a single solid is within
+ * `reach` of it. No void is between particles within reach of each other that one convex solid contains: 0 if a solid
+ * that is subtracted or intersects is near, or if there are too many. */
+static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
+{
+    real X[DIM_MAX] = {0};
+    int solids = 0, within = 0;
+    uint32_t inside = 0;
+    particle_place(p, i, X);
+    for (int k = 0; k < v->shapes; k++) {
+        const struct region *r = v->shape[k];
+        if (v->body[k] != p->body[i]) continue;
+        if (solids + r->n > SOLIDS_MOST || r->n == 0 || r->solid[0].intersect) return 0;
+        for (int l = 0; l < r->n; l++, solids++) {
+            const struct solid *s = &r->solid[l];
+            const real level = s->intersect ? 0 : solid_level(s, X, v->dim);
+            if (level > reach) continue;
+            if (s->intersect || s->subtract) return 0;
+            within++;
+            if (level <= 0 && solid_convex(s) && mirrors_keep_convex(v, s, X, reach)) inside |= 1u << solids;
+        }
+    }
+    return within == 1 && inside ? ALONE : inside;
+}
+
+/* Returns the marks of particle i. depth: [p->n_all] lower bounds of the particles' distances from the surface [m]: a
+ * segment covered by the balls of these radii around its ends is inside; inside: [p->n_all] solids_around. */
+static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
+                           int64_t i, const struct near *near)
 {
     real a[DIM_MAX] = {0};
     uint8_t bits = 0;
@@ -151,7 +217,7 @@ static uint8_t void_search(const struct voids *v, const struct particles *p, con
         const int32_t j = near->at[k];
         real b[DIM_MAX] = {0}, length2 = 0;
         bool across = false;
-        if (p->body[j] != p->body[i]) continue;
+        if (p->body[j] != p->body[i] || inside[i] & inside[j]) continue;
         particle_place(p, j, b);
         for (int d = 0; d < p->dim; d++) length2 += square(b[d] - a[d]);
         if (square(depth[i] + depth[j]) >= length2 || !void_separates_points(v, p->body[i], a, b, &across)) continue;
@@ -164,23 +230,28 @@ void voids_find(struct voids *v, const struct particles *p, const struct cells *
                 real reach)
 {
     real *depth = NEW("voids.depth", p->n_all, real);
+    uint32_t *inside = NEW("voids.inside", p->n_all, uint32_t);
     v->near = NEW("voids.near", p->n_all, uint8_t);
 #pragma omp parallel for schedule(static)
-    for (int64_t i = 0; i < p->n; i++) depth[i] = voids_particle_depth(v, p, i);
+    for (int64_t i = 0; i < p->n; i++) {
+        depth[i] = voids_particle_depth(v, p, i);
+        if (depth[i] < reach) inside[i] = solids_around(v, p, i, reach);
+    }
     for (int64_t k = p->n; k < p->n_all; k++) depth[k] = depth[image_root(p, image, k)];
 #pragma omp parallel
     {
         struct near near = {0};
 #pragma omp for schedule(dynamic, 256)
         for (int64_t i = 0; i < p->n; i++) {
-            if (depth[i] >= reach) continue;
+            if (depth[i] >= reach || inside[i] == ALONE) continue;
             particles_find_near(&near, cells, p, i, reach, false);
-            v->near[i] = void_search(v, p, depth, i, &near);
+            v->near[i] = void_search(v, p, depth, inside, i, &near);
         }
         memory_free(near.at);
     }
     for (int64_t k = p->n; k < p->n_all; k++) v->near[k] = v->near[image_root(p, image, k)];
     memory_free(depth);
+    memory_free(inside);
 }
 
 void voids_free(struct voids *v)

@@ -1,0 +1,341 @@
+/* Factors of bonds near faces by Newton's method on the dual of their least-squares problem.
+ *
+ * Multipliers q_c = Q_c (M_c - goal_c), one for each moment of class c, give the factor of a bond as
+ *
+ *     f = 1 - (sum_ends m . q_c)/prior, within its bounds,     m: moments of the bond from one of its ends
+ *
+ * and those of the least squares satisfy R_c = Q_c^-1 q_c + goal_c - M_c(f) = 0. R is the gradient of a convex function
+ * of q, and is linear where no factor meets a bound: Newton's method for such piecewise functions (Qi & Sun 1993) finds
+ * its zero in a few steps. Each step is a linear system with the matrix Q_c^-1 + sum m m/prior over the bonds between
+ * bounds, solved by conjugate gradients that are preconditioned by the block of each class. The sums over bonds couple
+ * classes weakly: ten times fewer products are needed than for the factors themselves. */
+#include <math.h>
+
+#include "base/memory.h"
+#include "base/team.h"
+#include "surface_parts.h"
+
+#define CLOSE 1e-12  /* relative reduction of R at which the solver stops */
+#define ROUGH 0.1    /* largest residual of a linear system, relative to R */
+#define STEEP 0.1    /* largest slope after a step, relative to that before it */
+#define PRODUCTS 600 /* largest number of products; 60 to 250 are enough */
+#define WORK 2.5e10  /* largest number of multiplications: 10 s on two cores */
+enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2 };
+
+/* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
+struct descent {
+    const struct fit *fit;
+    int64_t n;
+    int width, products, most;
+    real *multiplier, *residual, *step, *left, *weighed, *direction, *image, *next, *next_residual;
+    real *block;     /* [classes BLOCK] lower triangles of the Cholesky factors of the blocks */
+    uint8_t *images; /* [classes offsets] number of bonds of the group in the class */
+    real *factor;    /* [groups] factors of the bonds */
+    real *change;    /* [groups] change of the factors along `direction` */
+    real *value;     /* [classes offsets] product of the moments of a bond with the multipliers of its class */
+};
+
+struct pair {
+    const real *a, *b;
+};
+
+static void pair_block(const void *context, int64_t first, int64_t end, real *sum)
+{
+    const struct pair *p = context;
+    for (int64_t k = first; k < end; k++) sum[0] += p->a[k] * p->b[k];
+}
+
+static real inner(int64_t n, const real *a, const real *b)
+{
+    real sum;
+    reproducible_sums(n, 1, pair_block, &(struct pair){a, b}, &sum);
+    return sum;
+}
+
+/* ---- products ---------------------------------------------------------------------------------------------------- */
+
+/* Computes the products of the moments of all bonds of a class with the vector `by`. */
+static ALWAYS_INLINE void class_back(const struct fit *q, const real *by, real *value, const int thirds,
+                                     const int fourths)
+{
+    for (int k = 0; k < q->offsets / 2; k++) { /* opposite bonds have opposite third moments and equal fourth moments */
+        const real *of = q->of + (int64_t)k * (thirds + fourths);
+        real odd[2] = {0}, even[2] = {0};
+        for (int x = 0; x < thirds; x += 2)
+            for (int l = 0; l < 2; l++) odd[l] += of[x + l] * by[x + l];
+        for (int x = thirds; x < thirds + fourths; x += 2)
+            for (int l = 0; l < 2; l++) even[l] += of[x + l] * by[x + l];
+        value[k] = (even[0] + even[1]) + (odd[0] + odd[1]);
+        value[q->offsets - 1 - k] = (even[0] + even[1]) - (odd[0] + odd[1]);
+    }
+}
+
+/* Subtracts the sum of the moments of the bonds of a class, times x of their groups, from `to`. */
+static ALWAYS_INLINE void class_sum(const struct fit *q, const int64_t *group, const real *x, real *to,
+                                    const int thirds, const int fourths)
+{
+    real sum[MOMENTS] = {0};
+    for (int k = 0; k < q->offsets / 2; k++) {
+        const int64_t one = group[k], other = group[q->offsets - 1 - k];
+        if (one < 0 && other < 0) continue;
+        const real a = one < 0 ? 0 : x[one], b = other < 0 ? 0 : x[other], odd = a - b, even = a + b;
+        const real *of = q->of + (int64_t)k * (thirds + fourths);
+        for (int m = 0; m < thirds; m++) sum[m] += odd * of[m];
+        for (int m = thirds; m < thirds + fourths; m++) sum[m] += even * of[m];
+    }
+    for (int m = 0; m < thirds + fourths; m++) to[m] -= sum[m];
+}
+
+/* Computes Q^-1 of a class times `of`. */
+static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of, real *to, const int thirds,
+                                      const int fourths)
+{
+    for (int x = 0; x < thirds + fourths; x++) to[x] = 0;
+    for (int y = 0; y < thirds; y++)
+        for (int x = 0; x < thirds; x++) to[x] += c->third[y][x] * of[y];
+    for (int y = 0; y < fourths; y++)
+        for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
+}
+
+/* Computes `value` of all bonds from the vector x. */
+static void all_back(struct descent *d, const real *x)
+{
+    const struct fit *q = d->fit;
+    const bool solid = q->thirds == THIRDS;
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class ++) {
+        const real *by = x + (int64_t) class * d->width;
+        real *value = d->value + (int64_t) class * q->offsets;
+        if (solid)
+            class_back(q, by, value, THIRDS, FOURTHS);
+        else
+            class_back(q, by, value, THIRDS_2D, FOURTHS_2D);
+    }
+}
+
+/* Computes to = Q^-1 by - sum of moments times x of the groups, plus the goals if `goals`. */
+static void all_sum(const struct descent *d, const real *by, const real *x, bool goals, real *to)
+{
+    const struct fit *q = d->fit;
+    const bool solid = q->thirds == THIRDS;
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class ++) {
+        const int64_t at = (int64_t) class * d->width, *group = q->alike->group_of + (int64_t) class * q->offsets;
+        if (solid)
+            class_weigh(&q->class[class], by + at, to + at, THIRDS, FOURTHS);
+        else
+            class_weigh(&q->class[class], by + at, to + at, THIRDS_2D, FOURTHS_2D);
+        for (int m = 0; m < d->width && goals; m++) to[at + m] += q->class[class].goal[m];
+        if (solid)
+            class_sum(q, group, x, to + at, THIRDS, FOURTHS);
+        else
+            class_sum(q, group, x, to + at, THIRDS_2D, FOURTHS_2D);
+    }
+}
+
+/* Returns the sum of `value` over the entries of a group. */
+static real group_sum(const struct descent *d, int64_t g)
+{
+    const struct fit *q = d->fit;
+    real sum = 0;
+    for (int64_t k = q->first[g]; k < q->first[g + 1]; k++) sum += d->value[q->entry[k]];
+    return sum;
+}
+
+/* Returns true if the factor of a group is between its bounds. */
+static bool between_bounds(const struct descent *d, int64_t g)
+{
+    return d->factor[g] > d->fit->low[g] && d->factor[g] < d->fit->high[g];
+}
+
+/* Computes the factors from multipliers x, and R from both. */
+static void residual_make(struct descent *d, const real *x, real *residual)
+{
+    const struct fit *q = d->fit;
+    all_back(d, x);
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < q->alike->groups; g++)
+        d->factor[g] = fmin(fmax(1 - group_sum(d, g) / q->prior[g], q->low[g]), q->high[g]);
+    all_sum(d, x, d->factor, true, residual);
+    d->products++;
+}
+
+/* Computes the image of `direction` under the matrix of the linear system. */
+static void image_make(struct descent *d)
+{
+    const struct fit *q = d->fit;
+    all_back(d, d->direction);
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < q->alike->groups; g++)
+        d->change[g] = between_bounds(d, g) ? -group_sum(d, g) / q->prior[g] : 0;
+    all_sum(d, d->direction, d->change, false, d->image);
+    d->products++;
+}
+
+/* ---- preconditioner ---------------------------------------------------------------------------------------------- */
+
+/* Replaces the lower triangle of a symmetric positive definite matrix, stored by columns, by its Cholesky factor, with
+ * inverted diagonal. */
+static void cholesky(real *a, int n)
+{
+    real *column = a;
+    for (int c = 0; c < n; column += n - c, c++) {
+        real *next = column + n - c;
+        column[0] = 1 / sqrt(column[0]);
+        for (int r = 1; r < n - c; r++) column[r] *= column[0];
+        for (int k = 1; k < n - c; next += n - c - k, k++)
+            for (int r = k; r < n - c; r++) next[r - k] -= column[k] * column[r];
+    }
+}
+
+/* Solves with a Cholesky factor, in place: x = A^-1 x. */
+static void cholesky_solve(const real *a, int n, real *x)
+{
+    const real *column = a;
+    for (int c = 0; c < n; column += n - c, c++) {
+        x[c] *= column[0];
+        for (int r = 1; r < n - c; r++) x[c + r] -= column[r] * x[c];
+    }
+    for (int c = n - 1; c >= 0; c--) {
+        column -= n - c;
+        real sum[2] = {0}, *rest = x + c;
+        int r = 1;
+        for (; r + 1 < n - c; r += 2)
+            for (int l = 0; l < 2; l++) sum[l] += column[r + l] * rest[r + l];
+        if (r < n - c) sum[0] += column[r] * rest[r];
+        x[c] = (x[c] - (sum[0] + sum[1])) * column[0];
+    }
+}
+
+/* Counts for each bond of a class the bonds of its group in this class: the bond and its mirror images. */
+static void images_count(const struct descent *d, int32_t class)
+{
+    const int n = d->fit->offsets;
+    const int64_t *group = d->fit->alike->group_of + (int64_t) class * n;
+    uint8_t *images = d->images + (int64_t) class * n;
+    for (int k = 0; k < n; k++)
+        for (int l = 0; l < n; l++) images[k] += group[l] == group[k];
+}
+
+/* Returns the weight of a bond in the block of its class: 0 if its factor is at a bound. Each of n images has n times
+ * the weight, which is exact for multipliers with the symmetry of the class. */
+static real block_weight(const struct descent *d, int32_t class, int k)
+{
+    const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
+    return group < 0 || !between_bounds(d, group) ? 0 : d->images[at] / d->fit->prior[group];
+}
+
+/* Computes the Cholesky factor of the block of a class. */
+static void block_make(const struct descent *d, int32_t class)
+{
+    const struct fit *q = d->fit;
+    const struct class_fit *c = &q->class[class];
+    const int width = d->width, thirds = q->thirds;
+    real *block = d->block + (int64_t) class * BLOCK;
+    for (int r = 0, at = 0; r < width; r++)
+        for (int s = r; s < width; s++, at++)
+            block[at] = s < thirds ? c->third[r][s] : r < thirds ? 0 : c->fourth[r - thirds][s - thirds];
+    for (int k = 0; k < q->offsets / 2; k++) { /* of opposite bonds only mixed products have opposite signs */
+        const real a = block_weight(d, class, k), b = block_weight(d, class, q->offsets - 1 - k);
+        const real *of = q->of + (int64_t)k * width;
+        real *to = block;
+        if (a == 0 && b == 0) continue;
+        for (int r = 0; r < width; to += width - r, r++) {
+            const real same = (a + b) * of[r], mixed = (a - b) * of[r];
+            const int odd = r < thirds ? thirds : r;
+            for (int s = r; s < odd; s++) to[s - r] += same * of[s];
+            for (int s = odd; s < width; s++) to[s - r] += (r < thirds ? mixed : same) * of[s];
+        }
+    }
+    for (int r = 0, at = 0; r < width; at += width - r, r++) /* padding */
+        if (block[at] == 0) block[at] = 1;
+    cholesky(block, width);
+}
+
+/* Computes weighed = blocks^-1 left. */
+static void left_weigh(struct descent *d)
+{
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < d->fit->alike->classes; class ++) {
+        const int64_t at = (int64_t) class * d->width;
+        array_copy(d->weighed + at, d->left + at, d->width, sizeof(real));
+        cholesky_solve(d->block + (int64_t) class * BLOCK, d->width, d->weighed + at);
+    }
+}
+
+/* ---- Newton's method --------------------------------------------------------------------------------------------- */
+
+/* Solves for the step of Newton's method until the residual of the linear system is `share` of R. */
+static void step_solve(struct descent *d, real share)
+{
+    real before = 0;
+    const real enough = square(share) * inner(d->n, d->residual, d->residual);
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < d->fit->alike->classes; class ++) block_make(d, class);
+    array_fill_bytes(d->step, 0, d->n, sizeof(real));
+    array_fill_bytes(d->direction, 0, d->n, sizeof(real));
+    array_copy(d->left, d->residual, d->n, sizeof(real));
+    while (d->products < d->most && inner(d->n, d->left, d->left) > enough) {
+        left_weigh(d);
+        const real now = inner(d->n, d->left, d->weighed), turn = before > 0 ? now / before : 0;
+        before = now;
+        for (int64_t k = 0; k < d->n; k++) d->direction[k] = d->weighed[k] + turn * d->direction[k];
+        image_make(d);
+        const real length = now / inner(d->n, d->direction, d->image);
+        for (int64_t k = 0; k < d->n; k++) d->step[k] -= length * d->direction[k], d->left[k] -= length * d->image[k];
+    }
+}
+
+/* Moves the multipliers along the step until the function hardly falls any more, and updates factors and residual. */
+static void step_take(struct descent *d)
+{
+    const real slope = inner(d->n, d->residual, d->step);
+    real length = 1;
+    for (int k = 0; k < SHORTENINGS; k++) {
+        for (int64_t i = 0; i < d->n; i++) d->next[i] = d->multiplier[i] + length * d->step[i];
+        residual_make(d, d->next, d->next_residual);
+        const real now = inner(d->n, d->next_residual, d->step);
+        if (!(now > -STEEP * slope)) break;
+        length *= slope / (slope - now);
+    }
+    array_copy(d->multiplier, d->next, d->n, sizeof(real));
+    array_copy(d->residual, d->next_residual, d->n, sizeof(real));
+}
+
+static void descend(struct descent *d)
+{
+    residual_make(d, d->multiplier, d->residual);
+    const real first = sqrt(inner(d->n, d->residual, d->residual));
+    while (d->products < d->most) {
+        const real left = sqrt(inner(d->n, d->residual, d->residual)) / first;
+        if (!(left > CLOSE)) break;
+        step_solve(d, fmax(fmin(ROUGH, left), 0.5 * CLOSE / left));
+        step_take(d);
+    }
+}
+
+int surface_solve(const struct fit *q, real *factor)
+{
+    const int width = q->thirds + q->fourths;
+    const int64_t classes = q->alike->classes, n = classes * width;
+    const real work = 2.0 * (real)classes * q->offsets * width;
+    struct descent d = {.fit = q, .n = n, .width = width, .factor = factor};
+    real **const vector[] = {&d.multiplier, &d.residual, &d.step, &d.left,         &d.weighed,
+                             &d.direction,  &d.image,    &d.next, &d.next_residual};
+    real *all = NEW("surface.descent", n * (int64_t)COUNT_OF(vector), real);
+    for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = all + (int64_t)k * n;
+    d.block = BARE("surface.block", classes * BLOCK, real);
+    d.images = NEW("surface.images", classes * q->offsets, uint8_t);
+#pragma omp parallel for schedule(static)
+    for (int32_t class = 1; class < q->alike->classes; class ++) images_count(&d, class);
+    d.change = NEW("surface.change", q->alike->groups, real);
+    d.value = NEW("surface.value", classes * q->offsets, real);
+    d.most = (int)fmin(PRODUCTS, WORK / work);
+    if (q->alike->groups > 0) descend(&d);
+    memory_free(all);
+    memory_free(d.block);
+    memory_free(d.images);
+    memory_free(d.change);
+    memory_free(d.value);
+    return d.products;
+}
