@@ -43,7 +43,8 @@ endif
 SOURCES  := $(sort $(shell find src $(if $(BENCHES),bench) -name '*.c'))
 KERNELS  := $(sort $(shell find kernels -name '*.c'))
 TESTS    := $(sort $(shell find tests -name 'test_*.c'))
-OBJECTS  := $(SOURCES:%.c=$(BUILD)/%.o) $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o))
+# Kernels take longest: they come first, so that no core waits for the last of them.
+OBJECTS  := $(foreach set,$(SETS),$(KERNELS:%.c=$(BUILD)/%.$(set).o)) $(SOURCES:%.c=$(BUILD)/%.o)
 ENGINE   := $(filter-out $(BUILD)/src/app/main.o,$(OBJECTS))
 PROGRAMS := $(TESTS:%.c=$(BUILD)/%)
 SCRIPTS  := tests/house.sh $(sort $(shell find tests -name 'test_*.sh'))
@@ -70,6 +71,9 @@ all: $(BUILD)/cleave $(BUILD)/cleave.schema.json
 # Tests and benches spend their time in the engine, not in code of their own: less optimisation compiles them in half the time.
 $(PROGRAMS:=.o) $(BUILD)/tests/robustness/faults.o: OPTIMISE := -O1
 $(BUILD)/bench/%.o: OPTIMISE := -O2
+
+# Nor do commands, readers of scenes, studies and exports take time when they run.
+$(BUILD)/src/app/%.o $(BUILD)/src/export/%.o $(BUILD)/src/scene/%.o $(BUILD)/src/study/%.o: OPTIMISE := -O1
 
 # Short lines unless V=1.
 Q = $(if $(V),,@echo "  $(if $(filter %.o,$@),CC,LD)  $@";)
