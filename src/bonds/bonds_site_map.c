@@ -106,8 +106,9 @@ static bool axis_exact(const struct site_map *l, const struct particles *p, int 
     return exact;
 }
 
-/* Returns true if all particles of the body have one volume, mass and material, and exact positions; regular_bonds
- * leaves out images. */
+/* Returns true if all particles of the body have the same volume, mass and material, and positions that are exact
+ * multiples of a step: equal distances are then equal to the last bit. Images need not: regular_bonds leaves them
+ * out. */
 static bool is_uniform(const struct site_map *l, const struct particles *p)
 {
     bool same = true;
@@ -173,8 +174,9 @@ int site_map_find_neighbours(const struct site_map *l, const struct particles *p
 
 /* ---- eight particles --------------------------------------------------------------------------------------------- */
 
-/* Appends the bonds of particles i .. i + 7 along one lattice row, whose first site is number `number` of a full
- * family. Returns false if the particles there are not consecutive. */
+/* Appends the bonds of particles i .. i + 7 to neighbours on one lattice row to *to. site: of particle i; row: the
+ * lattice row relative to it, whose first site is neighbour `number` of a full family. Returns false if the indices of
+ * the particles on the row are not consecutive. */
 static bool row_bonds(const struct site_map *l, const struct particles *p, int64_t site, const struct stencil_row *row,
                       int64_t i, int number, struct regular_bonds *to)
 {

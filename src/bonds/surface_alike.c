@@ -46,7 +46,7 @@ static void kinds_free(struct kinds *s)
     memory_free(s->colour);
 }
 
-/* Makes one kind of all particles. */
+/* Initialises the kinds: all particles are of one kind. */
 static void kinds_start(struct kinds *s, const struct near_faces *b)
 {
     *s = (struct kinds){.n = 1, .of = NEW("surface.kind", b->n, int32_t)};
@@ -73,7 +73,8 @@ static uint64_t kinds_around(const struct near_faces *b, const struct kinds *s, 
     return mixed(HASH_START, sum ^ sum >> 32);
 }
 
-/* Returns the colour of neighbour j seen in `mirrors`. */
+/* Returns the hash of the surroundings (colour) of neighbour j, reflected by the axes in `mirrors`: 1 without a
+ * particle (j < 0), 2 for a particle near no face. */
 static uint64_t colour_seen(const struct near_faces *b, const struct kinds *s, int32_t j, int mirrors)
 {
     if (j < 0) return 1;
@@ -92,7 +93,8 @@ static uint64_t colour_around(const struct near_faces *b, const struct kinds *s,
     return hash;
 }
 
-/* Numbers the particles' hashes in the order of their first particle. */
+/* Assigns elements with equal hashes to kinds, numbered in the order of their first element: sets s->n, s->of and
+ * s->first. hash: [n] */
 static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
 {
     int64_t room = 64;
@@ -110,7 +112,8 @@ static void kinds_number(struct kinds *s, int64_t n, const uint64_t *hash)
     memory_free(slot);
 }
 
-/* Divides the kinds by the kinds of their neighbours, one family deeper. colours: they get colours. */
+/* Divides the kinds by the kinds of their neighbours: surroundings are compared one family deeper. colours: true to
+ * compute the colours of the new kinds. */
 static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colours)
 {
     const int dim = b->offset.dim;
@@ -144,7 +147,8 @@ static int mirrors_of(const struct near_faces *b, const struct kinds *s, int32_t
     return -1;
 }
 
-/* Finds the classes of kinds: kinds whose smallest colours are equal are mirror images of each other. of: [kinds] */
+/* Assigns kinds to classes: kinds whose smallest colours are equal are mirror images of each other. of: receives the
+ * number of the class of each kind, from 0 on [kinds]. */
 static void classes_of_kinds(struct bond_classes *a, const struct near_faces *b, const struct kinds *s, int32_t *of)
 {
     struct kinds least = {.of = of};

@@ -124,7 +124,8 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Finds the families of eight particles from the site map. Returns false if it does not show them. */
+/* Finds the families of particles first .. first + 7 from the site map, without regard to cracks. Returns false if the
+ * map is not sufficient or a void is near. */
 static bool eight_regular(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
                           int64_t first)
 {

@@ -101,7 +101,8 @@ static struct mean_face mean_face_of(const struct raw_faces *raw, int64_t t)
     return mean;
 }
 
-/* Of a particle with a face: projection of areas, and contribution to N (x) N. */
+/* For each particle with a face: the projection that turns axis-parallel face areas into the mean normal, and its
+ * contribution to N (x) N. Both are interpolated to those of the single face where faces are not in one plane. */
 struct smooth {
     real project[DIM_MAX][DIM_MAX], square[DIM_MAX][DIM_MAX];
 };
@@ -136,14 +137,15 @@ static real plane_of_faces(const struct offsets *o)
     return sum;
 }
 
-/* Particles with faces: list, and index of each particle near faces in the list, -1 if it has no face. */
+/* The smoothed faces of all particles with faces, and the index of each particle near faces among them, -1 if it has no
+ * face. */
 struct smooth_faces {
     int64_t n;
     int32_t *at;           /* [near n] */
     struct smooth *smooth; /* [n] */
 };
 
-/* Lists the particles with faces and computes what smooth_make does for each. */
+/* Computes the smoothed faces of all particles with faces. */
 static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *raw)
 {
     const struct near_faces *b = raw->body;
@@ -159,7 +161,9 @@ static void smooth_faces_make(struct smooth_faces *s, const struct raw_faces *ra
         if (s->at[t] >= 0) smooth_make(&s->smooth[s->at[t]], raw, t);
 }
 
-/* Computes the mean of N (x) N of particle t, weighted by nearness. */
+/* Computes N (x) N of particle t as the mean over the faces of its family, weighted by nearness, and reduced where
+ * fewer faces are near than at a plane face (`plane`: sum of weights there). rotates: of a model with rotations,
+ * without this reduction. */
 static void normals_gather(struct face_targets *f, const struct near_faces *b, const struct smooth_faces *s, real plane,
                            bool rotates, int64_t t)
 {

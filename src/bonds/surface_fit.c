@@ -356,9 +356,9 @@ static bool may_break(const struct bond_limit *limit)
     return breaks;
 }
 
-/* Fixes the factors of bonds in thin parts, which have too few layers, and at crack ends: factor of the volume method
- * (Le & Bobaru 2018), in models with rotations 1. If bonds may break, bonds at crack ends break next and get factor 1,
- * for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
+/* Fixes the factors of bonds in parts with too few layers and at ends of cracks: to the factor of the volume method
+ * (Le & Bobaru 2018), in models with rotations to 1. If bonds may break, those at ends of cracks break next and get
+ * factor 1, for which G_c is calibrated (otherwise Kalthoff's crack turns to 61 degrees at 1 mm). */
 static void plain_parts(struct fit *q, const struct near_faces *b, const struct face_targets *f, bool rotates)
 {
     const struct bond_classes *a = q->alike;

@@ -162,7 +162,8 @@ struct fit {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
-/* Solves the problem (surface_solve.c). factor: [groups]. Returns the number of products with the moments. */
+/* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
+ * the factors [groups]. Returns the number of products with the moments of all bonds. */
 int surface_solve(const struct fit *q, real *factor);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).

@@ -7,8 +7,8 @@
  * and those of the least squares satisfy R_c = Q_c^-1 q_c + goal_c - M_c(f) = 0. R is the gradient of a convex function
  * of q, and is linear where no factor meets a bound: Newton's method for such piecewise functions (Qi & Sun 1993) finds
  * its zero in a few steps. Each step is a linear system with the matrix Q_c^-1 + sum m m/prior over the bonds between
- * bounds, solved by conjugate gradients that are preconditioned by the block of each class. The sums over bonds couple
- * classes weakly: ten times fewer products are needed than for the factors themselves. */
+ * bounds, solved by conjugate gradients that are preconditioned by the block of each class. That takes a
+ * third to a fifth of the products of conjugate gradients in the factors themselves. */
 #include <math.h>
 
 #include "base/memory.h"

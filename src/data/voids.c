@@ -36,7 +36,7 @@ static bool solid_convex(const struct solid *s)
     }
 }
 
-/* Extends the box from .. to by box s if both together are a box. Returns false if they are not. */
+/* Extends the box from .. to by box s if their union is a box. Returns false if it is not. */
 static bool box_joins(real *from, real *to, const struct solid *s)
 {
     int axis = -1;
@@ -167,8 +167,8 @@ real voids_particle_depth(const struct voids *v, const struct particles *p, int6
     return real_max(0, -void_level(v, p->body[i], X));
 }
 
-/* Returns true if the body that continues in images beyond the mirrors within `reach` of X is convex if solid s is: no
- * mirror is near, or s is a box that reaches to the plane. */
+/* Returns true if the convex solid s and its images beyond the mirrors within `reach` of X form a convex set: no mirror
+ * is near, or s is a box that reaches to the plane. */
 static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, const real *X, real reach)
 {
     for (int m = 0; m < v->mirrors; m++) {
@@ -180,9 +180,9 @@ static bool mirrors_keep_convex(const struct voids *v, const struct solid *s, co
     return true;
 }
 
-/* Returns the convex solids of its body that contain particle i, one bit each, or ALONE if a single solid is within
- * `reach` of it. No void is between particles within reach of each other that one convex solid contains: 0 if a solid
- * that is subtracted or intersects is near, or if there are too many. */
+/* Returns the set of convex solids of its body that contain particle i, one bit each, or ALONE if a single solid is
+ * within `reach` of it. Returns 0 if a subtracted or intersecting solid is near, or if the body has more than
+ * SOLIDS_MOST solids. No void is between two particles at most `reach` apart that one of these solids contains. */
 static uint32_t solids_around(const struct voids *v, const struct particles *p, int64_t i, real reach)
 {
     real X[DIM_MAX] = {0};
@@ -205,8 +205,10 @@ static uint32_t solids_around(const struct voids *v, const struct particles *p, 
     return within == 1 && inside ? ALONE : inside;
 }
 
-/* Returns the marks of particle i. depth: [p->n_all] lower bounds of the particles' distances from the surface [m]: a
- * segment covered by the balls of these radii around its ends is inside; inside: [p->n_all] solids_around. */
+/* Returns VOID_NEAR if a segment from particle i to a particle of its body in `near` leaves the body, with VOID_ACROSS
+ * if both surfaces that it crosses face each other; else 0. depth: [p->n_all] lower bounds of the particles' distances
+ * from the surface [m]: a segment covered by the balls of these radii around its ends is inside; inside: [p->n_all]
+ * results of solids_around. */
 static uint8_t void_search(const struct voids *v, const struct particles *p, const real *depth, const uint32_t *inside,
                            int64_t i, const struct near *near)
 {
