@@ -1,5 +1,6 @@
 /* Sums over the bonds of all particles as if all were peridynamic: volumes of neighbours, and the critical time
  * step. */
+#include "bonds/surface.h"
 #include "bonds_parts.h"
 
 #include <math.h>
@@ -217,6 +218,17 @@ static struct pair_table pairs_of_bound(const struct bond_source *s)
     return pairs;
 }
 
+/* Marks the first particle of each class of equal surroundings: the others have rows of equal stiffness. Returns NULL
+ * if there are no classes, or if particles of a class may have unequal bonds. Release with memory_free. */
+static uint8_t *first_of_classes(const struct surface_weights *w, const struct site_map *map, int64_t n)
+{
+    if (!w || !map->uniform) return NULL;
+    uint8_t *first = NEW("bonds.first", n, uint8_t), *seen = NEW("bonds.seen", w->classes, uint8_t);
+    for (int64_t i = 0; i < n; i++) first[i] = !seen[w->class_of[i]], seen[w->class_of[i]] = 1;
+    memory_free(seen);
+    return first;
+}
+
 real bonds_critical_step(const struct particles *p, const struct bond_source *s)
 {
     real stiffness = family_micro_modulus(&s->family, &s->material[0]) * square(s->family.cell_volume), largest = 0;
@@ -229,6 +241,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
     const struct row_maker maker = {
         .source = s, .p = &all, .pairs = &pairs, .map = &map, .room = bonds_most_neighbours(s)};
     site_map_make(&map, s, p);
+    uint8_t *needed = first_of_classes(s->surface, &map, p->n);
 #pragma omp parallel reduction(max : largest)
     {
         struct row row = {0};
@@ -237,6 +250,9 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         regular_bonds_make(&regular, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
+            bool any = !needed;
+            for (int64_t i = first; i < first + LANES && i < p->n && !any; i++) any = needed[i];
+            if (!any) continue;
             if (map.at && first + LANES <= p->n && row_block_find_regular(&map, s, &all, first, &regular)) {
                 /* an equal row block is already in `largest` */
                 if (stencil_cache_find_row(&regular, s, first) < 0)
@@ -244,6 +260,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
                 continue;
             }
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
+                if (needed && !needed[i]) continue;
                 row_find_neighbours(&row, &maker, (int32_t)i);
                 row_compute_weights(&row, &maker, (int32_t)i);
                 largest = real_max(largest, row_stiffness(&row, &all, (int32_t)i, stiffness) / p->mass[i]);
@@ -253,6 +270,7 @@ real bonds_critical_step(const struct particles *p, const struct bond_source *s)
         row_buffer_free(&row);
     }
     site_map_free(&map);
+    memory_free(needed);
     memory_free(kind);
     memory_free(pairs.ratio);
     return largest > 0 ? 2 / sqrt(largest) : INFINITY;
