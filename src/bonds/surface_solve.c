@@ -15,11 +15,11 @@
 #include "base/team.h"
 #include "surface_parts.h"
 
-#define CLOSE 1e-12  /* relative reduction of R at which the solver stops */
-#define ROUGH 0.1    /* largest residual of a linear system, relative to R */
-#define STEEP 0.1    /* largest slope after a step, relative to that before it */
-#define PRODUCTS 600 /* largest number of products; 60 to 250 are enough */
-#define WORK 2.5e10  /* largest number of multiplications: 10 s on two cores */
+#define CLOSE 1e-12   /* relative reduction of R at which the solver stops */
+#define ROUGH 0.1     /* largest residual of a linear system, relative to R */
+#define STEEP 0.1     /* largest slope after a step, relative to that before it */
+#define PRODUCTS 1000 /* largest number of products; most bodies take 60 to 250, thin ones with cracks in space 700 */
+#define WORK 2.5e10   /* largest number of multiplications: 10 s on two cores */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
