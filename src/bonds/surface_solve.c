@@ -15,7 +15,7 @@
 #include "base/team.h"
 #include "surface_parts.h"
 
-#define CLOSE 1e-12   /* relative reduction of R at which the solver stops */
+#define CLOSE 1e-13   /* relative reduction of R at which the solver stops */
 #define ROUGH 0.1     /* largest residual of a linear system, relative to R */
 #define STEEP 0.1     /* largest slope after a step, relative to that before it */
 #define PRODUCTS 1000 /* largest number of products; most bodies take 60 to 250, thin ones with cracks in space 700 */
