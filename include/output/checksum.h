@@ -21,6 +21,10 @@ const char *file_damage(const char *path);
  * only damage that is certain is reported. */
 const char *file_certain_damage(const char *path);
 
+/* Returns a hash of `length` bytes from `bytes` on. start: a number that the hash also depends on, as the hash of what
+ * precedes these bytes. */
+uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length);
+
 /* Computes a hash of the contents of the regular file `path` and stores it in *hash. Returns REFUSED if the file
  * cannot be read. */
 status file_contents_hash(const char *path, uint64_t *hash);

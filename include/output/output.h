@@ -20,19 +20,33 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment
 
 enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
 
+/* A frame that has been written. */
+struct frame_entry {
+    real time;         /* [s]; NAN: the frame is lost (output_frames_check) */
+    int64_t rows;      /* particles and material points of coarse cells */
+    uint32_t fields;   /* bit set of the fields in this frame (output_fields.c) */
+    int32_t particles; /* number in the name of the particles file that the frame links to (particles_file.h) */
+};
+
+/* Rows of frames: particles by ascending id, then material points of coarse cells. */
+struct frame_rows {
+    int32_t *index; /* [n] index of a particle, of a material point of a coarse cell */
+    int64_t n, own; /* number of rows; of them particles */
+};
+
 /* Frames of the whole body or of one region, with their own folder and indices. */
 struct frame_series {
     char name[NAME_MAX_LENGTH];  /* name of the region; "" for the whole body */
     const struct region *region; /* borrowed; NULL for the whole body */
     int frames;                  /* number of frames written */
-    real *frame_time;            /* [frames] times [s] */
-    int64_t *frame_rows;         /* [frames] rows per frame: particles and material points of coarse cells */
-    unsigned frame_fields;       /* bit set of the fields in these frames (output_fields.c) */
-    struct {                     /* reused while the particles stay the same */
-        int32_t *order;          /* [n] shown particles by ascending id, then material points of coarse cells */
-        char *room;              /* buffer for one field, used by the writing thread */
-        int64_t n, of;           /* number of rows; number of particles and points to select from */
-    } kept;
+    struct frame_entry *entry;   /* [frames] */
+    struct {                     /* the particles file that the last frame links to */
+        int32_t number;          /* in its name; -1: none */
+        int64_t content;         /* hash of its contents */
+        bool current;            /* the particles have not changed since its contents were compared */
+    } particles;
+    struct frame_rows rows; /* reused while the particles stay the same */
+    int64_t rows_of;        /* number of particles and points from which the rows were selected */
 };
 
 /* State of the output of a run. */
@@ -48,7 +62,7 @@ struct output {
     int columns;
     bool broken;               /* HDF5 failed to write and must not be called again */
     struct frame_job *writing; /* frame that the writing thread is writing; NULL if none */
-    char *frame_copy;          /* copies of the fields of `writing`; kept for the next frame to avoid new page faults */
+    char *frame_copy;          /* rows of the fields of `writing`; kept for the next frame to avoid new page faults */
     int64_t frame_copy_bytes;
 };
 
@@ -122,8 +136,7 @@ struct frame_state {
 struct frame_extra {
     real *const *push;               /* [dim] contact force [N] */
     const int32_t *fragment;         /* index of the fragment, 0 for the heaviest; -1: none */
-    const struct particles *more;    /* material points of coarse cells, written after the particles; must stay
-                                      * unchanged until output_wait */
+    const struct particles *more;    /* material points of coarse cells, written after the particles */
     real spacing;                    /* spacing of the particles [m] */
     const real *more_spacing;        /* [more->n] spacing of the material points of coarse cells [m] */
     unsigned asked;                  /* bit set of the requested fields: ASK_STRAIN and so on */
@@ -133,16 +146,17 @@ struct frame_extra {
 };
 
 /* Writes the next frame of the whole body at time t [s] after `step` time steps: the file frames/NNNNNN.hdf, then the
- * index files frames.hdf.series and frames.xdmf. Particles are sorted by id; all fields but the reference positions
- * have single precision. scene_text: text of the scene, stored in the frame. Returns when the files are complete,
- * FAILED if one cannot be written. */
+ * index files frames.hdf.series and frames.xdmf. What does not change while the particles stay the same is written
+ * before the first of these frames, to a file of its own, to which they link (particles_file.h). Particles are sorted
+ * by id; all fields but the reference positions have single precision. scene_text: text of the scene, stored in that
+ * file. Returns when the files are complete, FAILED if one cannot be written. */
 status output_write_frame(struct output *o, const struct particles *p, real t, int64_t step, const char *scene_text);
 
 /* Starts to write the next frame of a series (0: the whole body; 1 .. n_series: regions) at time t [s] after `step`
- * time steps, in a separate thread. Fields that change during the run, and those in *extra (NULL: none), are copied
- * before the function returns; p and scene_text must stay valid until output_wait. Only one frame is written at a time:
- * the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress, for which it
- * waits, could not be written; a failure of this frame is returned by the call that waits for it. */
+ * time steps, in a separate thread. The fields of p and *extra (NULL: none) are copied before the function returns;
+ * scene_text must stay valid until output_wait. Contact forces are left out if they are 0 everywhere. Only one frame is
+ * written at a time: the next frame, checkpoints and output_close wait for it. Returns FAILED if the frame in progress,
+ * for which it waits, could not be written; a failure of this frame is returned by the call that waits for it. */
 status output_frame_begin(struct output *o, int series, const struct particles *p, const struct frame_extra *extra,
                           real t, int64_t step, const char *scene_text);
 
@@ -192,16 +206,17 @@ struct frame {
 static inline int frame_stresses(int dim) { return symmetric_count(dim) + (dim == 2); }
 
 /* Reads the frame in the file `path` into *f, particles in the order of ascending id. Returns FAILED, with no memory
- * to release, if the file cannot be read or is damaged. Release with frame_free. */
+ * to release, if the file, or the particles file that it links to, cannot be read or is damaged. Release with
+ * frame_free. */
 status frame_read(struct frame *f, const char *path);
 
 /* Releases the arrays of the frame *f. */
 void frame_free(struct frame *f);
 
 /* Reads the field called `name` at the particles of the frame f, which was read from the file `path`: a field stored
- * in the file, or one computed from fields of f (data/derived_fields.h). Stores the number of its components in
- * *columns and an allocated array [n][columns] in *value, which the caller releases with memory_free. Returns FAILED
- * if the frame has no such field. */
+ * in the file, one computed from fields of f (data/derived_fields.h), or contact forces that the frame leaves out
+ * because they are 0. Stores the number of its components in *columns and an allocated array [n][columns] in *value,
+ * which the caller releases with memory_free. Returns FAILED if the frame has no such field. */
 status frame_field_read(const struct frame *f, const char *path, const char *name, int *columns, float **value);
 
 /* Entry of frames.hdf.series. Numbers have gaps where files were lost. */

@@ -17,13 +17,13 @@ size_t hdf_type_size(enum hdf_type type);
 /* An open HDF5 file and its first fault. */
 struct hdf {
     hid_t file;
-    bool compress; /* gzip datasets of hdf_write_rows */
+    bool compress; /* gzip the tables of hdf_write_table */
     bool failed;   /* a call failed: make no further one */
     int cause;     /* errno of the failed call, 0 if unknown */
 };
 
 /* Creates the HDF5 file `path`, replacing an existing one, and stores its handle in *f. compress: compress the
- * datasets that hdf_write_rows writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
+ * tables that hdf_write_table writes with gzip. No time stamps are stored, so that equal content gives equal bytes. A
  * failure is stored in f->failed. */
 void hdf_create(struct hdf *f, const char *path, bool compress);
 
@@ -40,8 +40,25 @@ void hdf_create_group(struct hdf *f, const char *name);
  * dimension if `columns` is 1. A failure is stored in f->failed. */
 void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data);
 
+/* Writes the dataset `name` of rows x columns numbers of the given type, of which only the first `stored` in each row
+ * come from data[rows][stored]; the others are 0 and take no space in the file. The dataset has one dimension if
+ * `columns` is 1. Rows are stored in chunks; a chunk that holds one number throughout, 0 or in a dataset of one column
+ * the number of its first row, takes no space either, as readers then return the fill value. A failure is stored in
+ * f->failed. */
+void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored,
+                     const void *data);
+
+/* Creates the external link `name` to the dataset of the same path in another file. file: its path relative to the
+ * folder of f. A failure is stored in f->failed. */
+void hdf_create_link(struct hdf *f, const char *name, const char *file);
+
+/* Returns true if `name` is an external link, and stores the path of the file that it leads to in `file`, which holds
+ * `room` bytes; an empty text if the path is too long. A failure, also that there is no such name, is stored in
+ * f->failed. */
+bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t room);
+
 /* Part of a virtual dataset: `rows` rows of a dataset in another file, whose path is relative to the folder of the
- * virtual file. */
+ * virtual file; NULL: there is no such dataset, and the rows are 0. */
 struct hdf_source {
     const char *file;
     int64_t rows;
@@ -82,6 +99,9 @@ int64_t hdf_dataset_size(struct hdf *f, const char *name);
 /* Reads the dataset `name`, which must hold exactly `count` numbers, and converts them to the given type in
  * data[count]. Another size or a failed read is stored in f->failed. */
 void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t count, void *data);
+
+/* Returns true if the group or dataset has an attribute `name`. A failure is stored in f->failed. */
+bool hdf_has_attribute(struct hdf *f, const char *group, const char *name);
 
 /* Reads the attribute `name` of a group or dataset, which must be one number, and converts it to the given type in
  * *value. group: path of the group or dataset. Another size or a failed read is stored in f->failed. */

@@ -206,7 +206,7 @@ struct scene {
     struct scene_series *series;
     int samples;              /* number of samples of history.csv after the one at t = 0 */
     real wall;                /* wall-clock time after which a process ends with a checkpoint [s]; INFINITY: none */
-    real checkpoint_interval; /* wall-clock time between checkpoints [s] */
+    real checkpoint_interval; /* wall-clock time between checkpoints [s]; NAN: auto */
     bool compress;            /* frames are compressed with gzip */
     real speed_window;        /* time over which the crack-tip speed is averaged [s] */
 

@@ -47,7 +47,8 @@ struct run_report {
     double loop_before;    /* loop_seconds of processes before a restart [s] */
     double began, started; /* wall-clock times of the start of the process, and of its first step [s] */
     double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
-    double checkpoint_seconds;             /* longest time that a checkpoint took [s] */
+    double checkpoint_seconds;             /* longest time that a checkpoint took, waiting for a frame included [s] */
+    double checkpoints_spent;              /* time of the checkpoints after that of step 0, in this process [s] */
     int64_t step_started;                  /* number of the first step of this process */
     bool yield_said;                       /* the warning that bonds yield has been printed */
     bool excerpt;                /* only the first steps run, for the export: the energy balance is not judged */

@@ -25,7 +25,6 @@ enum { PERIODS_MOST = 200, WINDOWS_LEAST = 5 };
 #define PATIENCE 3.0               /* factor on SECONDS_WHOLE, for conversion or a busy machine */
 #define WALL_MOST 60.0             /* wall-clock time of such a trial [s] */
 #define COARSER_MOST 4.0           /* factor on the spacing up to which a body breaks in about the same positions */
-#define FRAME_BYTES 72             /* per particle: copy for the writer, its buffer, the sort order */
 #define PARTS_BYTES 56             /* ... in addition with bonds: fragments of a broken body, damage */
 #define OUTPUT_BYTES 5.2e6         /* of the HDF5 library: 2.1 MB of code and data, 2 MB of conversion buffers, */
                                    /* the file of all frames 1.1 MB                                     */
@@ -258,7 +257,9 @@ static void cost_peridynamic(struct cost *c, const struct run *e, const struct r
  * it. */
 static double output_bytes(const struct particles *part, const struct scene *scene)
 {
-    return OUTPUT_BYTES + (double)part->n * (FRAME_BYTES + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
+    /* per particle, by dimension: copy for the writer, the sort order, what goes to the particles file; measured */
+    static const double frame[DIM_MAX + 1] = {0, 30, 53, 89};
+    return OUTPUT_BYTES + (double)part->n * (frame[scene->dim] + (scene->method == METHOD_MPM ? 0 : PARTS_BYTES));
 }
 
 status cost_measure(struct cost *c, struct run *e, const struct run_arguments *a)

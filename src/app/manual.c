@@ -88,6 +88,7 @@ static const struct entry signals[] = {
 };
 static const struct entry files[] = {
     {"frames/NNNNNN.hdf, frames.hdf.series", "the frames (VTKHDF) and the index that ParaView opens", NULL},
+    {"frames/particles_NNNNNN.h5", "what frames share; a frame that is copied without it cannot be opened", NULL},
     {"frames.xdmf", "the same for other readers", NULL},
     {"history.csv",
      "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "

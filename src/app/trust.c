@@ -33,9 +33,9 @@ static const struct promise promises[] = {
      "and status 1; no file stays half-written, and --resume gets to the same bits.",
      "test_ground.c test_faults.c"},
     {"Files and the folders they are named in are synced before anything counts on them.", "test_faults.c"},
-    {"Every changed, lost or added byte of a checkpoint or frame is found; the older checkpoint takes over, a lost "
-     "frame is named.",
-     "test_checkpoint.c test_faults.c test_guards.sh"},
+    {"Every changed, lost or added byte of a checkpoint, a frame or the file that frames share is found; the older "
+     "checkpoint takes over, a lost frame is named.",
+     "test_checkpoint.c test_particles_file.c test_faults.c test_guards.sh"},
     {"One run at a time has a folder; older runs, other people's files and what links lead to stay as they are.",
      "test_guards.sh"},
     {"A run that turns unstable, folds its cells or gains energy stops, says where and why, and exits with 1; 5 % of "

@@ -48,7 +48,7 @@ static void hash_strides(struct hash *h, const unsigned char *bytes, size_t stri
     h->lane[0] = a, h->lane[1] = b, h->lane[2] = c, h->lane[3] = d;
 }
 
-/* Adds bytes to the hash. In all calls but the last `length` must be a multiple of STRIDE. */
+/* Adds bytes to the hash, filled up with zeros to a multiple of STRIDE. */
 static void hash_add(struct hash *h, const unsigned char *bytes, size_t length)
 {
     unsigned char rest[STRIDE] = {0};
@@ -65,6 +65,15 @@ static uint64_t hash_value(const struct hash *h)
     uint64_t value = h->length;
     for (int k = 0; k < LANES_OF_HASH; k++) value = hash_step(value, h->lane[k]);
     return value;
+}
+
+uint64_t bytes_hash(uint64_t start, const void *bytes, size_t length)
+{
+    struct hash h;
+    hash_start(&h);
+    hash_add(&h, (const unsigned char *)&start, sizeof start);
+    hash_add(&h, bytes, length);
+    return hash_value(&h);
 }
 
 /* Computes the hash of the first `length` bytes of an open file. Returns 0 or an errno. */

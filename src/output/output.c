@@ -39,11 +39,21 @@ static const struct {
     {"frames.vtkhdf", NULL},
 };
 
-/* Returns true if `name` is the file name of a frame, such as 123456.hdf, followed by `end`. */
+/* Returns true if `name` consists of at least six digits and `type`, followed by `end`. */
+static bool is_numbered(const char *name, const char *type, const char *end)
+{
+    const size_t digits = strspn(name, "0123456789"), length = strlen(type);
+    return digits >= 6 && strncmp(name + digits, type, length) == 0 && strcmp(name + digits + length, end) == 0;
+}
+
+/* Returns true if `name` is that of a frame, 123456.hdf, or of a particles file, particles_123456.h5, followed by
+ * `end`. */
 static bool is_frame(const char *name, const char *end)
 {
-    const size_t digits = strspn(name, "0123456789");
-    return digits >= 6 && strncmp(name + digits, ".hdf", 4) == 0 && strcmp(name + digits + 4, end) == 0;
+    static const char particles[] = "particles_";
+    if (strncmp(name, particles, sizeof particles - 1) == 0)
+        return is_numbered(name + sizeof particles - 1, ".h5", end);
+    return is_numbered(name, ".hdf", end);
 }
 
 static status file_remove(const char *path) { return (void)unlink(path), OK; }
@@ -316,7 +326,7 @@ status output_open(struct output *o, const char *folder, const char *scene_text,
     INVARIANT(folder && scene_text);
     struct path clean = {{0}};
     size_t length = strlen(folder);
-    *o = (struct output){.compress = compress, .lock.fd = -1};
+    *o = (struct output){.compress = compress, .lock.fd = -1, .series[0].particles.number = -1};
     if (length == 0) return status_set(REFUSED, "-o: needs the name of a folder");
     if (length + PATH_NAME_ROOM >= PATH_ROOM) return status_set(REFUSED, "-o: the folder's name is too long");
     while (length > 1 && folder[length - 1] == '/') length--;
@@ -358,7 +368,7 @@ status output_add_series(struct output *o, const char *name, const struct region
     TRY(output_check_series_folder(o->folder, name));
     TRY(folder_make(series_folder(o->folder, name).text));
     struct frame_series *s = &o->series[++o->n_series];
-    *s = (struct frame_series){.region = region};
+    *s = (struct frame_series){.region = region, .particles.number = -1};
     snprintf(s->name, sizeof s->name, "%s", name);
     return OK;
 }
@@ -370,10 +380,7 @@ void output_close(struct output *o)
     if (o->folder) folder_unlock(&o->lock, o->folder);
     memory_free(o->folder);
     output_particles_changed(o);
-    for (int k = 0; k <= o->n_series; k++) {
-        memory_free(o->series[k].frame_time);
-        memory_free(o->series[k].frame_rows);
-    }
+    for (int k = 0; k <= o->n_series; k++) memory_free(o->series[k].entry);
     memory_free(o->frame_copy);
     *o = (struct output){0};
 }
@@ -390,28 +397,28 @@ status output_write_text(const struct output *o, const char *name, const char *t
  * not match. */
 static status series_archive(struct frame_series *s, struct archive *a)
 {
-    char frames_name[100], time_name[100], rows_name[100];
+    char frames_name[100], entry_name[100], number_name[100], content_name[100];
     const char *between = s->name[0] ? "_" : "";
     int32_t frames = s->frames;
     snprintf(frames_name, sizeof frames_name, "output/frames%s%s", between, s->name);
-    snprintf(time_name, sizeof time_name, "output/frame_time%s%s", between, s->name);
-    snprintf(rows_name, sizeof rows_name, "output/frame_rows%s%s", between, s->name);
+    snprintf(entry_name, sizeof entry_name, "output/frame_list%s%s", between, s->name);
+    snprintf(number_name, sizeof number_name, "output/particles_number%s%s", between, s->name);
+    snprintf(content_name, sizeof content_name, "output/particles_content%s%s", between, s->name);
     ARCHIVE_VALUE(a, frames_name, frames);
     if (!a->saving) {
-        if (frames < 0 || a->stored_size(a, time_name) != (int64_t)frames * (int64_t)sizeof(real))
-            return status_set(
-                FAILED,
-                "cannot resume: the checkpoint names %d frames, and its list of their times has another length: "
-                "start again with --overwrite",
-                frames);
-        memory_free(s->frame_time);
-        s->frame_time = NEW("output.frame_time", frames, real);
-        memory_free(s->frame_rows);
-        s->frame_rows = NEW("output.frame_rows", frames, int64_t);
+        if (frames < 0 || a->stored_size(a, entry_name) != (int64_t)frames * (int64_t)sizeof *s->entry)
+            return status_set(FAILED,
+                              "cannot resume: the checkpoint names %d frames, and its list of them has another length: "
+                              "start again with --overwrite",
+                              frames);
+        memory_free(s->entry);
+        s->entry = NEW("output.frames", frames, struct frame_entry);
         s->frames = frames;
     }
-    TRY(a->exchange(a, time_name, s->frame_time, (size_t)frames * sizeof(real)));
-    return a->exchange(a, rows_name, s->frame_rows, (size_t)frames * sizeof(int64_t));
+    TRY(a->exchange(a, entry_name, s->entry, (size_t)frames * sizeof *s->entry));
+    ARCHIVE_VALUE(a, number_name, s->particles.number);
+    ARCHIVE_VALUE(a, content_name, s->particles.content);
+    return OK;
 }
 
 status output_archive(struct output *o, struct archive *a)

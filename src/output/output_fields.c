@@ -7,67 +7,82 @@
 
 #include "data/derived_fields.h"
 
-/* Copies the vectors `of` of particles first..end-1 into rows of three numbers, or the differences of - less if
- * `less` is not NULL. Rows are indexed by particle. Components that the space does not have become 0. */
-static ALWAYS_INLINE void copy_vectors(float *rows, int64_t first, int64_t end, real *const *of, real *const *less,
-                                       int dim)
+/* Copies one number per particle, of[i] or of[i] - less[i] if `less` is not NULL, to column c of rows of `columns`
+ * numbers. row: indices of the particles of rows first .. end - 1. */
+static ALWAYS_INLINE void copy_column(float *rows, int columns, int c, const int32_t *row, int64_t first, int64_t end,
+                                      const real *of, const real *less)
 {
-    for (int64_t i = first; i < end; i++)
-        for (int d = 0; d < DIM_MAX; d++)
-            rows[DIM_MAX * i + d] = d < dim ? (float)(less ? of[d][i] - less[d][i] : of[d][i]) : 0;
+    for (int64_t r = first; r < end; r++)
+        rows[columns * r + c] = (float)(less ? of[row[r]] - less[row[r]] : of[row[r]]);
 }
 
-static void copy_point(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+/* Copies vectors `of`, or the differences of - less if `less` is not NULL, to rows of dim numbers. */
+static void copy_vectors(float *rows, const int32_t *row, int64_t first, int64_t end, real *const *of,
+                         real *const *less, int dim)
 {
-    copy_vectors(rows, first, end, s->p->x, NULL, s->p->dim);
+    for (int d = 0; d < dim; d++)
+        if (less)
+            copy_column(rows, dim, d, row, first, end, of[d], less[d]);
+        else
+            copy_column(rows, dim, d, row, first, end, of[d], NULL);
 }
 
-static void copy_displacement(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_point(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_vectors(rows, first, end, s->p->x, s->p->X, s->p->dim);
+    copy_vectors(rows, row, first, end, s->p->x, NULL, s->p->dim);
 }
 
-static void copy_velocity(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_displacement(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_vectors(rows, first, end, s->p->v, NULL, s->p->dim);
+    copy_vectors(rows, row, first, end, s->p->x, s->p->X, s->p->dim);
 }
 
-/* Copies one number per particle, of particles first..end-1, to rows of `columns` numbers. */
-static void copy_scalars(float *rows, int64_t first, int64_t end, const real *of, int columns)
+static void copy_velocity(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++) rows[columns * i] = (float)of[i];
+    copy_vectors(rows, row, first, end, s->p->v, NULL, s->p->dim);
 }
+
+/* Copies one number per particle. */
+static void copy_scalars(float *rows, const int32_t *row, int64_t first, int64_t end, const real *of)
+{
+    copy_column(rows, 1, 0, row, first, end, of, NULL);
+}
+
+/* Returns the number of leading components of a symmetric tensor in VTK's order that are stored; the others are 0. */
+static inline int tensor_stored(int dim) { return dim == 1 ? 1 : dim == 2 ? 4 : SYM_MAX; }
+
+/* Index in VTK's order of component k of struct particles, by dimension; differs only in 2D, which has xx yy xy. */
+static const int tensor_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
 /* Copies the stress of a particle in VTK's order, with the out-of-plane component zz [Pa]. */
-static ALWAYS_INLINE void stress_row(const struct particles *p, int64_t i, real *row)
+static void stress_row(const struct particles *p, int64_t i, real *row)
 {
-    /* Index in VTK's order of component k of struct particles; differs only in 2D, which has xx yy xy. */
-    static const int place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
     for (int k = 0; k < SYM_MAX; k++) row[k] = 0;
-    for (int k = 0; k < symmetric_count(p->dim); k++) row[place[p->dim][k]] = p->stress[k][i];
+    for (int k = 0; k < symmetric_count(p->dim); k++) row[tensor_place[p->dim][k]] = p->stress[k][i];
     if (p->plane_strain) row[2] = particle_stress_across(p, i);
 }
 
-static void copy_stress(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_stress(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++) {
-        real row[SYM_MAX];
-        stress_row(s->p, i, row);
-        for (int k = 0; k < SYM_MAX; k++) ((float *)rows)[SYM_MAX * i + k] = (float)row[k];
-    }
+    const struct particles *p = s->p;
+    const int stored = tensor_stored(p->dim);
+    for (int k = 0; k < symmetric_count(p->dim); k++)
+        copy_column(rows, stored, tensor_place[p->dim][k], row, first, end, p->stress[k], NULL);
+    if (p->dim != 2) return;
+    for (int64_t r = first; r < end; r++) ((float *)rows)[stored * r + 2] = (float)particle_stress_across(p, row[r]);
 }
 
-/* Computes a derived field of particles first..end-1 from their stress or velocity and writes it to
- * rows[end][field->columns]. */
-static void copy_derived(const struct derived_field *field, const struct frame_source *s, int64_t first, int64_t end,
-                         float *rows)
+/* Fills rows of a field that is derived from another field. */
+static void copy_derived(const struct derived_field *field, const struct frame_source *s, const int32_t *row,
+                         int64_t first, int64_t end, float *rows)
 {
-    for (int64_t i = first; i < end; i++) {
+    for (int64_t r = first; r < end; r++) {
+        const int64_t i = row[r];
         real from[SYM_MAX] = {0}, to[DERIVED_MOST];
         if (field->from == FROM_STRESS) stress_row(s->p, i, from);
         for (int d = 0; d < s->p->dim && field->from == FROM_VELOCITY; d++) from[d] = s->p->v[d][i];
         field->compute(from, to);
-        for (int c = 0; c < field->columns; c++) rows[field->columns * i + c] = (float)to[c];
+        for (int c = 0; c < field->columns; c++) rows[field->columns * r + c] = (float)to[c];
     }
 }
 
@@ -104,113 +119,144 @@ static void strain_row(const struct frame_source *s, int64_t i, real *strain)
     if (dim == 2) strain[2] = strain_across(s, i, strain);
 }
 
-static void copy_strain(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_strain(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++) {
+    const int stored = tensor_stored(s->p->dim);
+    for (int64_t r = first; r < end; r++) {
         real strain[SYM_MAX];
-        strain_row(s, i, strain);
-        for (int k = 0; k < SYM_MAX; k++) ((float *)rows)[SYM_MAX * i + k] = (float)strain[k];
+        strain_row(s, row[r], strain);
+        for (int k = 0; k < stored; k++) ((float *)rows)[stored * r + k] = (float)strain[k];
     }
 }
 
 /* Fills rows of the density rho_0/J with J^2 = det(1 + 2 E), E the Green-Lagrange strain [kg/m^3]. */
-static void copy_density(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_density(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++) {
+    for (int64_t r = first; r < end; r++) {
+        const int64_t i = row[r];
         real metric[SYM_MAX];
         strain_row(s, i, metric);
         for (int k = 0; k < SYM_MAX; k++) metric[k] = 2 * metric[k] + (k < 3);
         const real square_of_J = tensor_determinant(metric), reference = s->p->mass[i] / s->p->volume0[i];
-        ((float *)rows)[i] = (float)(square_of_J > 0 ? reference / sqrt(square_of_J) : reference);
+        ((float *)rows)[r] = (float)(square_of_J > 0 ? reference / sqrt(square_of_J) : reference);
     }
 }
 
-static void copy_plastic_work(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_plastic_work(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++)
-        ((float *)rows)[i] = s->extra.state.plastic_work ? (float)s->extra.state.plastic_work[i] : 0;
+    const real *work = s->extra.state.plastic_work;
+    for (int64_t r = first; r < end; r++) ((float *)rows)[r] = work ? (float)work[row[r]] : 0;
 }
 
-static void copy_level(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+/* Copies one byte per particle. */
+static void copy_bytes(uint8_t *rows, const int32_t *row, int64_t first, int64_t end, const uint8_t *of)
 {
-    array_copy((uint8_t *)rows + first, s->extra.state.level + first, end - first, 1);
+    for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
+}
+
+/* Copies one integer per particle. */
+static void copy_integers(int32_t *rows, const int32_t *row, int64_t first, int64_t end, const int32_t *of)
+{
+    for (int64_t r = first; r < end; r++) rows[r] = of[row[r]];
+}
+
+static void copy_level(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_bytes(rows, row, first, end, s->extra.state.level);
 }
 
 /* ---- further fields ---------------------------------------------------------------------------------------------- */
 
-/* Copies the damage of particles first..end-1. */
-static void copy_damage(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+/* Copies the damage of the particles of rows first .. end - 1. */
+static void copy_damage(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_scalars(rows, first, end, s->p->damage, 1);
+    copy_scalars(rows, row, first, end, s->p->damage);
 }
 
-static void copy_plastic_strain(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_plastic_strain(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end,
+                                void *rows)
 {
-    const real *strain = s->extra.state.plastic_strain ? s->extra.state.plastic_strain : s->p->plastic_strain;
-    copy_scalars(rows, first, end, strain, 1);
+    copy_scalars(rows, row, first, end,
+                 s->extra.state.plastic_strain ? s->extra.state.plastic_strain : s->p->plastic_strain);
 }
 
-static void copy_kind(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_kind(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    array_copy((uint8_t *)rows + first, s->p->kind + first, end - first, 1);
+    copy_bytes(rows, row, first, end, s->p->kind);
 }
 
-static void copy_strength(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_push(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++) ((float *)rows)[i] = (float)s->p->strength[i];
+    copy_vectors(rows, row, first, end, s->extra.push, NULL, s->p->dim);
 }
 
-static void copy_push(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_fragment(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    copy_vectors(rows, first, end, s->extra.push, NULL, s->p->dim);
+    copy_integers(rows, row, first, end, s->extra.fragment);
 }
 
-static void copy_fragment(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+/* ---- fields of the particles file -------------------------------------------------------------------------------- */
+
+/* Copies the spacing of particles, or of material points of coarse cells. */
+static void copy_spacing(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    array_copy((int32_t *)rows + first, s->extra.fragment + first, end - first, sizeof(int32_t));
+    for (int64_t r = first; r < end; r++)
+        ((float *)rows)[r] = (float)(s->p == s->extra.more ? s->extra.more_spacing[row[r]] : s->extra.spacing);
 }
 
-static void copy_spacing(const struct frame_source *s, int64_t first, int64_t end, void *rows)
+static void copy_strength(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int64_t i = first; i < end; i++)
-        ((float *)rows)[i] = (float)(s->p == s->extra.more ? s->extra.more_spacing[i] : s->extra.spacing);
+    copy_scalars(rows, row, first, end, s->p->strength);
 }
 
-static void fill_reference(const struct particles *p, int64_t i, void *row)
+static void copy_reference(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
-    for (int d = 0; d < p->dim; d++) ((double *)row)[d] = p->X[d][i];
+    const int dim = s->p->dim;
+    for (int64_t r = first; r < end; r++)
+        for (int d = 0; d < dim; d++) ((double *)rows)[dim * r + d] = s->p->X[d][row[r]];
 }
 
-static void fill_material(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->material[i]; }
-static void fill_body(const struct particles *p, int64_t i, void *row) { *(uint8_t *)row = p->body[i]; }
-static void fill_id(const struct particles *p, int64_t i, void *row) { *(int32_t *)row = p->id[i]; }
+static void copy_material(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_bytes(rows, row, first, end, s->p->material);
+}
+
+static void copy_body(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_bytes(rows, row, first, end, s->p->body);
+}
+
+static void copy_id(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_integers(rows, row, first, end, s->p->id);
+}
 
 #define POINT_DATA "/VTKHDF/PointData/"
 const struct frame_field frame_fields[FRAME_FIELDS] = {
-    {"/VTKHDF/Points", "m", HDF_F32, 3, NULL, copy_point},
-    {POINT_DATA "displacement", "m", HDF_F32, 3, NULL, copy_displacement},
-    {POINT_DATA "velocity", "m/s", HDF_F32, 3, NULL, copy_velocity},
-    {POINT_DATA "stress", "Pa", HDF_F32, 6, NULL, copy_stress},
-    {POINT_DATA "damage", "", HDF_F32, 1, NULL, copy_damage},
-    {POINT_DATA "plastic_strain", "", HDF_F32, 1, NULL, copy_plastic_strain},
-    {POINT_DATA "contact_force", "N", HDF_F32, 3, NULL, copy_push},
-    {POINT_DATA "fragment", "", HDF_I32, 1, NULL, copy_fragment},
-    {POINT_DATA "spacing", "m", HDF_F32, 1, NULL, copy_spacing},
-    {POINT_DATA "kind", "", HDF_U8, 1, NULL, copy_kind},
-    {POINT_DATA "material", "", HDF_U8, 1, fill_material, NULL},
-    {POINT_DATA "body", "", HDF_U8, 1, fill_body, NULL},
-    {POINT_DATA "id", "", HDF_I32, 1, fill_id, NULL},
-    {POINT_DATA "von_mises", "Pa", HDF_F32, 1, NULL, NULL},
-    {POINT_DATA "pressure", "Pa", HDF_F32, 1, NULL, NULL},
-    {POINT_DATA "principal_stress", "Pa", HDF_F32, 3, NULL, NULL},
-    {POINT_DATA "principal_directions", "", HDF_F32, 9, NULL, NULL},
-    {POINT_DATA "speed", "m/s", HDF_F32, 1, NULL, NULL},
-    {POINT_DATA "strain", "", HDF_F32, 6, NULL, copy_strain},
-    {POINT_DATA "density", "kg/m^3", HDF_F32, 1, NULL, copy_density},
-    {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, NULL, copy_plastic_work},
-    {POINT_DATA "level", "", HDF_U8, 1, NULL, copy_level},
-    {POINT_DATA "strength", "", HDF_F32, 1, NULL, copy_strength},
-    {"/Cleave/reference", "m", HDF_F64, 0, fill_reference, NULL},
+    {"/VTKHDF/Points", "m", HDF_F32, 3, ROW_VECTOR, false, copy_point},
+    {POINT_DATA "displacement", "m", HDF_F32, 3, ROW_VECTOR, false, copy_displacement},
+    {POINT_DATA "velocity", "m/s", HDF_F32, 3, ROW_VECTOR, false, copy_velocity},
+    {POINT_DATA "stress", "Pa", HDF_F32, 6, ROW_TENSOR, false, copy_stress},
+    {POINT_DATA "damage", "", HDF_F32, 1, ROW_WHOLE, false, copy_damage},
+    {POINT_DATA "plastic_strain", "", HDF_F32, 1, ROW_WHOLE, false, copy_plastic_strain},
+    {POINT_DATA "contact_force", "N", HDF_F32, 3, ROW_VECTOR, false, copy_push},
+    {POINT_DATA "fragment", "", HDF_I32, 1, ROW_WHOLE, false, copy_fragment},
+    {POINT_DATA "spacing", "m", HDF_F32, 1, ROW_WHOLE, true, copy_spacing},
+    {POINT_DATA "kind", "", HDF_U8, 1, ROW_WHOLE, false, copy_kind},
+    {POINT_DATA "material", "", HDF_U8, 1, ROW_WHOLE, true, copy_material},
+    {POINT_DATA "body", "", HDF_U8, 1, ROW_WHOLE, true, copy_body},
+    {POINT_DATA "id", "", HDF_I32, 1, ROW_WHOLE, true, copy_id},
+    {POINT_DATA "von_mises", "Pa", HDF_F32, 1, ROW_WHOLE, false, NULL},
+    {POINT_DATA "pressure", "Pa", HDF_F32, 1, ROW_WHOLE, false, NULL},
+    {POINT_DATA "principal_stress", "Pa", HDF_F32, 3, ROW_WHOLE, false, NULL},
+    {POINT_DATA "principal_directions", "", HDF_F32, 9, ROW_WHOLE, false, NULL},
+    {POINT_DATA "speed", "m/s", HDF_F32, 1, ROW_WHOLE, false, NULL},
+    {POINT_DATA "strain", "", HDF_F32, 6, ROW_TENSOR, false, copy_strain},
+    {POINT_DATA "density", "kg/m^3", HDF_F32, 1, ROW_WHOLE, false, copy_density},
+    {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, ROW_WHOLE, false, copy_plastic_work},
+    {POINT_DATA "level", "", HDF_U8, 1, ROW_WHOLE, false, copy_level},
+    {POINT_DATA "strength", "", HDF_F32, 1, ROW_WHOLE, true, copy_strength},
+    {"/Cleave/reference", "m", HDF_F64, 0, ROW_VECTOR, true, copy_reference},
 };
 
 /* Indices of the fields that are written only if the scene requests them; bit k of the request selects field k + 1. */
@@ -238,28 +284,50 @@ unsigned frame_fields_of(const struct frame_source *s)
     return found;
 }
 
-size_t frame_field_row(const struct frame_field *field, int dim)
+/* Returns the stored numbers per row of a field. dim: dimension of the body. */
+static int field_stored(const struct frame_field *field, int dim)
 {
-    return hdf_type_size(field->type) * (size_t)(field->columns ? field->columns : dim);
+    return field->row == ROW_VECTOR ? dim : field->row == ROW_TENSOR ? tensor_stored(dim) : field->columns;
 }
 
-void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
-                      void *rows)
+size_t frame_field_bytes(const struct frame_field *field, int dim)
+{
+    return hdf_type_size(field->type) * (size_t)field_stored(field, dim);
+}
+
+/* Copies rows first .. end - 1 of a field. row: indices of the particles. */
+static void copy_rows(const struct frame_field *field, const struct frame_source *source, const int32_t *row,
+                      int64_t first, int64_t end, void *rows)
 {
     if (field->copy)
-        field->copy(source, first, end, rows);
+        field->copy(source, row, first, end, rows);
     else
-        copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, first, end, rows);
+        copy_derived(derived_field_find(strrchr(field->path, '/') + 1), source, row, first, end, rows);
 }
 
-void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows)
+void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
+                           const struct frame_rows *order, char *rows)
 {
+    enum { BLOCK = 4096 }; /* rows that a thread copies at a time */
+    const int64_t own = order->own, others = order->n - own;
     struct frame_source more = {source->extra.more, source->extra};
+#pragma omp parallel for schedule(static)
+    for (int64_t first = 0; first < own; first += BLOCK)
+        copy_rows(field, source, order->index, first, first + BLOCK < own ? first + BLOCK : own, rows);
+    if (others == 0) return;
     more.extra.push = NULL, more.extra.fragment = NULL, more.extra.state = source->extra.more_state;
+    rows += (size_t)own * frame_field_bytes(field, source->p->dim);
     if (field_exists(field, &more))
-        frame_field_copy(field, &more, 0, more.p->n, rows);
+        copy_rows(field, &more, order->index + own, 0, others, rows);
     else
-        array_fill_bytes(rows, 0, more.p->n, frame_field_row(field, more.p->dim));
+        array_fill_bytes(rows, 0, others, frame_field_bytes(field, source->p->dim));
+}
+
+void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows)
+{
+    hdf_write_table(h, field->path, field->type, n, field->columns ? field->columns : dim, field_stored(field, dim),
+                    rows);
+    hdf_write_text_attribute(h, field->path, "unit", field->unit[0] ? field->unit : "1");
 }
 
 void frame_units_text(unsigned fields, char *text, size_t room)

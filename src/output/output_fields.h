@@ -11,20 +11,24 @@ struct frame_source {
     struct frame_extra extra;
 };
 
+/* Components of a row that are stored: all of them, the first dim ones of a vector, those of a symmetric tensor in
+ * VTK's order that the space has (xx; xx yy zz xy; all). The others are 0, the fill value of the dataset. */
+enum row_kind { ROW_WHOLE, ROW_VECTOR, ROW_TENSOR };
+
 /* Describes a dataset with one row per particle (or material point of a coarse cell). */
 struct frame_field {
     const char *path, *unit; /* path in the file; unit as people write it, "" for a pure number */
     enum hdf_type type;
     int columns; /* numbers per row; 0: dim */
-    /* Writes the row of particle i. For fields that are constant during a run; called by the writing thread. Else
-     * NULL. */
-    void (*fill)(const struct particles *p, int64_t i, void *row);
-    /* Writes rows first .. end - 1 into `rows`, which starts at particle 0. For fields that change; the step loop waits
-     * for the copy. NULL: `fill` is set, or the field is derived from another one (data/derived_fields.h). */
-    void (*copy)(const struct frame_source *s, int64_t first, int64_t end, void *rows);
+    enum row_kind row;
+    bool fixed; /* does not change while the particles stay the same: stored in the particles file (particles_file.h) */
+    /* Copies the stored components of particles row[first .. end - 1] to rows first .. end - 1 of `rows`, which starts
+     * at row 0. NULL: the field is derived from another one (data/derived_fields.h). */
+    void (*copy)(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows);
 };
 
-enum { FIELD_POINTS, FRAME_FIELDS = 24 }; /* index of the positions in the table; size of the table */
+/* Index of the positions and of the contact forces in the table; size of the table. */
+enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 24 };
 
 /* Table of all fields, in the order of their bits. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
@@ -34,21 +38,21 @@ extern const struct frame_field frame_fields[FRAME_FIELDS];
  * the scene requests. */
 unsigned frame_fields_of(const struct frame_source *s);
 
-/* Copies rows first .. end - 1 (one row per particle) of a field that changes during a run to `rows`, whose first row
- * belongs to particle 0. */
-void frame_field_copy(const struct frame_field *field, const struct frame_source *source, int64_t first, int64_t end,
-                      void *rows);
+/* Copies the stored components of a field, row by row, to `rows` (frame_field_bytes for each row). Material points of
+ * coarse cells (source->extra.more) have 0 in a field that they lack. order: the rows. */
+void frame_field_copy_rows(const struct frame_field *field, const struct frame_source *source,
+                           const struct frame_rows *order, char *rows);
 
-/* Copies the rows of the material points of coarse cells (source->extra.more), one per point, of a field that changes
- * during a run to `rows`. */
-void frame_field_copy_more(const struct frame_field *field, const struct frame_source *source, void *rows);
+/* Writes a field as a dataset with its unit. rows: its stored components at n points, as from frame_field_copy_rows.
+ * dim: dimension of the body. A failure is stored in h->failed. */
+void frame_field_write(struct hdf *h, const struct frame_field *field, int64_t n, int dim, const char *rows);
 
 /* Writes one line `field [unit]` for every field with a unit in the set `fields` (bits as returned by frame_fields_of)
  * to `text`, which holds `room` bytes. */
 void frame_units_text(unsigned fields, char *text, size_t room);
 
-/* Returns the size of one row of a field, its values at one particle [byte]. dim: dimension of the body. */
-size_t frame_field_row(const struct frame_field *field, int dim);
+/* Returns the size of the stored numbers of one row of a field [byte]. dim: dimension of the body. */
+size_t frame_field_bytes(const struct frame_field *field, int dim);
 
 /* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds `room`
  * bytes. */

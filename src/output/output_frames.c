@@ -1,7 +1,8 @@
-/* Writes frames as VTKHDF files, and their two indices: frames.hdf.series and frames.xdmf.
+/* Writes frames as VTKHDF files, in a thread of its own.
  *
  * The layout serves the reader of VTK 9.1 (ParaView 5.11): a static UnstructuredGrid with one vertex cell per particle.
- * Data that VTK does not define are in the group /Cleave. The fields are described in output_fields.c. */
+ * Data that VTK does not define are in the group /Cleave. The fields are described in output_fields.c. Datasets that do
+ * not change from frame to frame are links to the particles file (particles_file.h). */
 #include "output_fields.h"
 
 #include <errno.h>
@@ -11,83 +12,113 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/checksum.h"
 #include "base/memory.h"
-#include "base/memory_stream.h"
+#include "output/checksum.h"
 #include "output/output_files.h"
+#include "output_index.h"
+#include "particles_file.h"
 
-enum { FRAME_VERSION = 1, VTK_VERTEX = 1 };
-enum { COPIED = 4096 }; /* particles whose rows a thread copies at a time */
+enum { FRAME_VERSION = 2 };
 
 /* ---- one frame --------------------------------------------------------------------------------------------------- */
 
-/* A frame that is being written: copies of the fields that the next steps change. Constant fields are read from the
- * particles while the run continues. */
+/* A frame that is being written. */
 struct frame_job {
     struct path path;
-    const struct particles *p;    /* borrowed; read only for constant fields */
-    const struct particles *more; /* material points of coarse cells, borrowed likewise; NULL if there are none */
-    struct output *o;             /* borrowed; owns the buffers of the writing thread */
-    struct frame_series *series;  /* borrowed: order of the rows and list of frames */
-    int64_t n, step;              /* number of rows; number of the time step */
+    struct output *o;            /* borrowed */
+    struct frame_series *series; /* borrowed; read only for its name by the writing thread */
+    int64_t n, step;             /* number of rows; number of the time step */
     int dim;
     real t;
     bool compress, broken;
-    unsigned fields;        /* bit set of the fields of this frame */
-    const char *scene_text; /* borrowed */
-    /* copies in output.frame_copy, in the order of the particles; NULL: constant, or not in this frame */
+    unsigned fields; /* bit set of the fields of this frame */
+    bool untouched;  /* contact forces are left out because all are 0 */
+    /* rows of the fields that change, in output.frame_copy; NULL: in the particles file, or not in this frame */
     char *field[FRAME_FIELDS];
-    char *index[2]; /* texts of the two indices, including this frame */
-    size_t index_length[2];
+    struct particles_file particles; /* to which the frame links */
+    struct frame_indices index;      /* including this frame */
     pthread_t thread;
     bool apart; /* the thread is running */
     status ended;
     char message[512];
 };
 
-/* Creates a job that writes a frame at time t [s], and copies all fields that the next steps change to memory of the
- * output, which is reused for the next frame. The caller releases the job with job_free. */
+/* Returns true if the frame of a job has field k with rows of its own. */
+static bool has_rows(const struct frame_job *job, int k) { return job->fields >> k & 1 && !frame_fields[k].fixed; }
+
+/* Copies the fields that change. The memory of the copies is kept for the next frame. */
+static void job_copy_fields(struct frame_job *job, const struct frame_source *source)
+{
+    struct output *o = job->o;
+    int64_t at = 0, length = 0;
+    for (int k = 0; k < FRAME_FIELDS; k++)
+        if (has_rows(job, k)) length += job->n * (int64_t)frame_field_bytes(&frame_fields[k], job->dim);
+    if (o->frame_copy_bytes < length) {
+        memory_free(o->frame_copy);
+        o->frame_copy = NEW("output.frame", length, char);
+        o->frame_copy_bytes = length;
+    }
+    for (int k = 0; k < FRAME_FIELDS; k++) {
+        if (!has_rows(job, k)) continue;
+        job->field[k] = o->frame_copy + at;
+        at += job->n * (int64_t)frame_field_bytes(&frame_fields[k], job->dim);
+        frame_field_copy_rows(&frame_fields[k], source, &job->series->rows, job->field[k]);
+    }
+}
+
+/* Leaves contact forces out of a frame in which all are 0. */
+static void job_drop_contact(struct frame_job *job)
+{
+    const float *force = (const float *)job->field[FIELD_CONTACT];
+    const int64_t numbers = job->n * job->dim;
+    int64_t k = 0;
+    if (!force) return;
+    while (k < numbers && force[k] == 0) k++;
+    job->untouched = k == numbers;
+    if (job->untouched) job->fields &= ~(1u << FIELD_CONTACT);
+}
+
+/* Sets the particles file to which the frame links: the last one, or a new one if its contents differ. */
+static void job_choose_particles_file(struct frame_job *job, const struct frame_source *source, const char *scene_text)
+{
+    struct frame_series *s = job->series;
+    char name[PATH_NAME_ROOM];
+    if (!s->particles.current || source->extra.more) {
+        particles_file_make(&job->particles, s, source, job->fields, scene_text);
+        if (s->particles.number >= 0 && s->particles.content == job->particles.content)
+            particles_file_free(&job->particles);
+        else
+            s->particles.number = s->frames, s->particles.content = job->particles.content;
+        s->particles.current = true;
+    }
+    particles_file_name(s, name, sizeof name, s->particles.number);
+    job->particles.path = path_join(job->o->folder, name);
+    job->particles.content = s->particles.content;
+    job->particles.compress = job->compress;
+}
+
+/* Creates a job for a frame at time t [s] and copies the fields. */
 static struct frame_job *job_make(struct output *o, struct frame_series *series, const struct frame_source *source,
                                   real t, int64_t step, const char *scene_text)
 {
-    const struct particles *p = source->p;
     struct frame_job *job = NEW("output.job", 1, struct frame_job);
-    size_t offset[FRAME_FIELDS], length = 0;
-    const int64_t all = p->n + (source->extra.more ? source->extra.more->n : 0);
-    job->p = p, job->more = source->extra.more, job->o = o, job->series = series;
-    job->n = series->kept.n;
-    job->step = step, job->dim = p->dim, job->t = t;
-    job->compress = o->compress, job->fields = frame_fields_of(source), job->scene_text = scene_text;
-    for (int k = 0; k < FRAME_FIELDS; k++) {
-        offset[k] = length;
-        if (job->fields >> k & 1 && !frame_fields[k].fill)
-            length += (size_t)all * frame_field_row(&frame_fields[k], p->dim);
-    }
-    if (o->frame_copy_bytes < (int64_t)length) {
-        memory_free(o->frame_copy);
-        o->frame_copy = NEW("output.frame", (int64_t)length, char);
-        o->frame_copy_bytes = (int64_t)length;
-    }
-    for (int k = 0; k < FRAME_FIELDS; k++) {
-        const struct frame_field *field = &frame_fields[k];
-        if (field->fill || !(job->fields >> k & 1)) continue;
-        job->field[k] = o->frame_copy + offset[k];
-#pragma omp parallel for schedule(static)
-        for (int64_t first = 0; first < p->n; first += COPIED)
-            frame_field_copy(field, source, first, first + COPIED < p->n ? first + COPIED : p->n, job->field[k]);
-        if (job->more)
-            frame_field_copy_more(field, source, job->field[k] + (size_t)p->n * frame_field_row(field, p->dim));
-    }
+    job->o = o, job->series = series;
+    job->n = series->rows.n, job->step = step, job->dim = source->p->dim, job->t = t;
+    job->compress = o->compress, job->fields = frame_fields_of(source);
+    job_copy_fields(job, source);
+    job_choose_particles_file(job, source, scene_text);
+    job_drop_contact(job);
     return job;
 }
 
 static void job_free(struct frame_job *job)
 {
-    for (int k = 0; k < 2; k++) free(job->index[k]);
+    particles_file_free(&job->particles);
+    frame_indices_free(&job->index);
     memory_free(job);
 }
 
-/* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ---------------------------- */
+/* ---- the rows ---------------------------------------------------------------------------------------------------- */
 
 /* Returns the indices 0..n-1, released with free; NULL if memory is exhausted. */
 static int32_t *ascending_order(int64_t n)
@@ -115,127 +146,81 @@ static int32_t *order_by_id(const struct particles *p)
     return order;
 }
 
-enum { ROW_MOST = 36 }; /* bytes of the longest row: nine single-precision numbers */
-
-/* Writes field k of a frame as rows in the order `order`. room: buffer for the rows. */
-static void write_field(struct hdf *f, const struct frame_job *job, int k, const int32_t *order, char *room)
+/* Releases the rows of a series, which are selected again for the next frame. */
+static void rows_free(struct frame_series *s)
 {
-    const struct frame_field *field = &frame_fields[k];
-    const size_t row = frame_field_row(field, job->dim);
-    INVARIANT(row <= ROW_MOST);
-    const int64_t own = job->p->n;
-    for (int64_t r = 0; r < job->n; r++) {
-        const int64_t i = order[r];
-        char *to = room + (size_t)r * row;
-        if (!field->fill)
-            memcpy(to, job->field[k] + (size_t)i * row, row);
-        else if (i < own)
-            field->fill(job->p, i, to);
-        else
-            field->fill(job->more, i - own, to);
-    }
-    hdf_write_rows(f, field->path, field->type, job->n, field->columns ? field->columns : job->dim, room);
-    hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
+    free(s->rows.index);
+    s->rows = (struct frame_rows){0};
+    s->particles.current = false;
 }
 
-/* Writes one vertex cell per particle: cell k consists of point k and starts at k. room: buffer for one field. */
-static void write_cells(struct hdf *f, int64_t n, char *room)
+/* Returns true if the series shows particle (or material point of a coarse cell) i of p. */
+static bool series_shows(const struct frame_series *s, const struct particles *p, int64_t i)
 {
-    int64_t *number = (int64_t *)room;
-    for (int64_t k = 0; k <= n; k++) number[k] = k;
-    hdf_write_rows(f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, 1, &n);
-    hdf_write_rows(f, "/VTKHDF/NumberOfCells", HDF_I64, 1, 1, &n);
-    hdf_write_rows(f, "/VTKHDF/NumberOfConnectivityIds", HDF_I64, 1, 1, &n);
-    hdf_write_rows(f, "/VTKHDF/Connectivity", HDF_I64, n, 1, number);
-    hdf_write_rows(f, "/VTKHDF/Offsets", HDF_I64, n + 1, 1, number);
-    array_fill_bytes(room, VTK_VERTEX, n, 1);
-    hdf_write_rows(f, "/VTKHDF/Types", HDF_U8, n, 1, room);
-}
-
-/* Writes the data that VTK shows beside the particles: the time, the units and the scene. */
-static void write_field_data(struct hdf *f, const struct frame_job *job)
-{
-    char units[1000];
-    frame_units_text(job->fields, units, sizeof units);
-    hdf_create_group(f, "/VTKHDF/FieldData");
-    hdf_write_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
-    hdf_write_text_list(f, "/VTKHDF/FieldData/units", units);
-    hdf_write_text_list(f, "/VTKHDF/FieldData/scene", job->scene_text);
-}
-
-/* Writes the groups and attributes of a frame, and the text of its scene. */
-static void write_marks(struct hdf *f, int dim, real t, int64_t step, const char *scene_text)
-{
-    static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
-    int32_t dimension = dim;
-    hdf_create_group(f, "/VTKHDF");
-    hdf_write_attribute(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
-    hdf_write_text_attribute(f, "/VTKHDF", "Type", "UnstructuredGrid");
-    hdf_create_group(f, "/VTKHDF/PointData");
-    hdf_create_group(f, "/Cleave");
-    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
-    hdf_write_scalar_attribute(f, "/Cleave", "dim", HDF_I32, &dimension);
-    hdf_write_scalar_attribute(f, "/Cleave", "time", HDF_F64, &t);
-    hdf_write_scalar_attribute(f, "/Cleave", "step", HDF_I64, &step);
-    hdf_write_text(f, "/Cleave/scene", scene_text);
-}
-
-static void kept_free(struct frame_series *s)
-{
-    free(s->kept.order), free(s->kept.room);
-    memset(&s->kept, 0, sizeof s->kept);
-}
-
-/* Returns true if a series of frames contains point i. Points from the number of particles on are material points of
- * coarse cells. */
-static bool series_shows(const struct frame_series *s, const struct frame_source *source, int64_t i)
-{
-    const struct particles *p = i < source->p->n ? source->p : source->extra.more;
     real X[DIM_MAX];
     if (!s->region) return true;
-    particle_place(p, i < source->p->n ? i : i - source->p->n, X);
+    particle_place(p, i, X);
     return region_contains(s->region, X, p->dim, 0);
 }
 
-/* Computes the order of the rows in the frames of a series and a buffer for writing, unless they are still valid:
- * they are kept until the particles change, but not for regions with points of coarse cells. Returns false if memory
- * is exhausted. */
-static bool kept_make(struct frame_series *s, const struct frame_source *source)
+/* Selects the rows of a series. They are kept until output_particles_changed and while there are no points of coarse
+ * cells, which may change at any step. Returns false if memory is exhausted. */
+static bool rows_make(struct frame_series *s, const struct frame_source *source)
 {
-    const int64_t own = source->p->n, all = own + (source->extra.more ? source->extra.more->n : 0);
-    if (s->kept.order && s->kept.of == all && !(s->region && source->extra.more)) return true;
-    kept_free(s);
-    int32_t *by_id = order_by_id(source->p);
-    s->kept.order = calloc((size_t)all + 1, sizeof *s->kept.order);
-    for (int64_t k = 0; k < all && by_id && s->kept.order; k++) {
-        const int64_t i = k < own ? by_id[k] : k;
-        if (series_shows(s, source, i)) s->kept.order[s->kept.n++] = (int32_t)i;
-    }
-    s->kept.room = malloc((size_t)(s->kept.n + 1) * ROW_MOST);
-    s->kept.of = all;
-    const bool made = by_id && s->kept.order && s->kept.room;
+    const struct particles *more = source->extra.more;
+    const int64_t own = source->p->n, all = own + (more ? more->n : 0);
+    if (s->rows.index && s->rows_of == all && !(s->region && more)) return true;
+    rows_free(s);
+    int32_t *by_id = order_by_id(source->p), *index = calloc((size_t)all + 1, sizeof *index);
+    const bool made = by_id && index;
+    int64_t n = 0;
+    for (int64_t k = 0; k < own && made; k++)
+        if (series_shows(s, source->p, by_id[k])) index[n++] = by_id[k];
+    s->rows.own = n;
+    for (int64_t k = 0; k < all - own && made; k++)
+        if (series_shows(s, more, k)) index[n++] = (int32_t)k;
+    s->rows.index = index, s->rows.n = n, s->rows_of = all;
     free(by_id);
-    if (!made) kept_free(s);
+    if (!made) rows_free(s);
     return made;
 }
 
 void output_particles_changed(struct output *o)
 {
-    for (int k = 0; k <= o->n_series; k++) kept_free(&o->series[k]);
+    for (int k = 0; k <= o->n_series; k++) rows_free(&o->series[k]);
 }
 
-/* Writes a frame under a temporary name and renames it. */
+/* ---- writing thread: has no thread team, hence allocates no arrays with memory_new ------------------------------- */
+
+/* Writes the groups and attributes of a frame, and its time, which VTK shows beside the particles. */
+static void write_marks(struct hdf *f, const struct frame_job *job)
+{
+    static const int32_t vtk_version[2] = {1, 0}, version = FRAME_VERSION;
+    int32_t dimension = job->dim;
+    hdf_create_group(f, "/VTKHDF");
+    hdf_write_attribute(f, "/VTKHDF", "Version", HDF_I32, 2, vtk_version);
+    hdf_write_text_attribute(f, "/VTKHDF", "Type", "UnstructuredGrid");
+    hdf_create_group(f, "/VTKHDF/PointData");
+    hdf_create_group(f, "/VTKHDF/FieldData");
+    hdf_write_rows(f, "/VTKHDF/FieldData/TimeValue", HDF_F64, 1, 1, &job->t);
+    hdf_create_group(f, "/Cleave");
+    hdf_write_scalar_attribute(f, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_scalar_attribute(f, "/Cleave", "dim", HDF_I32, &dimension);
+    hdf_write_scalar_attribute(f, "/Cleave", "time", HDF_F64, &job->t);
+    hdf_write_scalar_attribute(f, "/Cleave", "step", HDF_I64, &job->step);
+    if (job->untouched) hdf_write_text_attribute(f, "/Cleave", "zero", "contact_force");
+}
+
+/* Writes PATH.cleave.tmp and renames it to PATH, after the particles file. */
 static status frame_write(struct frame_job *job)
 {
     struct hdf f;
-    const int32_t *order = job->series->kept.order;
-    char *room = job->series->kept.room;
+    if (job->particles.rows) TRY(particles_file_write(&job->particles, &job->broken));
     hdf_create(&f, file_begin_temporary(job->path.text).text, job->compress);
-    write_marks(&f, job->dim, job->t, job->step, job->scene_text);
-    write_field_data(&f, job);
-    write_cells(&f, job->n, room);
+    write_marks(&f, job);
+    particles_file_create_links(&f, &job->particles, job->fields);
     for (int k = 0; k < FRAME_FIELDS; k++)
-        if (job->fields >> k & 1) write_field(&f, job, k, order, room);
+        if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
     if (!f.failed) hdf_close(&f);
     if (f.failed) {
         job->broken = true;
@@ -246,115 +231,6 @@ static status frame_write(struct frame_job *job)
     return file_publish(job->path.text);
 }
 
-/* ---- indices ----------------------------------------------------------------------------------------------------- */
-
-/* Writes the file name of frame `number` of a series, relative to the folder of the run. name: capacity `room`
- * [byte]. */
-void frame_name(const struct frame_series *s, char *name, size_t room, int number)
-{
-    snprintf(name, room, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
-}
-
-void series_file(const struct frame_series *s, char *name, size_t room, const char *end)
-{
-    snprintf(name, room, "%s%s", s->name[0] ? s->name : "frames", end);
-}
-
-/* Writes frames.hdf.series. */
-static void series_print(FILE *out, const struct frame_series *s)
-{
-    const char *between = "";
-    fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
-    for (int k = 0; k < s->frames; k++) {
-        char name[PATH_NAME_ROOM];
-        if (isnan(s->frame_time[k])) continue; /* lost (output_frames_check) */
-        frame_name(s, name, sizeof name, k);
-        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->frame_time[k]);
-        between = ",";
-    }
-    fprintf(out, "\n]}\n");
-}
-
-/* Writes an XDMF reference to a dataset of n rows in the file of a frame. */
-static void xdmf_item(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
-{
-    static const char *const number[] = {
-        [HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar", [HDF_I32] = "Int", [HDF_I64] = "Int"};
-    fprintf(out, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%zu\" Dimensions=\"%lld", number[field->type],
-            hdf_type_size(field->type), (long long)n);
-    if (field->columns > 1) fprintf(out, " %d", field->columns);
-    fprintf(out, "\">%s:%s</DataItem>", frame, field->path);
-}
-
-static void xdmf_attribute(FILE *out, const char *frame, const struct frame_field *field, int64_t n)
-{
-    /* A Matrix, not an XDMF Tensor6: XDMF orders the six components differently, and readers would permute them. */
-    const char *shape = field->columns == 1 ? "Scalar" : field->columns == 3 ? "Vector" : "Matrix";
-    const char *name = strrchr(field->path, '/') + 1;
-    fprintf(out, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">", name, shape);
-    xdmf_item(out, frame, field, n);
-    fprintf(out, "</Attribute>\n");
-}
-
-/* Writes the XDMF grid of one frame of n particles at time t [s]. */
-static void xdmf_grid(FILE *out, const char *frame, real t, int64_t n, unsigned fields)
-{
-    /* Lists the cells, because the XDMF3 reader creates none from their number alone. */
-    static const struct frame_field vertices = {"/VTKHDF/Connectivity", "", HDF_I64, 1, NULL, NULL};
-    fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", t);
-    fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
-            (long long)n);
-    xdmf_item(out, frame, &vertices, n);
-    fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
-    xdmf_item(out, frame, &frame_fields[FIELD_POINTS], n);
-    fprintf(out, "</Geometry>\n");
-    for (int k = FIELD_POINTS + 1; k < FRAME_FIELDS; k++)
-        if (frame_fields[k].columns > 0 && fields >> k & 1) xdmf_attribute(out, frame, &frame_fields[k], n);
-    fprintf(out, "</Grid>\n");
-}
-
-static void xdmf_print(FILE *out, const struct frame_series *s)
-{
-    fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
-    fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
-    for (int k = 0; k < s->frames; k++) {
-        char name[PATH_NAME_ROOM];
-        if (isnan(s->frame_time[k])) continue;
-        frame_name(s, name, sizeof name, k);
-        xdmf_grid(out, name, s->frame_time[k], s->frame_rows[k], s->frame_fields);
-    }
-    fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
-}
-
-/* ---- one frame at a time ----------------------------------------------------------------------------------------- */
-
-static const char *const index_end[2] = {".hdf.series", ".xdmf"};
-
-static struct path index_path(const char *folder, const struct frame_series *s, int which)
-{
-    char name[PATH_NAME_ROOM];
-    series_file(s, name, sizeof name, index_end[which]);
-    return path_join(folder, name);
-}
-
-/* Composes the text of an index in memory. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
-static status index_make(const struct output *o, struct frame_job *job, int which)
-{
-    static void (*const print[2])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
-    FILE *out = memory_stream_open(&job->index[which], &job->index_length[which]);
-    if (out) print[which](out, job->series);
-    const bool whole = out && fclose(out) == 0;
-    return whole ? OK : file_fault(index_path(o->folder, job->series, which).text, ENOMEM);
-}
-
-/* Writes both index files of a series, frames.hdf.series and frames.xdmf. */
-static status indices_put(const char *folder, const struct frame_job *job)
-{
-    for (int k = 0; k < 2; k++)
-        TRY(file_write_whole(index_path(folder, job->series, k).text, job->index[k], job->index_length[k]));
-    return OK;
-}
-
 /* Writes the frame and then the indices, which thus never list a missing frame. The folder of the run is two levels
  * above the frame. */
 static status job_write(struct frame_job *job)
@@ -362,8 +238,10 @@ static status job_write(struct frame_job *job)
     TRY(frame_write(job));
     struct path folder = job->path;
     for (int k = 0; k < 2; k++) *strrchr(folder.text, '/') = '\0';
-    return indices_put(folder.text, job);
+    return frame_indices_write(&job->index, folder.text, job->series);
 }
+
+/* ---- one frame at a time ----------------------------------------------------------------------------------------- */
 
 static void *job_run(void *context)
 {
@@ -382,7 +260,7 @@ status output_wait(struct output *o)
     o->writing = NULL;
     o->broken = o->broken || job->broken;
     status s = job->ended == OK ? OK : status_set(job->ended, "%s", job->message);
-    if (s != OK) job->series->frames--;
+    if (s != OK) job->series->frames--, job->series->particles.number = -1, job->series->particles.current = false;
     job_free(job);
     return s;
 }
@@ -390,11 +268,9 @@ status output_wait(struct output *o)
 /* Adds a frame to the list of its series before it is written. If writing fails, output_wait removes it again. */
 static void frame_count(struct frame_series *s, const struct frame_job *job)
 {
-    GROW("output.frame_time", s->frame_time, s->frames + 1);
-    GROW("output.frame_rows", s->frame_rows, s->frames + 1);
-    s->frame_rows[s->frames] = job->n;
-    s->frame_time[s->frames++] = job->t;
-    s->frame_fields = job->fields;
+    GROW("output.frames", s->entry, s->frames + 1);
+    s->entry[s->frames++] =
+        (struct frame_entry){.time = job->t, .rows = job->n, .fields = job->fields, .particles = s->particles.number};
 }
 
 /* Starts the writing thread. The thread blocks all signals, which the stepping thread then receives, except the signals
@@ -420,11 +296,11 @@ status output_frame_begin(struct output *o, int k, const struct particles *p, co
     if (o->broken) return FAILED;
     TRY(folder_check_lock(&o->lock, o->folder));
     frame_name(series, name, sizeof name, series->frames);
-    if (!kept_make(series, &source)) return file_fault(path_join(o->folder, name).text, ENOMEM);
+    if (!rows_make(series, &source)) return file_fault(path_join(o->folder, name).text, ENOMEM);
     struct frame_job *job = o->writing = job_make(o, series, &source, t, step, scene_text);
     job->path = path_join(o->folder, name);
     frame_count(series, job);
-    for (int which = 0; which < 2 && job->ended == OK; which++) job->ended = index_make(o, job, which);
+    job->ended = frame_indices_make(&job->index, o->folder, series);
     if (job->ended != OK)
         snprintf(job->message, sizeof job->message, "%s", status_message());
     else
@@ -440,47 +316,74 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 
 /* ---- after a restart --------------------------------------------------------------------------------------------- */
 
-/* Returns the fault of the frame at `path` as a phrase for a message; NULL if it has none or cannot be read. time: [s],
- * NAN for a frame that was lost earlier. */
-static const char *frame_fault(const char *path, real time)
+/* A particles file, checked once for all frames that link to it. */
+struct particles_seen {
+    int32_t number;   /* -1: none has been checked */
+    bool lost, known; /* it is missing or damaged for certain; its contents have been read */
+    int64_t content;  /* hash of its contents */
+};
+
+/* Checks the particles file `number` of a series, unless it is the one that was checked last. */
+static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
+                                int number)
+{
+    char name[PATH_NAME_ROOM];
+    if (seen->number == number) return;
+    particles_file_name(s, name, sizeof name, number);
+    const struct path path = path_join(folder, name);
+    seen->number = number;
+    seen->lost = file_certain_damage(path.text) != NULL;
+    seen->known = !seen->lost && path_is_file(path.text) && particles_file_read_content(path.text, &seen->content);
+}
+
+/* Returns the fault of the frame at `path` as a phrase for a message; NULL if it has none or cannot be read. particles:
+ * the particles file that it should link to. */
+static const char *frame_fault(const char *path, const struct frame_entry *e, const struct particles_seen *particles)
 {
     struct hdf f;
     real found = NAN;
-    if (isnan(time)) return "is missing";
+    int64_t content = 0;
+    if (isnan(e->time)) return "is missing";
     const char *fault = file_certain_damage(path);
     if (fault || !path_is_file(path)) return fault;
+    if (particles->lost) return "links to a particles file that is lost";
     hdf_open(&f, path);
     hdf_read_attribute(&f, "/Cleave", "time", HDF_F64, &found);
+    hdf_read_attribute(&f, "/Cleave", "content", HDF_I64, &content);
     const bool read = !f.failed;
     hdf_close(&f);
-    return read && !bits_equal(found, time) ? "is another one" : NULL;
+    const bool other = !bits_equal(found, e->time) || (particles->known && content != particles->content);
+    return read && other ? "is another one" : NULL;
 }
 
 /* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity `room`
- * [byte]. Returns the number of frames lost in this series. */
+ * [byte]. A particles file that is lost is not used for further frames. Returns the number of frames lost in this
+ * series. */
 static int series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
 {
+    struct particles_seen seen = {.number = -1};
     int own = 0;
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
         frame_name(s, name, sizeof name, k);
-        const char *fault = frame_fault(path_join(o->folder, name).text, s->frame_time[k]);
+        particles_file_look(&seen, o->folder, s, s->entry[k].particles);
+        const char *fault = frame_fault(path_join(o->folder, name).text, &s->entry[k], &seen);
         if (!fault) continue;
         if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
-        s->frame_time[k] = NAN;
+        s->entry[k].time = NAN;
         own++;
     }
+    if (seen.lost) s->particles.number = -1;
     return own;
 }
 
 /* Composes and writes both index files of a series again, after frames were lost. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
-    struct frame_job job = {.series = series};
-    status s = OK;
-    for (int k = 0; k < 2 && s == OK; k++) s = index_make(o, &job, k);
-    if (s == OK) s = indices_put(o->folder, &job);
-    for (int k = 0; k < 2; k++) free(job.index[k]);
+    struct frame_indices index = {0};
+    status s = frame_indices_make(&index, o->folder, series);
+    if (s == OK) s = frame_indices_write(&index, o->folder, series);
+    frame_indices_free(&index);
     return s;
 }
 

@@ -6,8 +6,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Rows per chunk of a compressed dataset: 64 Ki rows of 24 bytes, 1.5 MiB, fit HDF5's chunk cache. */
-enum { CHUNK_ROWS = 1 << 16, GZIP_LEVEL = 4 };
+/* Largest number of rows in a chunk of a table: chunks fit HDF5's chunk cache of 1 MiB, without which each row is read
+ * by a call of its own; the index of chunks takes about 0.02 bytes per row. */
+enum { CHUNK_ROWS = 4096, GZIP_LEVEL = 4 };
+
+/* Half of the number of chunks in a node of their index. HDF5's 32 give every dataset 2 to 4 kB of index. */
+enum { INDEX_HALF = 4 };
 
 size_t hdf_type_size(enum hdf_type type)
 {
@@ -69,6 +73,7 @@ void hdf_create(struct hdf *f, const char *path, bool compress)
     if (f->failed) return;
     unlink(path); /* left by a killed run; a link of this name is not followed */
     (void)(good(f, create = H5Pcreate(H5P_FILE_CREATE)) && good(f, H5Pset_obj_track_times(create, false)) &&
+           good(f, H5Pset_istore_k(create, INDEX_HALF)) &&
            good(f, f->file = H5Fcreate(path, H5F_ACC_EXCL, create, access)) && good(f, H5Pclose(create)) &&
            good(f, H5Pclose(access)));
 }
@@ -102,18 +107,6 @@ void hdf_create_group(struct hdf *f, const char *name)
            good(f, H5Pclose(list)));
 }
 
-/* Returns the creation properties of a dataset of this shape: contiguous, or with compression in chunks. */
-static hid_t dataset_list(struct hdf *f, int rank, const hsize_t *shape)
-{
-    hid_t list = -1;
-    if (!good(f, list = H5Pcreate(H5P_DATASET_CREATE)) || !good(f, H5Pset_obj_track_times(list, false))) return -1;
-    if (!f->compress || shape[0] == 0) return list;
-    hsize_t chunk[2] = {shape[0] < CHUNK_ROWS ? shape[0] : CHUNK_ROWS, shape[1]};
-    bool made = good(f, H5Pset_chunk(list, rank, chunk)) && good(f, H5Pset_shuffle(list)) &&
-                good(f, H5Pset_deflate(list, GZIP_LEVEL));
-    return made ? list : -1;
-}
-
 void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, const void *data)
 {
     hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
@@ -121,14 +114,116 @@ void hdf_write_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t
     hid_t space = -1, list = -1, set = -1, native;
     if (!ready(f)) return;
     native = hdf_native(type);
-    (void)(good(f, space = H5Screate_simple(rank, shape, NULL)) && good(f, list = dataset_list(f, rank, shape)) &&
+    (void)(good(f, space = H5Screate_simple(rank, shape, NULL)) && good(f, list = H5Pcreate(H5P_DATASET_CREATE)) &&
+           good(f, H5Pset_obj_track_times(list, false)) &&
            good(f, set = H5Dcreate2(f->file, name, native, space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
            (rows == 0 || good(f, H5Dwrite(set, native, H5S_ALL, H5S_ALL, H5P_DEFAULT, data))) &&
            good(f, H5Dclose(set)) && good(f, H5Pclose(list)) && good(f, H5Sclose(space)));
 }
 
-/* Adds one source to the properties `list` of a virtual dataset: its rows appear from row at[0] on. shape: size of
- * the source. Returns false on a fault. */
+/* ---- tables ------------------------------------------------------------------------------------------------------ */
+
+/* A table that is being written. */
+struct table {
+    hid_t set, space, native;
+    int rank;
+    int64_t rows, chunk; /* rows in all and in a chunk */
+    size_t row;          /* size of the stored numbers of a row [byte] */
+    hsize_t stored;      /* stored numbers per row */
+    const char *data;    /* [rows] rows */
+    uint64_t fill;       /* bytes of the number that fills what is not stored */
+    size_t number;       /* size of a number [byte] */
+};
+
+/* Returns true if rows first .. end - 1 of a table hold nothing but the fill value, bit for bit. */
+static bool table_is_fill(const struct table *t, int64_t first, int64_t end)
+{
+    const char *at = t->data + (size_t)first * t->row;
+    const size_t length = (size_t)(end - first) * t->row;
+    /* the first number equals the fill value, and each number equals the one before it */
+    return arrays_equal(at, &t->fill, 1, t->number) && arrays_equal(at + t->number, at, 1, length - t->number);
+}
+
+/* Writes the chunk of rows first .. end - 1 of a table. Returns false on a fault. */
+static bool table_write_chunk(struct hdf *f, const struct table *t, int64_t first, int64_t end)
+{
+    const hsize_t at[2] = {(hsize_t)first, 0}, shape[2] = {(hsize_t)(end - first), t->stored};
+    const char *rows = t->data + (size_t)first * t->row;
+    hid_t from = -1;
+#if H5_VERSION_GE(1, 10, 3)
+    /* whole chunks go to the file as they are, without a copy in the cache of chunks */
+    if (!f->compress && end - first == t->chunk)
+        return good(f, H5Dwrite_chunk(t->set, H5P_DEFAULT, 0, at, (size_t)t->chunk * t->row, rows));
+#endif
+    return good(f, from = H5Screate_simple(t->rank, shape, NULL)) &&
+           good(f, H5Sselect_hyperslab(t->space, H5S_SELECT_SET, at, NULL, shape, NULL)) &&
+           good(f, H5Dwrite(t->set, t->native, from, t->space, H5P_DEFAULT, rows)) && good(f, H5Sclose(from));
+}
+
+/* Writes all chunks of a table that hold more than the fill value. Returns false on a fault. */
+static bool table_write_chunks(struct hdf *f, const struct table *t)
+{
+    for (int64_t first = 0; first < t->rows; first += t->chunk) {
+        const int64_t end = first + t->chunk < t->rows ? first + t->chunk : t->rows;
+        if (!table_is_fill(t, first, end) && !table_write_chunk(f, t, first, end)) return false;
+    }
+    return true;
+}
+
+/* Returns the creation list of a table: chunks of `chunk` rows of the stored numbers, compressed if requested. */
+static hid_t table_list(struct hdf *f, const struct table *t)
+{
+    const hsize_t chunk[2] = {(hsize_t)t->chunk, t->stored};
+    hid_t list = -1;
+    if (!good(f, list = H5Pcreate(H5P_DATASET_CREATE)) || !good(f, H5Pset_obj_track_times(list, false)) ||
+        !good(f, H5Pset_fill_value(list, t->native, &t->fill)) || !good(f, H5Pset_chunk(list, t->rank, chunk)))
+        return -1;
+    if (!f->compress) return list;
+    return good(f, H5Pset_shuffle(list)) && good(f, H5Pset_deflate(list, GZIP_LEVEL)) ? list : -1;
+}
+
+void hdf_write_table(struct hdf *f, const char *name, enum hdf_type type, int64_t rows, int columns, int stored,
+                     const void *data)
+{
+    const hsize_t shape[2] = {(hsize_t)rows, (hsize_t)columns};
+    const int64_t chunks = (rows + CHUNK_ROWS - 1) / CHUNK_ROWS;
+    struct table t = {.rank = columns > 1 ? 2 : 1, .rows = rows, .stored = (hsize_t)stored, .data = data};
+    hid_t list = -1;
+    if (rows == 0) hdf_write_rows(f, name, type, rows, columns, data);
+    if (!ready(f) || rows == 0) return;
+    t.chunk = (rows + chunks - 1) / chunks;
+    t.native = hdf_native(type), t.number = hdf_type_size(type), t.row = (size_t)stored * t.number;
+    if (columns == 1) array_copy(&t.fill, data, 1, t.number);
+    (void)(good(f, t.space = H5Screate_simple(t.rank, shape, NULL)) && good(f, list = table_list(f, &t)) &&
+           good(f, t.set = H5Dcreate2(f->file, name, t.native, t.space, H5P_DEFAULT, list, H5P_DEFAULT)) &&
+           table_write_chunks(f, &t) && good(f, H5Dclose(t.set)) && good(f, H5Pclose(list)) &&
+           good(f, H5Sclose(t.space)));
+}
+
+/* ---- links ------------------------------------------------------------------------------------------------------- */
+
+void hdf_create_link(struct hdf *f, const char *name, const char *file)
+{
+    if (ready(f)) good(f, H5Lcreate_external(file, name, f->file, name, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+bool hdf_read_link_file(struct hdf *f, const char *name, char *file, size_t room)
+{
+    H5L_info_t link;
+    char value[1024];
+    const char *target = NULL;
+    file[0] = '\0';
+    if (!ready(f) || !good(f, H5Lget_info(f->file, name, &link, H5P_DEFAULT)) || link.type != H5L_TYPE_EXTERNAL)
+        return false;
+    if (link.u.val_size <= sizeof value && good(f, H5Lget_val(f->file, name, value, sizeof value, H5P_DEFAULT)) &&
+        good(f, H5Lunpack_elink_val(value, link.u.val_size, NULL, &target, NULL)))
+        snprintf(file, room, "%s", target);
+    return true;
+}
+
+/* ---- virtual datasets -------------------------------------------------------------------------------------------- */
+
+/* Maps the rows of one source to the rows from at[0] on of a virtual dataset. Returns false on a fault. */
 static bool source_map(struct hdf *f, hid_t list, hid_t space, const char *name, const hsize_t *at,
                        const struct hdf_source *source, const hsize_t *shape, int rank)
 {
@@ -151,7 +246,7 @@ void hdf_write_virtual(struct hdf *f, const char *name, enum hdf_type type, int 
         return;
     for (int k = 0; k < sources; k++) {
         const hsize_t shape[2] = {(hsize_t)(source[k].rows + more), (hsize_t)columns};
-        if (shape[0] > 0 && !source_map(f, list, space, name, at, &source[k], shape, rank)) return;
+        if (source[k].file && shape[0] > 0 && !source_map(f, list, space, name, at, &source[k], shape, rank)) return;
         at[0] += shape[0];
     }
     (void)(good(f, H5Sselect_all(space)) &&
@@ -252,6 +347,13 @@ void hdf_read_rows(struct hdf *f, const char *name, enum hdf_type type, int64_t 
     if (count == 0) return;
     (void)(good(f, set = H5Dopen2(f->file, name, H5P_DEFAULT)) &&
            good(f, H5Dread(set, hdf_native(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, data)) && good(f, H5Dclose(set)));
+}
+
+bool hdf_has_attribute(struct hdf *f, const char *group, const char *name)
+{
+    htri_t there = 0;
+    if (ready(f)) good(f, there = H5Aexists_by_name(f->file, group, name, H5P_DEFAULT));
+    return there > 0;
 }
 
 void hdf_read_attribute(struct hdf *f, const char *group, const char *name, enum hdf_type type, void *value)

@@ -10,6 +10,7 @@
 #include "output/output_files.h"
 #include "output/checksum.h"
 #include "output/output_hdf5.h"
+#include "particles_file.h"
 
 /* ---- frames ------------------------------------------------------------------------------------------------------ */
 
@@ -82,14 +83,15 @@ status frame_read(struct frame *f, const char *path)
     if (fault) return status_set(FAILED, "cannot read %s: it %s", path, fault);
     crash_message_set_file(path);
     hdf_open(&h, path);
-    if (!h.failed) read_size(f, &h, s.st_size);
-    if (!h.failed) read_fields(f, &h);
+    const status linked = h.failed ? OK : particles_file_check(&h, path);
+    if (linked == OK && !h.failed) read_size(f, &h, s.st_size);
+    if (linked == OK && !h.failed) read_fields(f, &h);
     bool whole = !h.failed;
     hdf_close(&h);
     crash_message_set_file(NULL);
-    if (whole) return OK;
+    if (whole && linked == OK) return OK;
     frame_free(f);
-    return status_set(FAILED, "cannot read %s: it is no whole frame of this program", path);
+    return linked == OK ? status_set(FAILED, "cannot read %s: it is no whole frame of this program", path) : linked;
 }
 
 void frame_free(struct frame *f)
@@ -153,7 +155,9 @@ status frame_field_read(const struct frame *f, const char *path, const char *nam
     snprintf(place, sizeof place, "/VTKHDF/PointData/%s", name);
     crash_message_set_file(path);
     hdf_open(&h, path);
+    const bool zero = strcmp(name, "contact_force") == 0 && hdf_has_attribute(&h, "/Cleave", "zero");
     const int64_t count = strchr(name, '/') ? -1 : hdf_dataset_size(&h, place), most = f->n * COLUMNS_MOST;
+    if (zero) *columns = DIM_MAX, *value = NEW("frame.field", f->n * DIM_MAX, float);
     if (count > 0 && count <= most && count % f->n == 0) {
         *columns = (int)(count / f->n), *value = NEW("frame.field", count, float);
         hdf_read_rows(&h, place, HDF_F32, count, *value);

@@ -11,54 +11,41 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/crash_message.h"
 #include "base/memory.h"
 #include "output/output_files.h"
+#include "particles_file.h"
 
 /* Largest number of frames; with more, a file of virtual datasets takes longer to open than the frames. */
 enum { TEMPORAL_MOST = 2000 };
 
 struct temporal {
-    const char *folder;           /* of the run */
-    int n;                        /* number of times */
-    real *time;                   /* [n] [s] */
-    struct hdf_source *source;    /* [n] */
-    char (*name)[PATH_NAME_ROOM]; /* [n] paths of the frames relative to the run's folder */
-    int64_t *start;               /* [n] number of points in all preceding frames */
-    unsigned fields;              /* bit set of the fields that all frames have */
+    const char *folder;            /* of the run */
+    int n;                         /* number of times */
+    real *time;                    /* [n] [s] */
+    char (*frame)[PATH_NAME_ROOM], /* [n] paths of the frames and of their particles files, relative to the run's folder
+                                    */
+        (*particles)[PATH_NAME_ROOM];
+    uint32_t *has;   /* [n] bit set of the fields of each frame */
+    int64_t *start;  /* [n] number of points in all preceding frames */
+    unsigned fields; /* bit set of the fields that all frames have, and contact forces if any frame has them */
+    struct hdf_source *source; /* [n] scratch; its numbers of rows are those of the frames */
 };
 
-/* Reads the number of points of frame k into a->source[k], and removes fields that the frame does not have from
- * a->fields. Returns false if the file cannot be read. */
-static bool frame_look(struct temporal *a, int k)
-{
-    struct hdf f;
-    const struct path path = path_join(a->folder, a->name[k]);
-    if (!path_is_file(path.text)) return false;
-    crash_message_set_file(path.text);
-    hdf_open(&f, path.text);
-    const int64_t n = hdf_dataset_size(&f, "/VTKHDF/Types");
-    for (int field = 0; field < FRAME_FIELDS; field++)
-        if (hdf_dataset_size(&f, frame_fields[field].path) != n * frame_fields[field].columns)
-            a->fields &= ~(1u << field);
-    const bool whole = !f.failed && n >= 0;
-    hdf_close(&f);
-    crash_message_set_file(NULL);
-    a->source[k] = (struct hdf_source){a->name[k], n};
-    return whole;
-}
-
-/* Reads sizes and fields of all frames; frames that are lost or unreadable are left out. */
+/* Lists the frames that are there, and the fields that they share. */
 static void frames_look(struct temporal *a, const struct frame_series *series)
 {
-    a->fields = (1u << FRAME_FIELDS) - 1;
+    unsigned all = (1u << FRAME_FIELDS) - 1, any = 0;
     for (int k = 0; k < series->frames; k++) {
-        frame_name(series, a->name[a->n], sizeof a->name[a->n], k);
-        if (isnan(series->frame_time[k]) || !frame_look(a, a->n)) continue;
-        a->time[a->n] = series->frame_time[k];
+        const struct frame_entry *e = &series->entry[k];
+        frame_name(series, a->frame[a->n], sizeof a->frame[a->n], k);
+        if (isnan(e->time) || !path_is_file(path_join(a->folder, a->frame[a->n]).text)) continue;
+        particles_file_name(series, a->particles[a->n], sizeof a->particles[a->n], e->particles);
+        a->time[a->n] = e->time, a->has[a->n] = e->fields, a->source[a->n].rows = e->rows;
         a->start[a->n] = a->n > 0 ? a->start[a->n - 1] + a->source[a->n - 1].rows : 0;
+        all &= e->fields, any |= e->fields;
         a->n++;
     }
+    a->fields = all | (any & 1u << FIELD_CONTACT);
 }
 
 /* Writes the group Steps: the times, and where the data of each time begin. number: work array of n entries. */
@@ -88,24 +75,37 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes points, cells and fields of all frames as virtual datasets. number: work array of n entries. */
+/* Writes a virtual dataset. fixed: it lies in the particles files. field: its bit; frames without it have 0. more: rows
+ * more than points in each frame. */
+static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, int64_t bit,
+                          int more)
+{
+    for (int k = 0; k < a->n; k++) {
+        const char *file = field->fixed ? a->particles[k] : a->frame[k];
+        a->source[k].file = bit < 0 || a->has[k] >> bit & 1 ? file : NULL;
+    }
+    hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, more);
+}
+
+/* Writes points, cells and fields as virtual datasets. */
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
+    static const struct frame_field cells[] = {{"/VTKHDF/Connectivity", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
+                                               {"/VTKHDF/Offsets", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
+                                               {"/VTKHDF/Types", "", HDF_U8, 1, ROW_WHOLE, true, NULL}};
     char name[PATH_NAME_ROOM];
     for (int k = 0; k < a->n; k++) number[k] = a->source[k].rows;
     for (int c = 0; c < 3; c++) {
         snprintf(name, sizeof name, "/VTKHDF/%s", count[c]);
         hdf_write_rows(f, name, HDF_I64, a->n, 1, number);
     }
-    hdf_write_virtual(f, "/VTKHDF/Connectivity", HDF_I64, 1, a->source, a->n, 0);
-    hdf_write_virtual(f, "/VTKHDF/Offsets", HDF_I64, 1, a->source, a->n, 1);
-    hdf_write_virtual(f, "/VTKHDF/Types", HDF_U8, 1, a->source, a->n, 0);
+    for (int c = 0; c < 3; c++) write_virtual(f, a, &cells[c], -1, c == 1);
     hdf_create_group(f, "/VTKHDF/PointData");
     for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
         if (!(a->fields >> k & 1) || field->columns == 0) continue;
-        hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, 0);
+        write_virtual(f, a, field, k, 0);
         hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
     }
 }
@@ -166,12 +166,15 @@ static status series_temporal(struct output *o, const struct frame_series *serie
     if (series->frames == 0 || series->frames > TEMPORAL_MOST) return OK;
     a.time = NEW("temporal.time", series->frames, real);
     a.source = NEW("temporal.source", series->frames, struct hdf_source);
-    a.name = memory_new("temporal.name", series->frames, sizeof *a.name);
+    a.frame = memory_new("temporal.frame", series->frames, sizeof *a.frame);
+    a.particles = memory_new("temporal.particles", series->frames, sizeof *a.particles);
+    a.has = NEW("temporal.has", series->frames, uint32_t);
     a.start = NEW("temporal.start", series->frames, int64_t);
     frames_look(&a, series);
     series_file(series, name, sizeof name, ".vtkhdf");
     if (a.n > 0) s = temporal_write(&a, path_join(o->folder, name).text, scene_text, &o->broken);
-    memory_free(a.start), memory_free(a.name), memory_free(a.source), memory_free(a.time);
+    memory_free(a.start), memory_free(a.has), memory_free(a.particles), memory_free(a.frame);
+    memory_free(a.source), memory_free(a.time);
     return s;
 }
 

@@ -259,11 +259,17 @@ class Frame:
         except ImportError:
             raise ImportError("frames are read by h5py, which is missing (Debian: apt-get install python3-h5py)") from None
         try:
-            return h5py.File(self.path, "r")
+            file = h5py.File(self.path, "r")
         except FileNotFoundError:
             raise Error("%s: there is no such file" % self.path) from None
         except OSError as fault:
             raise Error("%s cannot be read: %s" % (self.path, str(fault).split(" (", 1)[0])) from None
+        link = file.get("VTKHDF/Types", getlink=True)
+        beside = getattr(link, "filename", "")           # of frames that are complete by themselves: none
+        if beside and not os.path.exists(os.path.join(os.path.dirname(self.path), beside)):
+            file.close()
+            raise Error("%s cannot be read: %s beside it, to which it links, is missing" % (self.path, beside))
+        return file
 
     @property
     def names(self):
@@ -301,9 +307,12 @@ class Frame:
         return np.pad(stored, ((0, 0), (0, 3 - stored.shape[1])))
 
     def __getitem__(self, name):
-        """A field: n numbers, or n x 3 of vectors, n x 6 (xx yy zz xy yz xz) of tensors; KeyError names those there."""
+        """A field: n numbers, or n x 3 of vectors, n x 6 (xx yy zz xy yz xz) of tensors; KeyError names those there.
+        Contact forces that a frame leaves out are 0."""
         with self._file() as file:
             fields = file["VTKHDF/PointData"]
+            if name not in fields and name == "contact_force" and "zero" in file["Cleave"].attrs:
+                return np.zeros(file["VTKHDF/Points"].shape, file["VTKHDF/Points"].dtype)
             if name not in fields:
                 raise KeyError("%s; this frame has %s" % (name, ", ".join(fields)))
             return fields[name][()]

@@ -413,8 +413,11 @@ const struct key keys[] = {
         "besides the standard fields; none: those of output.fields", .words = FRAME_FIELD_WORDS),
     KEY("output.samples", KEY_INT, UNIT_NONE, AT(scene, samples), BETWEEN(1, 10000000), "200",
         "lines of history.csv after the one at t = 0"),
-    KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "60 s",
-        "wall clock between checkpoints; 0: after every step"),
+    KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "auto",
+        "wall clock between checkpoints; 0: after every step; auto: 60 s, longer if checkpoints would take more than 3 "
+        "% "
+        "of the time of the run",
+        .words = "auto", .word_value = NAN),
     KEY("output.compress", KEY_FLAG, UNIT_NONE, AT(scene, compress), ANY, "false", "gzip the frames (slow)"),
 
     KEY("probes", KEY_LIST, UNIT_NONE, NOWHERE, BETWEEN(0, 1000), NONE,

@@ -21,6 +21,8 @@
 
 #define PROGRESS_SECONDS 0.5       /* between progress lines on a terminal [s] */
 #define PROGRESS_SECONDS_FILE 60.0 /* between progress lines in a file [s] */
+#define CHECKPOINT_SECONDS 60.0    /* between checkpoints with output.checkpoint: auto, at least [s] */
+#define CHECKPOINT_SHARE 0.03      /* of the time of a run that such checkpoints take, at most */
 
 /* ---- schedule ---------------------------------------------------------------------------------------------------- */
 
@@ -152,14 +154,30 @@ static status write_frames(struct run *e, unsigned due)
     return s == OK && due & 1 ? profiles_write(&e->probing->probes, out, &seen) : s;
 }
 
-/* Writes a checkpoint and stores the time that it took. */
+/* Writes a checkpoint and stores the time that it took, without that of waiting for a frame. */
 static status write_checkpoint(struct run *e)
 {
+    struct run_report *r = e->report;
     frame_update_points(e->frame, &e->part, &e->loads);
-    e->report->last_checkpoint = wall_clock();
-    TRY(checkpoint_write(e->report->out, e->scene->text, e->save, e));
-    e->report->checkpoint_seconds = real_max(e->report->checkpoint_seconds, wall_clock() - e->report->last_checkpoint);
+    r->last_checkpoint = wall_clock();
+    TRY(output_wait(r->out));
+    const double begun = wall_clock();
+    TRY(checkpoint_write(r->out, e->scene->text, e->save, e));
+    const double now = wall_clock();
+    r->checkpoint_seconds = real_max(r->checkpoint_seconds, now - r->last_checkpoint);
+    r->checkpoints_spent += now - begun;
     return OK;
+}
+
+/* Returns true if a checkpoint is due after a step or load step: by the interval of the scene (0: each time; load
+ * steps: each time), or else as rarely as CHECKPOINT_SECONDS and CHECKPOINT_SHARE require. */
+static bool checkpoint_due(const struct run_report *r, const struct scene *s)
+{
+    const bool in_steps = scene_in_steps(s);
+    const double now = wall_clock(), since = now - r->last_checkpoint;
+    if (!isnan(s->checkpoint_interval)) return in_steps || since > s->checkpoint_interval;
+    const bool cheap = r->checkpoints_spent + r->checkpoint_seconds <= CHECKPOINT_SHARE * (now - r->started);
+    return cheap && (in_steps || since > CHECKPOINT_SECONDS);
 }
 
 /* Returns true if the wall time left is less than twice the time of the longest checkpoint. */
@@ -196,6 +214,7 @@ status report_start(struct run *e)
         /* frame 0 of the body is always written */
         s = write_frames(e, report_frames_due(r->out, e->scene, &e->clock, 0) | 1);
         if (s == OK) s = write_checkpoint(e);
+        r->checkpoints_spent = 0;
     }
     r->output_seconds += wall_clock() - r->started;
     return s;
@@ -270,8 +289,7 @@ status report_step(struct run *e)
         const unsigned due = report_frames_due(r->out, e->scene, &e->clock, e->clock.step);
         if (due) TRY(write_frames(e, due));
         const bool late = wall_is_over(e->scene, r), stop = late || (r->stop && *r->stop);
-        if (stop || in_steps || wall_clock() - r->last_checkpoint > e->scene->checkpoint_interval)
-            TRY(write_checkpoint(e));
+        if (stop || checkpoint_due(r, e->scene)) TRY(write_checkpoint(e));
         if (stop && !last)
             return status_set(INTERRUPTED, "%s at step %lld of %lld; go on with --resume",
                               late ? "time.wall is over" : "interrupted", (long long)e->clock.step,

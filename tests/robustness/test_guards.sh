@@ -159,6 +159,21 @@ holds "plots go on" "$cleave" plot "$work/part" --frames all >/dev/null
 holds "a picture of the frame behind the gap" test -e "$work/part/pictures/damage_000004.png"
 calm "$work/whole" $small -s output.frames=6
 for frame in 000000 000002 000006; do holds "frame $frame" cmp "$work/part/frames/$frame.hdf" "$work/whole/frames/$frame.hdf"; done
+# What frames share is lost: those frames are left out, and the next ones have a file of their own.
+rm -rf "$work/lone"
+interrupted "$work/lone" 30 $small -s output.frames=6
+cp -r "$work/lone" "$work/bent"
+rm "$work/lone/frames/particles_000000.h5"
+"$cleave" plot "$work/lone" >"$work/out" 2>"$work/err"
+is "frames without what they share: exit status" $? 1
+is "frames without what they share: lines" "$(wc -l <"$work/err")" 1
+holds "frames without what they share: $(cat "$work/err")" grep -q "particles_000000.h5 beside it, to which it links, is missing" "$work/err"
+printf 'x' | dd of="$work/bent/frames/particles_000000.h5" bs=1 seek=4000 conv=notrunc 2>/dev/null
+for lost in lone bent; do
+    warned "$lost: frames that lost what they share" "$work/$lost" "frames/000000.hdf links to a particles file that is lost" $small -s output.frames=6 --resume
+    holds "$lost: another one" test "$(ls "$work/$lost/frames" | grep -c '^particles_00000[1-6].h5$')" -eq 1
+    holds "$lost: the last frame is that of a whole run" "$cleave" compare "$work/$lost" "$work/whole" >/dev/null
+done
 # A resumed run leaves pictures that are being drawn.
 touch "$work/part/pictures/damage.png.cleave.tmp"
 calm "$work/part" $small -s output.frames=6 --resume

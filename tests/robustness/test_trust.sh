@@ -74,6 +74,14 @@ same "finished, resumed" "$work/flat1" "$work/finished"
 is "resumed with another scene: exit status" $? 2
 same "after the refusal" "$work/flat1" "$work/finished"
 
+# Particles that are made during the run: each set of them has a particles file, and an interruption leaves the same ones.
+made="inputs/kalthoff_winkler.yaml -s mpm.fill=needed -s mpm.levels=2 -s particles.spacing=0.5mm -s output.frames=8 -s output.samples=500"
+calm "$work/made" $made
+holds "several particles files" test "$(ls "$work/made/frames" | grep -c '^particles_')" -gt 2
+interrupted "$work/made_again" 250 $made
+calm "$work/made_again" --resume $made
+same "interrupted between particles files" "$work/made" "$work/made_again"
+
 # ---- killed --------------------------------------------------------------------------------------------------------
 
 often="-s output.checkpoint=20ms"

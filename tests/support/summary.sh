@@ -18,7 +18,7 @@ pass() { checks=$((checks + 1)); }
 # fewer than two contours, no factors, or no yielded point.
 numbers()
 {
-    [ ! -x "$look_through" ] || none=$(find "$1" -path '*/frames/*.hdf' -exec "$look_through" {} +) || fail "$1: $none"
+    [ ! -x "$look_through" ] || none=$(find "$1" \( -path '*/frames/*.hdf' -o -name 'particles_*.h5' \) -exec "$look_through" {} +) || fail "$1: $none"
     none=$(find "$1" -name history.csv -exec awk -F, '
         FNR == 1 { for (k = 1; k <= NF; k++) name[k] = $k; next }
         { for (k = 1; k <= NF; k++)

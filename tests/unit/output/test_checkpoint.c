@@ -134,18 +134,18 @@ static void state_comes_back(void **state)
     assert_false(checkpoint_exists("state"));
     assert_not_restored(&o);
     o.series[0].frames = 3, o.history_bytes = 1234;
-    o.series[0].frame_time = NEW("frame_time", 3, real);
-    o.series[0].frame_time[2] = 0.1;
-    o.series[0].frame_rows = NEW("frame_rows", 3, int64_t);
-    o.series[0].frame_rows[2] = 99;
+    o.series[0].entry = NEW("frames", 3, struct frame_entry);
+    o.series[0].entry[2] = (struct frame_entry){.time = 0.1, .rows = 99, .fields = 7, .particles = 1};
+    o.series[0].particles.number = 1, o.series[0].particles.content = -123;
     struct toy toy = toy_make(&o, 5, 1000), other = {.out = &back};
     assert_int_equal(checkpoint_write(&o, scene_text, toy_archive, &toy), OK);
     assert_true(checkpoint_exists("state"));
     assert_int_equal(checkpoint_read(&o, scene_text, toy_archive, &other), OK);
     toy_check(&other, 5, 1000);
     assert_int_equal(back.series[0].frames, 3);
-    assert_true(back.series[0].frame_time[2] == 0.1);
-    assert_int_equal(back.series[0].frame_rows[2], 99);
+    assert_memory_equal(back.series[0].entry, o.series[0].entry, 3 * sizeof(struct frame_entry));
+    assert_int_equal(back.series[0].particles.number, 1);
+    assert_int_equal(back.series[0].particles.content, -123);
     assert_int_equal(back.history_bytes, 1234);
     memory_free(toy.value);
     memory_free(other.value);
@@ -291,7 +291,7 @@ static void future_formats_are_refused(void **state)
     open_fresh(&o, "future");
     assert_int_equal(checkpoint_write(&o, scene_text, future_archive, NULL), OK);
     assert_not_restored(&o);
-    assert_message("has format 1000, this program reads format 17");
+    assert_message("has format 1000, this program reads format 18");
     output_close(&o);
 }
 
@@ -332,7 +332,7 @@ static int write_to_full_disk(struct output *o, bool frame_first)
     const char *expected = "cannot write full/checkpoint.h5: File too large; free space or choose another -o";
     status s;
     if (frame_first) {
-        expected = "cannot write full/frames/000000.hdf: File too large; free space or choose another -o";
+        expected = "cannot write full/frames/particles_000000.h5: File too large; free space or choose another -o";
         s = output_write_frame(o, &p, 0, 0, scene_text);
     } else
         s = write_step(o, 7, 5000);
@@ -341,7 +341,8 @@ static int write_to_full_disk(struct output *o, bool frame_first)
     /* HDF5 is not called again, and the first message is kept. */
     if (output_write_frame(o, &p, 0, 0, scene_text) != FAILED || write_step(o, 7, 1) != FAILED) return 4;
     if (strcmp(status_message(), expected) != 0) return 5;
-    if (path_exists("full/checkpoint.h5.cleave.tmp") || path_exists("full/frames/000000.hdf.cleave.tmp")) return 6;
+    if (path_exists("full/checkpoint.h5.cleave.tmp") || path_exists("full/frames/particles_000000.h5.cleave.tmp"))
+        return 6;
     particles_free(&p);
     return 0;
 }

@@ -172,7 +172,7 @@ static void frames_of_a_region(void **state)
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     for (int k = 0; k < 3; k++) assert_int_equal(output_frame_begin(&o, 1, &p, NULL, 0.5 * k, k, scene_text), OK);
     assert_int_equal(output_write_temporal(&o, scene_text), OK);
-    assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].frame_rows[2] == inside);
+    assert_true(o.series[0].frames == 1 && o.series[1].frames == 3 && o.series[1].entry[2].rows == inside);
     assert_int_equal(frame_read(&f, "regions/frames_half/000002.hdf"), OK);
     assert_true(f.n == inside && inside > 100 && inside < PARTICLES - 100 && f.t == 1);
     for (int64_t k = 0; k < f.n; k++) {

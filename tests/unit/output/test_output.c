@@ -137,14 +137,15 @@ static void frames_have_vtk_layout(void **state)
     struct output o;
     struct particles p;
     struct hdf f;
-    int64_t n = 0, offset[PARTICLES + 1];
+    int64_t n = 0;
+    int32_t offset[PARTICLES + 1];
     uint8_t type[PARTICLES];
     open_fresh(&o, "layout", false);
     make_particles(&p, 2, PARTICLES);
     assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
     hdf_open(&f, "layout/frames/000000.hdf");
     hdf_read_rows(&f, "/VTKHDF/NumberOfPoints", HDF_I64, 1, &n);
-    hdf_read_rows(&f, "/VTKHDF/Offsets", HDF_I64, PARTICLES + 1, offset);
+    hdf_read_rows(&f, "/VTKHDF/Offsets", HDF_I32, PARTICLES + 1, offset);
     hdf_read_rows(&f, "/VTKHDF/Types", HDF_U8, PARTICLES, type);
     assert_false(f.failed);
     assert_int_equal(n, PARTICLES);
@@ -193,7 +194,7 @@ static void frames_hold_what_they_are_given(void **state)
     real pushed[2] = {1.5, -2.5}, across[2] = {0, 4};
     real *const push[DIM_MAX] = {pushed, across, NULL};
     const int32_t fragment[2] = {-1, 3};
-    const struct frame_extra extra = {push, fragment};
+    const struct frame_extra extra = {.push = push, .fragment = fragment};
     for (int given = 0; given < 2; given++) {
         struct output o;
         struct particles p;

@@ -1,0 +1,132 @@
+/* Writes the indices of the frames of a series: frames.hdf.series for ParaView, frames.xdmf for VisIt and other readers
+ * of XDMF. */
+#include "output_index.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory_stream.h"
+#include "output/output_files.h"
+#include "particles_file.h"
+
+void frame_name(const struct frame_series *s, char *name, size_t room, int number)
+{
+    snprintf(name, room, "frames%s%s/%06d.hdf", s->name[0] ? "_" : "", s->name, number);
+}
+
+void series_file(const struct frame_series *s, char *name, size_t room, const char *end)
+{
+    snprintf(name, room, "%s%s", s->name[0] ? s->name : "frames", end);
+}
+
+/* Writes frames.hdf.series. */
+static void series_print(FILE *out, const struct frame_series *s)
+{
+    const char *between = "";
+    fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
+    for (int k = 0; k < s->frames; k++) {
+        char name[PATH_NAME_ROOM];
+        if (isnan(s->entry[k].time)) continue; /* lost (output_frames_check) */
+        frame_name(s, name, sizeof name, k);
+        fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->entry[k].time);
+        between = ",";
+    }
+    fprintf(out, "\n]}\n");
+}
+
+/* Writes a reference to a whole dataset. file: path of the file that holds it; XDMF's readers follow no links. */
+static void xdmf_item(FILE *out, const char *file, const struct frame_field *field, int64_t n)
+{
+    static const char *const number[] = {
+        [HDF_F32] = "Float", [HDF_F64] = "Float", [HDF_U8] = "UChar", [HDF_I32] = "Int", [HDF_I64] = "Int"};
+    fprintf(out, "<DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"%zu\" Dimensions=\"%lld", number[field->type],
+            hdf_type_size(field->type), (long long)n);
+    if (field->columns > 1) fprintf(out, " %d", field->columns);
+    fprintf(out, "\">%s:%s</DataItem>", file, field->path);
+}
+
+/* Writes an XDMF attribute: a field of n points in the file `file`. */
+static void xdmf_attribute(FILE *out, const char *file, const struct frame_field *field, int64_t n)
+{
+    /* A Matrix, not an XDMF Tensor6: XDMF orders the six components differently, and readers would permute them. */
+    const char *shape = field->columns == 1 ? "Scalar" : field->columns == 3 ? "Vector" : "Matrix";
+    const char *name = strrchr(field->path, '/') + 1;
+    fprintf(out, "<Attribute Name=\"%s\" AttributeType=\"%s\" Center=\"Node\">", name, shape);
+    xdmf_item(out, file, field, n);
+    fprintf(out, "</Attribute>\n");
+}
+
+/* Writes the XDMF grid of one frame. frame, particles: paths of the frame and of its particles file. */
+static void xdmf_grid(FILE *out, const char *frame, const char *particles, const struct frame_entry *e)
+{
+    /* Lists the cells, because the XDMF3 reader creates none from their number alone. */
+    static const struct frame_field vertices = {"/VTKHDF/Connectivity", "", HDF_I32, 1, ROW_WHOLE, true, NULL};
+    fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", e->time);
+    fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
+            (long long)e->rows);
+    xdmf_item(out, particles, &vertices, e->rows);
+    fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
+    xdmf_item(out, frame, &frame_fields[FIELD_POINTS], e->rows);
+    fprintf(out, "</Geometry>\n");
+    for (int k = FIELD_POINTS + 1; k < FRAME_FIELDS; k++)
+        if (frame_fields[k].columns > 0 && e->fields >> k & 1)
+            xdmf_attribute(out, frame_fields[k].fixed ? particles : frame, &frame_fields[k], e->rows);
+    fprintf(out, "</Grid>\n");
+}
+
+/* Writes frames.xdmf: a collection in time of the grids of all frames that are not lost. */
+static void xdmf_print(FILE *out, const struct frame_series *s)
+{
+    fprintf(out, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n");
+    fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
+    for (int k = 0; k < s->frames; k++) {
+        char name[PATH_NAME_ROOM], particles[PATH_NAME_ROOM];
+        if (isnan(s->entry[k].time)) continue;
+        frame_name(s, name, sizeof name, k);
+        particles_file_name(s, particles, sizeof particles, s->entry[k].particles);
+        xdmf_grid(out, name, particles, &s->entry[k]);
+    }
+    fprintf(out, "</Grid>\n</Domain>\n</Xdmf>\n");
+}
+
+/* ---- files ------------------------------------------------------------------------------------------------------- */
+
+/* Returns the path of an index. which: 0 for frames.hdf.series, 1 for frames.xdmf. */
+static struct path index_path(const char *folder, const struct frame_series *s, int which)
+{
+    static const char *const end[INDICES] = {".hdf.series", ".xdmf"};
+    char name[PATH_NAME_ROOM];
+    series_file(s, name, sizeof name, end[which]);
+    return path_join(folder, name);
+}
+
+/* Composes the text of an index in memory. */
+static status index_make(struct frame_indices *index, const char *folder, const struct frame_series *s, int which)
+{
+    static void (*const print[INDICES])(FILE *, const struct frame_series *) = {series_print, xdmf_print};
+    FILE *out = memory_stream_open(&index->text[which], &index->length[which]);
+    if (out) print[which](out, s);
+    const bool whole = out && fclose(out) == 0;
+    return whole ? OK : file_fault(index_path(folder, s, which).text, ENOMEM);
+}
+
+status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s)
+{
+    for (int k = 0; k < INDICES; k++) TRY(index_make(index, folder, s, k));
+    return OK;
+}
+
+status frame_indices_write(const struct frame_indices *index, const char *folder, const struct frame_series *s)
+{
+    for (int k = 0; k < INDICES; k++)
+        TRY(file_write_whole(index_path(folder, s, k).text, index->text[k], index->length[k]));
+    return OK;
+}
+
+void frame_indices_free(struct frame_indices *index)
+{
+    for (int k = 0; k < INDICES; k++) free(index->text[k]);
+    *index = (struct frame_indices){0};
+}

@@ -1,0 +1,24 @@
+/* Texts of the indices of a series of frames. */
+#ifndef CLEAVE_OUTPUT_INDEX
+#define CLEAVE_OUTPUT_INDEX
+
+#include "output/output.h"
+
+enum { INDICES = 2 }; /* frames.hdf.series, frames.xdmf */
+
+struct frame_indices {
+    char *text[INDICES];
+    size_t length[INDICES]; /* [byte] */
+};
+
+/* Composes the texts of the indices of a series in memory. index: all 0 before. folder: of the run, for messages.
+ * Returns FAILED if memory is exhausted. Release with frame_indices_free in any case. */
+status frame_indices_make(struct frame_indices *index, const char *folder, const struct frame_series *s);
+
+/* Writes the indices as files to the folder of the run. Returns FAILED if one cannot be written. */
+status frame_indices_write(const struct frame_indices *index, const char *folder, const struct frame_series *s);
+
+/* Releases the texts of *index. */
+void frame_indices_free(struct frame_indices *index);
+
+#endif

@@ -1,0 +1,153 @@
+/* Writes and checks the files of what does not change from frame to frame. */
+#include "particles_file.h"
+
+#include <string.h>
+
+#include "base/memory.h"
+#include "output/checksum.h"
+
+enum { PARTICLES_VERSION = 1, VTK_VERTEX = 1 };
+
+/* Datasets of a frame besides its fields that are in the particles file. */
+static const char *const linked[] = {
+    "/VTKHDF/NumberOfPoints",  "/VTKHDF/NumberOfCells",   "/VTKHDF/NumberOfConnectivityIds",
+    "/VTKHDF/Connectivity",    "/VTKHDF/Offsets",         "/VTKHDF/Types",
+    "/VTKHDF/FieldData/units", "/VTKHDF/FieldData/scene", "/Cleave/scene"};
+
+void particles_file_name(const struct frame_series *s, char *name, size_t room, int number)
+{
+    snprintf(name, room, "frames%s%s/particles_%06d.h5", s->name[0] ? "_" : "", s->name, number);
+}
+
+/* ---- writing ----------------------------------------------------------------------------------------------------- */
+
+/* Returns true if field k is in the particles file. */
+static bool is_inside(const struct particles_file *f, int k) { return f->fields >> k & 1 && frame_fields[k].fixed; }
+
+/* Returns the size of all rows of field k [byte]. */
+static size_t field_bytes(const struct particles_file *f, int k)
+{
+    return (size_t)f->n * frame_field_bytes(&frame_fields[k], f->dim);
+}
+
+void particles_file_make(struct particles_file *f, const struct frame_series *s, const struct frame_source *source,
+                         unsigned fields, const char *scene_text)
+{
+    char units[1000];
+    size_t length = 0;
+    *f = (struct particles_file){.n = s->rows.n, .dim = source->p->dim, .fields = fields, .scene_text = scene_text};
+    for (int k = 0; k < FRAME_FIELDS; k++)
+        if (is_inside(f, k)) length += field_bytes(f, k);
+    f->rows = NEW("output.fixed", (int64_t)length, char);
+    f->cells = NEW("output.cells", f->n + 1, int32_t);
+    frame_units_text(fields, units, sizeof units);
+    uint64_t hash = bytes_hash(bytes_hash((uint64_t)f->n, units, strlen(units)), scene_text, strlen(scene_text));
+    char *rows = f->rows;
+    for (int k = 0; k < FRAME_FIELDS; k++) {
+        if (!is_inside(f, k)) continue;
+        frame_field_copy_rows(&frame_fields[k], source, &s->rows, rows);
+        hash = bytes_hash(hash, rows, field_bytes(f, k));
+        rows += field_bytes(f, k);
+    }
+    f->content = (int64_t)hash;
+}
+
+void particles_file_free(struct particles_file *f)
+{
+    memory_free(f->rows), memory_free(f->cells);
+    f->rows = NULL, f->cells = NULL;
+}
+
+/* Writes one vertex cell per particle: cell k consists of point k and starts at k. */
+static void particles_write_cells(struct hdf *h, const struct particles_file *f)
+{
+    for (int k = 0; k < 3; k++) hdf_write_rows(h, linked[k], HDF_I64, 1, 1, &f->n);
+    for (int64_t k = 0; k <= f->n; k++) f->cells[k] = (int32_t)k;
+    hdf_write_table(h, "/VTKHDF/Connectivity", HDF_I32, f->n, 1, 1, f->cells);
+    hdf_write_table(h, "/VTKHDF/Offsets", HDF_I32, f->n + 1, 1, 1, f->cells);
+    array_fill_bytes(f->cells, VTK_VERTEX, f->n, 1);
+    hdf_write_table(h, "/VTKHDF/Types", HDF_U8, f->n, 1, 1, f->cells);
+}
+
+/* Writes groups, marks, texts, cells and fields of a particles file. */
+static void particles_write_contents(struct hdf *h, const struct particles_file *f)
+{
+    static const int32_t version = PARTICLES_VERSION;
+    const char *rows = f->rows;
+    char units[1000];
+    frame_units_text(f->fields, units, sizeof units);
+    hdf_create_group(h, "/VTKHDF"), hdf_create_group(h, "/VTKHDF/PointData"), hdf_create_group(h, "/VTKHDF/FieldData");
+    hdf_create_group(h, "/Cleave");
+    hdf_write_scalar_attribute(h, "/Cleave", "version", HDF_I32, &version);
+    hdf_write_scalar_attribute(h, "/Cleave", "content", HDF_I64, &f->content);
+    hdf_write_text(h, "/Cleave/scene", f->scene_text);
+    hdf_write_text_list(h, "/VTKHDF/FieldData/units", units);
+    hdf_write_text_list(h, "/VTKHDF/FieldData/scene", f->scene_text);
+    particles_write_cells(h, f);
+    for (int k = 0; k < FRAME_FIELDS; k++) {
+        if (!is_inside(f, k)) continue;
+        frame_field_write(h, &frame_fields[k], f->n, f->dim, rows);
+        rows += field_bytes(f, k);
+    }
+}
+
+status particles_file_write(const struct particles_file *f, bool *broken)
+{
+    struct hdf h;
+    int64_t content = 0;
+    if (!particles_file_damage(f->path.text, &content) && content == f->content) return OK;
+    hdf_create(&h, file_begin_temporary(f->path.text).text, f->compress);
+    particles_write_contents(&h, f);
+    if (!h.failed) hdf_close(&h);
+    if (h.failed) {
+        *broken = true;
+        file_discard(f->path.text);
+        return file_fault(f->path.text, h.cause);
+    }
+    TRY(file_append_footer(f->path.text));
+    return file_publish(f->path.text);
+}
+
+void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned fields)
+{
+    const char *file = strrchr(f->path.text, '/') + 1;
+    for (size_t k = 0; k < COUNT_OF(linked); k++) hdf_create_link(frame, linked[k], file);
+    for (int k = 0; k < FRAME_FIELDS; k++)
+        if (fields >> k & 1 && frame_fields[k].fixed) hdf_create_link(frame, frame_fields[k].path, file);
+    hdf_write_scalar_attribute(frame, "/Cleave", "content", HDF_I64, &f->content);
+}
+
+/* ---- checking ---------------------------------------------------------------------------------------------------- */
+
+bool particles_file_read_content(const char *path, int64_t *content)
+{
+    struct hdf h;
+    hdf_open(&h, path);
+    hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content);
+    hdf_close(&h);
+    return !h.failed;
+}
+
+const char *particles_file_damage(const char *path, int64_t *content)
+{
+    const char *fault = file_damage(path);
+    if (fault) return fault;
+    return particles_file_read_content(path, content) ? NULL : "is no particles file";
+}
+
+status particles_file_check(struct hdf *h, const char *path)
+{
+    struct path file = {{0}};
+    char name[PATH_NAME_ROOM];
+    int64_t content = 0, found = 0;
+    if (!hdf_read_link_file(h, "/VTKHDF/Types", name, sizeof name)) return OK;
+    hdf_read_attribute(h, "/Cleave", "content", HDF_I64, &content);
+    if (h->failed || !name[0] || strchr(name, '/')) return status_set(FAILED, "cannot read %s: it is no frame", path);
+    const char *slash = strrchr(path, '/');
+    const int folder = slash ? (int)(slash + 1 - path) : 0;
+    snprintf(file.text, sizeof file.text, "%.*s%s", folder, path, name);
+    const char *fault = particles_file_damage(file.text, &found);
+    if (!fault && found != content) fault = "is of another run";
+    if (!fault) return OK;
+    return status_set(FAILED, "cannot read %s: %s beside it, to which it links, %s", path, name, fault);
+}
