@@ -46,7 +46,7 @@ is "records of an area before a bond has broken" "$(awk -F, 'NR == 1 { for (k = 
 calm "$work/led" $pulled -t 1
 led=$work/led
 is "lines of history" "$(wc -l <"$led/history.csv")" 8
-is "frames, one at the start" "$(ls "$led/frames" | wc -l)" 4
+is "frames, one at the start" "$(ls "$led/frames" | grep -c 'hdf$')" 4
 is "steps" "$(figure "$led" load_steps.steps)" 6
 is "control" "$(figure "$led" load_steps.control)" energy
 is "the first break" "$(figure "$led" crack.start_step)" 2
