@@ -1,0 +1,60 @@
+/* Laws by which metals yield beyond linear hardening: the yield stress as a function of plastic strain, rate and
+ * temperature (flow law), kinematic hardening, and adiabatic heating. Constants given by the scene, and those derived
+ * from them. The functions of the laws: kernels/laws. */
+#ifndef CLEAVE_LAW
+#define CLEAVE_LAW
+
+#include "base/base.h"
+
+/* The flow laws, one row a law: its name in `enum flow`, and in the names of its functions, which a header of its own
+ * in kernels/laws declares. */
+#define FLOWS(X) X(LINEAR, linear) X(VOCE, voce) X(POWER, power) X(TABLE, table) X(JOHNSON_COOK, johnson_cook)
+#define FLOW_NAME(upper, lower) FLOW_##upper,
+enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
+
+/* Most points of a hardening curve. */
+enum { FLOW_POINTS = 16 };
+
+/* A concave hardening curve through `points` points: plastic strain [1] and stress [Pa]; constant beyond the last. Its
+ * segments are lines `start` + `slope` a [Pa], the last of which is constant. */
+struct flow_curve {
+    int points;
+    real strain[FLOW_POINTS], stress[FLOW_POINTS];
+    real start[FLOW_POINTS], slope[FLOW_POINTS]; /* derived by law_compute_constants */
+};
+
+/* The law of one material. */
+struct law {
+    bool given; /* false: the material has no law of this kind, and the other members have no meaning */
+    enum flow flow;
+    real hardening; /* linear: modulus H [Pa] */
+    struct {
+        real saturation, rate; /* Q [Pa], b [1]: sigma_y + Q (1 - exp(-b a)) */
+    } voce;
+    struct {
+        real coefficient, exponent; /* B [Pa], n [1]: sigma_y + B a^n */
+    } power;
+    struct flow_curve table;
+    struct {
+        real A, B, n, C, m, eps0, T_room, T_melt; /* [Pa] [Pa] [1] [1] [1] [1/s] [K] [K] */
+    } johnson_cook;
+    struct {
+        real modulus, recall; /* C [Pa], 0: no kinematic hardening; gamma [1] */
+    } kinematic;
+    real specific_heat, taylor_quinney; /* c [J/(kg K)], 0: no heating; share of the plastic work that heats [1] */
+    /* values derived by law_compute_constants */
+    real yield;                 /* yield stress at no plastic strain, at the reference rate and room temperature [Pa] */
+    real young, poisson, shear; /* elastic constants [Pa] [1] [Pa]; shear is 0 in 1D */
+    real heating;               /* increase of temperature per plastic work, beta/(rho c) [K m^3/J]; 0: no heating */
+    real steepest;              /* largest slope of the flow law that explicit steps use [Pa] */
+};
+
+/* Computes the derived members of a law. yield_stress: of the material, unless the flow law has its own [Pa]; young,
+ * poisson, shear: its elastic constants [Pa] [1] [Pa], shear 0 in 1D; density [kg/m^3]. Does nothing if the law is not
+ * given. */
+void law_compute_constants(struct law *law, real yield_stress, real young, real poisson, real shear, real density);
+
+/* Returns true if plastic work heats the material. */
+static inline bool law_heats(const struct law *law) { return law->given && law->specific_heat > 0; }
+
+#endif

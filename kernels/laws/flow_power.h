@@ -1,0 +1,35 @@
+/* Flow law with a power of the plastic strain (Ludwik 1909): sigma_y + B a^n, 0 < n <= 1. The functions:
+ * flow_linear.h. */
+#ifndef CLEAVE_KERNELS_FLOW_POWER
+#define CLEAVE_KERNELS_FLOW_POWER
+
+#include "data/law.h"
+#include "lanes_power.h"
+
+/* Returns B a^n [Pa] and stores its derivative n B a^(n - 1) in *slope, which is large but finite at a = 0. */
+static ALWAYS_INLINE lanes power_of_strain(real B, real n, lanes a, lanes *slope)
+{
+    const lanes least = lanes_max(a, lanes_of(1e-200)), power = B * lanes_power(least, n);
+    *slope = n * power / least;
+    return lanes_choose(lanes_less(a, lanes_of(1e-200)), lanes_of(0), power);
+}
+
+static ALWAYS_INLINE lanes flow_power(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+{
+    (void)rate, (void)T;
+    return m->yield + power_of_strain(m->power.coefficient, m->power.exponent, a, slope);
+}
+
+static ALWAYS_INLINE lanes work_power(const struct law *m, lanes a)
+{
+    const real n = m->power.exponent;
+    return m->yield * a + m->power.coefficient / (n + 1) * lanes_power(a, n + 1);
+}
+
+static ALWAYS_INLINE lanes reach_power(const struct law *m, lanes q, lanes rate, lanes T)
+{
+    (void)rate, (void)T;
+    return lanes_power(lanes_max((q - m->yield) / m->power.coefficient, lanes_of(0)), 1 / m->power.exponent);
+}
+
+#endif

@@ -1,0 +1,51 @@
+/* The flow laws as one function each, which selects the law by name: see flow_linear.h. */
+#ifndef CLEAVE_KERNELS_FLOWS
+#define CLEAVE_KERNELS_FLOWS
+
+#include "flow_johnson_cook.h"
+#include "flow_linear.h"
+#include "flow_power.h"
+#include "flow_table.h"
+#include "flow_voce.h"
+
+#define FLOW_CASE(upper, lower)                                                                                        \
+    case FLOW_##upper:                                                                                                 \
+        return FLOW_CALL(lower);
+
+/* Returns the yield stress [Pa] and stores its slope in *slope [Pa]. */
+static ALWAYS_INLINE lanes flow_stress(const struct law *m, lanes a, lanes rate, lanes T, lanes *slope)
+{
+#define FLOW_CALL(name) flow_##name(m, a, rate, T, slope)
+    switch (m->flow) {
+        FLOWS(FLOW_CASE)
+    default:
+        return *slope = lanes_of(0);
+    }
+#undef FLOW_CALL
+}
+
+/* Returns an upper bound of the plastic strain at which the yield stress is q [1]. */
+static ALWAYS_INLINE lanes flow_reach(const struct law *m, lanes q, lanes rate, lanes T)
+{
+#define FLOW_CALL(name) reach_##name(m, q, rate, T)
+    switch (m->flow) {
+        FLOWS(FLOW_CASE)
+    default:
+        return lanes_of(INFINITY);
+    }
+#undef FLOW_CALL
+}
+
+/* Returns the integral of the yield stress from 0 to a at the reference rate and room temperature [J/m^3]. */
+static ALWAYS_INLINE lanes flow_work(const struct law *m, lanes a)
+{
+#define FLOW_CALL(name) work_##name(m, a)
+    switch (m->flow) {
+        FLOWS(FLOW_CASE)
+    default:
+        return lanes_of(0);
+    }
+#undef FLOW_CALL
+}
+
+#endif

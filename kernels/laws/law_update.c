@@ -1,0 +1,226 @@
+/* Return mapping with flow laws (law_update.h), one body for all spaces. In each space the relative stress has
+ * components that shrink by 1/(1 + A t) and others that shrink by 1/(1 + B t), with t = da/q and
+ *     q^2 = even + odd,   even: of xi_xx + xi_yy in plane stress, of xi in 1D;   odd: of all other components
+ *     A = E/(2 (1 - nu)) + C g in plane stress, E + C g in 1D;   B = 3 G + C g;   g = 1/(1 + gamma da)
+ * where the trial relative stress is s - g X. In plane stress xi_xx + xi_yy stands for s_xx + s_yy - 3 (X_xx + X_yy),
+ * for which q^2 = (xi_xx + xi_yy)^2/4 + 3 (xi_xx - xi_yy)^2/4 + 3 xi_xy^2. */
+#include "law_update.h"
+
+#include "flows.h"
+
+/* Passes of load steps, each with the flow law linearised at the last result: the law is concave, so they increase to
+ * the result, quadratically. The recall of the back stress is taken from the last pass: its error shrinks by about
+ * C/3G a pass. */
+enum { PASSES = 10, PASSES_RECALL = 48 };
+/* Newton steps for t in plane stress, from t = 0 (plastic.c). Elsewhere one step is exact. */
+enum { STEPS_PLANE_STRESS = 5 };
+/* Least yield stress over Young's modulus: the quotients of molten points stay finite. */
+#define LEAST_YIELD 1e-10
+
+/* Number of components of law_points that differ from 0. */
+static ALWAYS_INLINE int components(const enum space space)
+{
+    return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
+}
+
+/* Computes the independent components of the relative stress s - g X [Pa]: in 3D and plane strain of its deviator, in
+ * plane stress sum, difference and shear, in 1D the uniaxial one. */
+static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
+{
+    if (space == SPACE_LINE) {
+        xi[0] = p->s[0] - 1.5 * g * p->back[0];
+        return;
+    }
+    if (space == SPACE_PLANE_STRESS) {
+        xi[0] = p->s[0] + p->s[1] - 3.0 * g * (p->back[0] + p->back[1]);
+        xi[1] = p->s[0] - p->s[1] - g * (p->back[0] - p->back[1]);
+        xi[2] = p->s[3] - g * p->back[3];
+        return;
+    }
+    const lanes mean = (p->s[0] + p->s[1] + p->s[2]) / 3.0;
+    for (int c = 0; c < components(space); c++) xi[c] = p->s[c] - (c < 3 ? mean : lanes_of(0)) - g * p->back[c];
+}
+
+/* Computes the parts `even` and `odd` of the scalar product 3/2 x:y of two relative stresses [Pa^2]. */
+static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes *even, lanes *odd,
+                                           const enum space space)
+{
+    *even = *odd = lanes_of(0);
+    if (space == SPACE_LINE)
+        *even = x[0] * y[0];
+    else if (space == SPACE_PLANE_STRESS)
+        *even = 0.25 * x[0] * y[0], *odd = 0.75 * x[1] * y[1] + 3.0 * x[2] * y[2];
+    else
+        for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
+}
+
+/* The equation for t: squares of the trial relative stress [Pa^2] and rates of shrinking [Pa]. */
+struct flow_equation {
+    lanes even, odd, A, B;
+};
+
+/* Computes the equation at a factor g of the back stress. stiffness: effective kinematic modulus [Pa]. */
+static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, const struct law_points *p, lanes g,
+                                                      lanes stiffness, lanes *xi, const enum space space)
+{
+    struct flow_equation e;
+    relative_stress(p, g, xi, space);
+    relative_product(xi, xi, &e.even, &e.odd, space);
+    e.even = lanes_max(e.even, lanes_of(0)), e.odd = lanes_max(e.odd, lanes_of(1e-200));
+    const real uniaxial = space == SPACE_LINE ? law->young : 0.5 * law->young / (1 - law->poisson);
+    e.A = uniaxial + stiffness, e.B = 3 * law->shear + stiffness;
+    return e;
+}
+
+/* Returns q at t [Pa]; *fall: -q dq/dt [Pa^3]. */
+static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
+{
+    const lanes v = 1.0 / (1.0 + e->B * t);
+    lanes q2 = e->odd * v * v;
+    *fall = e->odd * e->B * v * v * v;
+    if (space == SPACE_LINE || space == SPACE_PLANE_STRESS) {
+        const lanes u = 1.0 / (1.0 + e->A * t);
+        q2 += e->even * u * u, *fall += e->even * e->A * u * u * u;
+    }
+    return lanes_root(q2);
+}
+
+/* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da, by Newton's method from t = 0;
+ * t = 0 where q(0) is below bound. One step is exact where all components shrink alike. */
+static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
+                                          const enum space space)
+{
+    lanes t = lanes_of(0), fall;
+    for (int k = 0; k < (space == SPACE_PLANE_STRESS ? STEPS_PLANE_STRESS : 1); k++) {
+        const lanes inverse = 1.0 / equation_stress(e, t, &fall, space);
+        const lanes rest = 1.0 - slope * t - bound * inverse;
+        t = lanes_max(t + rest / (slope + bound * fall * inverse * inverse * inverse), lanes_of(0));
+    }
+    return t;
+}
+
+/* Returns the effective kinematic modulus of a small step, C - gamma (3/2) xi:X/q [Pa]: the recall of the back stress
+ * moves the yield surface back. q: of the trial relative stress xi [Pa]. */
+static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct law_points *p, const lanes *xi,
+                                             lanes q, const enum space space)
+{
+    struct law_points back = {.s = {lanes_of(0)}};
+    lanes x[SYM_MAX], even, odd;
+    if (!(law->kinematic.recall > 0)) return lanes_of(law->kinematic.modulus);
+    for (int c = 0; c < SYM_MAX; c++) back.s[c] = lanes_of(0), back.back[c] = -p->back[c];
+    relative_stress(&back, lanes_of(1), x, space);
+    relative_product(xi, x, &even, &odd, space);
+    return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
+}
+
+/* Returns t of a small step, by one linearised evaluation. *left: factor g of the back stress. */
+static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p, lanes bound, lanes slope,
+                                          lanes *left, const enum space space)
+{
+    lanes xi[SYM_MAX], fall;
+    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
+    const lanes C = effective_modulus(law, p, xi, lanes_root(e.even + e.odd), space);
+    e.A += C - law->kinematic.modulus, e.B += C - law->kinematic.modulus;
+    const lanes t = equation_solve(&e, bound, lanes_min(slope, lanes_of(law->steepest)), space);
+    *left = 1.0 / (1.0 + law->kinematic.recall * t * equation_stress(&e, t, &fall, space));
+    return t;
+}
+
+/* Returns t of a step of any size, to round-off. *left: factor g of the back stress. bound: yield stress at its start
+ * [Pa]. */
+static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct law_points *p, lanes bound, lanes *left,
+                                           const enum space space)
+{
+    const real C = law->kinematic.modulus, recall = law->kinematic.recall;
+    lanes xi[SYM_MAX], fall, slope, t = lanes_of(0);
+    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(0), xi, space);
+    const lanes q = lanes_root(e.even + e.odd), stiff = space == SPACE_LINE ? e.A : e.B;
+    lanes more = lanes_min((q - bound) / stiff, flow_reach(law, q, p->rate, p->temperature) - p->a);
+    more = lanes_max(more, lanes_of(0));
+    *left = lanes_of(1);
+    for (int k = 0; k < (recall > 0 ? PASSES_RECALL : PASSES); k++) {
+        const lanes stress = flow_stress(law, p->a + more, p->rate, p->temperature, &slope);
+        const lanes least = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
+        *left = 1.0 / (1.0 + recall * more);
+        e = equation_at(law, p, *left, C * *left, xi, space);
+        t = equation_solve(&e, least - slope * more, slope, space);
+        more = t * equation_stress(&e, t, &fall, space);
+    }
+    return t;
+}
+
+/* Computes the increment of plastic strain from the relative stress at the end of the step, and applies it to stress
+ * and back stress. left: factor g of the back stress. */
+static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p, const lanes *xi, lanes t, lanes left,
+                                     lanes *strain, const enum space space)
+{
+    const real C = 2.0 / 3 * law->kinematic.modulus, twice = 2 * law->shear;
+    if (space == SPACE_LINE) {
+        strain[0] = t * xi[0];
+        p->s[0] -= law->young * strain[0];
+    } else if (space == SPACE_PLANE_STRESS) {
+        const lanes sum = 0.5 * t * xi[0], difference = 1.5 * t * xi[1];
+        strain[0] = 0.5 * (sum + difference), strain[1] = 0.5 * (sum - difference), strain[2] = -sum;
+        strain[3] = 1.5 * t * xi[2];
+        const lanes even = 0.5 * law->young / (1 - law->poisson) * sum, odd = law->shear * difference;
+        p->s[0] -= even + odd, p->s[1] -= even - odd, p->s[3] -= twice * strain[3];
+    } else
+        for (int c = 0; c < components(space); c++) strain[c] = 1.5 * t * xi[c], p->s[c] -= twice * strain[c];
+    const int last = space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
+    for (int c = 0; c < last && law->kinematic.modulus > 0; c++) p->back[c] = left * (p->back[c] + C * strain[c]);
+}
+
+/* Returns the plastic work of a step per reference volume [J/m^3], the trapezoidal rule in stress times volume. */
+static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
+{
+    lanes work = lanes_of(0);
+    const int last = space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
+    for (int c = 0; c < last; c++)
+        work += (c < 3 ? 0.5 : 1.0) * (p->volume_before * p->before[c] + p->volume * p->s[c]) * strain[c];
+    return work;
+}
+
+/* Updates eight points in one space, by one mode of solution. */
+static ALWAYS_INLINE void points_return(const struct law *law, struct law_points *p, const enum space space,
+                                        const enum law_mode mode)
+{
+    lanes xi[SYM_MAX], strain[SYM_MAX], slope, fall, left = lanes_of(1);
+    const struct flow_equation trial = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
+    const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
+    const lanes bound = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
+    const lanes_mask yields = p->active & lanes_less(bound * bound, trial.even + trial.odd);
+    if (!lanes_any(yields)) return;
+    lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, bound, slope, &left, space)
+                                   : solve_load_step(law, p, bound, &left, space);
+    t = lanes_choose(yields, t, lanes_of(0)), left = lanes_choose(yields, left, lanes_of(1));
+    const struct flow_equation e = equation_at(law, p, left, law->kinematic.modulus * left, xi, space);
+    const lanes v = 1.0 / (1.0 + e.B * t), u = 1.0 / (1.0 + e.A * t);
+    for (int c = 0; c < components(space); c++)
+        xi[c] *= c == 0 && (space == SPACE_LINE || space == SPACE_PLANE_STRESS) ? u : v;
+    p->a += t * equation_stress(&e, t, &fall, space);
+    flow_apply(law, p, xi, t, left, strain, space);
+    const lanes work = trapezoid(p, strain, space);
+    p->work += work;
+    p->temperature += law->heating * work;
+}
+
+#define UPDATE(name, space, mode)                                                                                      \
+    static void name(const struct law *law, struct law_points *p) { points_return(law, p, space, mode); }
+UPDATE(update_line, SPACE_LINE, LAW_EXPLICIT)
+UPDATE(update_plane_stress, SPACE_PLANE_STRESS, LAW_EXPLICIT)
+UPDATE(update_plane_strain, SPACE_PLANE_STRAIN, LAW_EXPLICIT)
+UPDATE(update_solid, SPACE_SOLID, LAW_EXPLICIT)
+UPDATE(load_step_line, SPACE_LINE, LAW_LOAD_STEP)
+UPDATE(load_step_plane_stress, SPACE_PLANE_STRESS, LAW_LOAD_STEP)
+UPDATE(load_step_plane_strain, SPACE_PLANE_STRAIN, LAW_LOAD_STEP)
+UPDATE(load_step_solid, SPACE_SOLID, LAW_LOAD_STEP)
+
+void law_update(const struct law *law, struct law_points *p, enum space space, enum law_mode mode)
+{
+    static void (*const of[][2])(const struct law *, struct law_points *) = {
+        [SPACE_LINE] = {update_line, load_step_line},
+        [SPACE_PLANE_STRESS] = {update_plane_stress, load_step_plane_stress},
+        [SPACE_PLANE_STRAIN] = {update_plane_strain, load_step_plane_strain},
+        [SPACE_SOLID] = {update_solid, load_step_solid}};
+    of[space][mode](law, p);
+}

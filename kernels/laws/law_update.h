@@ -1,0 +1,38 @@
+/* Return mapping of von Mises plasticity with a flow law (data/law.h), kinematic hardening and adiabatic heating, for
+ * eight points at once. With the relative stress xi = s - X of the deviator s and the back stress X, q = sqrt(3/2
+ * xi:xi), the flow law sigma_y(a, rate, T) and the accumulated plastic strain a,
+ *     f = q - sigma_y <= 0,   d eps_p = da (3/2) xi/q,   da >= 0,   da f = 0
+ *     dX = (2/3) C d eps_p - gamma X da   (Armstrong & Frederick 1966; gamma = 0: Prager)
+ * by implicit Euler steps (Simo & Hughes 1998, chapter 3). Rate and temperature are those at the start of the step. */
+#ifndef CLEAVE_KERNELS_LAW_UPDATE
+#define CLEAVE_KERNELS_LAW_UPDATE
+
+#include "data/law.h"
+#include "kernels/simd/kernel.h"
+#include "kernels/simd/lanes.h"
+
+/* State of eight points at the end of a step. Tensors have the components xx yy zz xy yz zx in every space. */
+struct law_points {
+    lanes s[SYM_MAX];            /* trial stress, replaced by the stress [Pa]; in plane stress zz is 0 */
+    lanes before[SYM_MAX];       /* stress at the start of the step, rotated by its spin [Pa] */
+    lanes volume_before, volume; /* volume at the start and at the end of the step, over the reference volume [1] */
+    lanes rate;                  /* total deviatoric strain rate sqrt(2/3 D':D') of the step [1/s] */
+    lanes a;                     /* accumulated equivalent plastic strain, updated [1] */
+    lanes back[SYM_MAX];         /* back stress X, deviatoric, rotated by the spin of the step; updated [Pa] */
+    lanes temperature;           /* updated [K] */
+    lanes work;                  /* plastic work per reference volume, updated [J/m^3] */
+    lanes_mask active;           /* lanes whose points have this law; the others are left as they are */
+};
+
+/* How the nonlinear equation for the plastic strain of a step is solved. LAW_EXPLICIT: one evaluation, linearised at
+ * the start of the step, for steps with small strain increments; the yield stress of the next step is exact again, so
+ * that errors do not add up. LAW_LOAD_STEP: to round-off, for increments of any size. */
+enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
+
+/* Maps the trial stresses of the active points back to the yield surface and updates their state. The plastic work of
+ * the step is that of the mean of the stresses at its start and end, each times its volume: with the elastic energy
+ * 1/2 s : C^-1 : s the energy balance of leap-frog steps then closes to round-off. law: must be given. In plane stress
+ * the return is within sigma_zz = 0, in 1D within uniaxial stress. */
+KERNEL(void, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
+
+#endif

@@ -1,0 +1,31 @@
+/* Constants of flow laws that follow from those given by the scene. */
+#include "data/law.h"
+
+#include <math.h>
+
+/* Computes the lines of the segments of a hardening curve: their intercepts at a = 0 and slopes. */
+static void curve_lines(struct flow_curve *c)
+{
+    const int last = c->points - 1;
+    for (int k = 0; k < last; k++) {
+        c->slope[k] = (c->stress[k + 1] - c->stress[k]) / (c->strain[k + 1] - c->strain[k]);
+        c->start[k] = c->stress[k] - c->slope[k] * c->strain[k];
+    }
+    c->slope[last] = 0, c->start[last] = c->stress[last];
+}
+
+void law_compute_constants(struct law *law, real yield_stress, real young, real poisson, real shear, real density)
+{
+    if (!law->given) return;
+    law->young = young, law->poisson = poisson, law->shear = shear;
+    law->yield = law->flow == FLOW_JOHNSON_COOK ? law->johnson_cook.A : yield_stress;
+    if (law->flow == FLOW_TABLE) {
+        curve_lines(&law->table);
+        law->yield = law->table.stress[0];
+    }
+    law->heating = law->specific_heat > 0 ? law->taylor_quinney / (density * law->specific_heat) : 0;
+    /* Powers of the plastic strain have an infinite slope at 0. With at most 3 G, a first step beyond the elastic range
+     * becomes half plastic; it matters below a strain of about 3e-5, where the slope of metals is larger. */
+    const bool steep = law->flow == FLOW_POWER || law->flow == FLOW_JOHNSON_COOK;
+    law->steepest = steep ? 1.5 * young / (1 + poisson) : INFINITY;
+}

@@ -1,0 +1,111 @@
+/* Plain, slow twin of law_update (kernels/laws): one point, functions of the C library, bisection. */
+#ifndef CLEAVE_TESTS_LAW_REFERENCE
+#define CLEAVE_TESTS_LAW_REFERENCE
+
+#include <math.h>
+#include <string.h>
+
+#include "data/law.h"
+#include "data/material.h"
+
+/* Stress, back stress (xx yy zz xy yz zx) [Pa] and accumulated plastic strain of a point. */
+struct reference_point {
+    real s[SYM_MAX], back[SYM_MAX], a;
+};
+
+/* Returns the stress at plastic strain a on a curve through points, constant beyond the last [Pa]. */
+static inline real reference_curve(const struct flow_curve *c, real a)
+{
+    for (int k = 1; k < c->points; k++)
+        if (a <= c->strain[k])
+            return c->stress[k - 1] +
+                   (c->stress[k] - c->stress[k - 1]) * (a - c->strain[k - 1]) / (c->strain[k] - c->strain[k - 1]);
+    return c->stress[c->points - 1];
+}
+
+/* Returns the yield stress of a flow law [Pa]. */
+static inline real reference_stress(const struct law *m, real a, real rate, real T)
+{
+    const real hot = (T - m->johnson_cook.T_room) / (m->johnson_cook.T_melt - m->johnson_cook.T_room);
+    switch (m->flow) {
+    case FLOW_LINEAR:
+        return m->yield + m->hardening * a;
+    case FLOW_VOCE:
+        return m->yield + m->voce.saturation * -expm1(-m->voce.rate * a);
+    case FLOW_POWER:
+        return m->yield + m->power.coefficient * pow(a, m->power.exponent);
+    case FLOW_TABLE:
+        return reference_curve(&m->table, a);
+    default:
+        return (m->johnson_cook.A + m->johnson_cook.B * pow(a, m->johnson_cook.n)) *
+               (1 + m->johnson_cook.C * log(fmax(rate / m->johnson_cook.eps0, 1))) *
+               (1 - pow(fmin(fmax(hot, 0), 1), m->johnson_cook.m));
+    }
+}
+
+/* Computes xi = s - g X of the deviator s. Returns its equivalent stress [Pa]. */
+static inline real reference_relative(const struct reference_point *p, real g, real *xi)
+{
+    const real mean = (p->s[0] + p->s[1] + p->s[2]) / 3;
+    real sum = 0;
+    for (int c = 0; c < SYM_MAX; c++) {
+        xi[c] = p->s[c] - (c < 3 ? mean : 0) - g * p->back[c];
+        sum += (c < 3 ? 1.5 : 3) * xi[c] * xi[c];
+    }
+    return sqrt(sum);
+}
+
+/* Returns how far the equivalent stress after an increment `more` of plastic strain is above the yield stress [Pa].
+ * stiffness: 3 G. */
+static inline real reference_excess(const struct law *m, const struct reference_point *p, real more, real rate, real T,
+                                    real stiffness)
+{
+    real xi[SYM_MAX];
+    const real g = 1 / (1 + m->kinematic.recall * more);
+    return reference_relative(p, g, xi) - (stiffness + m->kinematic.modulus * g) * more -
+           reference_stress(m, p->a + more, rate, T);
+}
+
+/* Maps a trial state in space solid back to the yield surface. */
+static inline void reference_return(const struct law *m, struct reference_point *p, real rate, real T)
+{
+    const real stiffness = 3 * m->shear;
+    real xi[SYM_MAX], low = 0, high = reference_relative(p, 1, xi) / stiffness * 2;
+    if (!(reference_excess(m, p, 0, rate, T, stiffness) > 0)) return;
+    for (int k = 0; k < 200; k++) {
+        const real middle = 0.5 * (low + high);
+        if (reference_excess(m, p, middle, rate, T, stiffness) > 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    const real g = 1 / (1 + m->kinematic.recall * low), q = reference_relative(p, g, xi);
+    for (int c = 0; c < SYM_MAX; c++) {
+        const real strain = low * 1.5 * xi[c] / q;
+        p->s[c] -= 2 * m->shear * strain;
+        p->back[c] = g * (p->back[c] + 2.0 / 3 * m->kinematic.modulus * strain);
+    }
+    p->a += low;
+}
+
+/* Maps a trial state of plane stress, with zz = 0, back within plane stress: by bisection of the strain zz beyond the
+ * elastic one at which the return in 3D leaves no stress zz. */
+static inline void reference_return_plane_stress(const struct law *m, struct reference_point *p, real rate, real T)
+{
+    const real c12 = m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), c11 = c12 + 2 * m->shear;
+    const real most = 10 * (fabs(p->s[0]) + fabs(p->s[1]) + fabs(p->s[3])) / m->young;
+    real low = -most, high = most;
+    const struct reference_point trial = *p;
+    for (int k = 0; k < 200; k++) {
+        const real middle = 0.5 * (low + high);
+        *p = trial;
+        p->s[0] += c12 * middle, p->s[1] += c12 * middle, p->s[2] += c11 * middle;
+        reference_return(m, p, rate, T);
+        if (p->s[2] > 0)
+            high = middle;
+        else
+            low = middle;
+    }
+}
+
+#endif
