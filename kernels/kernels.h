@@ -31,6 +31,7 @@ struct elastic {
     real yield, hardening; /* yield stress sigma_y, 0: elastic; hardening modulus H (mpm/plastic.h) [Pa] */
     real poisson;          /* Poisson's ratio in plane strain, where the material yields [1] */
     enum space space;
+    const struct law *law; /* flow law of the material, which then replaces yield and hardening; NULL: none */
 };
 
 /* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
@@ -78,6 +79,7 @@ struct transfer_data {
     real half_width;               /* l_p of uGIMP: half the particle's reference edge [m] */
     real dt;                       /* [s] */
     real dt_velocity;              /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
+    bool laws;                     /* at least one material has a flow law (elastic.law) */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */
     bool second_map;       /* FLIP: all points move with the nodal velocities that remap has computed (second map) */

@@ -6,6 +6,7 @@
 #include <math.h>
 
 #include "base/base.h"
+#include "law.h"
 #include "scatter.h"
 
 enum space { SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID };
@@ -26,6 +27,7 @@ struct material {
         real linear, quadratic;
     } viscosity;                     /* coefficients of bulk viscosity in rapid compression (step/viscosity.h) [1] */
     struct strength_scatter scatter; /* random field of its critical stretch */
+    struct law law;                  /* hardening beyond linear, kinematic hardening, Johnson-Cook */
     /* values derived by material_compute_constants */
     real yield_hardening;             /* H = E E_t/(E - E_t): increase of yield stress per plastic strain [Pa] */
     real c11, c12, shear;             /* elastic constants of the space [Pa]; c12 = 0 in 1D */
@@ -37,7 +39,7 @@ struct material {
 /* Returns true if the material yields. */
 static inline bool material_yields(const struct material *m)
 {
-    return m->yield_stress > 0 && isfinite(m->yield_stress);
+    return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;
 }
 
 /* Returns true if the material has bulk viscosity. */

@@ -63,6 +63,9 @@ struct particles {
     /* points of a mesh: plastic stress correction, C : strain less the stress, in the axes of their cell; only with
      * WITH_PLASTIC_CORRECTION [Pa] */
     real *plastic_correction[SYM_MAX];
+    real *plastic_work;         /* per reference volume, of points with a law (law.h); only with WITH_LAW [J/m^3] */
+    real *back_stress[SYM_MAX]; /* deviatoric, of kinematic hardening; only with WITH_BACK_STRESS [Pa] */
+    real *temperature;          /* only with WITH_TEMPERATURE [K] */
     /* bonded material points (with state-based bonds): contribution of their cell to the mean strain S of their family
      * [1] */
     real *end_strain;
@@ -145,7 +148,10 @@ enum {
     WITH_ROTATIONS = 64,
     WITH_STRENGTH = 128,
     WITH_PLASTIC_CORRECTION = 256,
-    WITH_EVERYTHING = 511
+    WITH_LAW = 512,
+    WITH_BACK_STRESS = 1024,
+    WITH_TEMPERATURE = 2048,
+    WITH_EVERYTHING = 4095
 };
 
 /* Description of one array of struct particles, or of one array per component. Loops over a table of these descriptions

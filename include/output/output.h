@@ -119,7 +119,7 @@ status output_frames_check(struct output *o, int *lost, char *text, size_t room)
  * scene requests them; plots and comparisons read the other fields. */
 #define FRAME_FIELD_WORDS                                                                                              \
     "displacement|velocity|stress|damage|plastic_strain|contact_force|fragment|spacing|kind|material|body|id|"         \
-    "von_mises|pressure|principal_stress|principal_directions|speed|strain|density|plastic_work|level"
+    "von_mises|pressure|principal_stress|principal_directions|speed|strain|density|plastic_work|level|temperature"
 enum { ASK_STRAIN = 1 << 17, ASK_DENSITY = 1 << 18, ASK_PLASTIC_WORK = 1 << 19, ASK_LEVEL = 1 << 20 };
 
 /* Quantities that particles do not store and that the caller computes for requested fields, each [n]. */

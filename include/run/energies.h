@@ -26,8 +26,8 @@ real points_strain_energy_of_list(const struct particles *p, const struct materi
                                   const struct partial_stress *partial, const int32_t *list, int64_t n);
 
 /* Returns the plastic work of the material points [J]: sum V (sigma_y a + H a^2/2) with the yield stress sigma_y, the
- * hardening modulus H and the accumulated plastic strain a. m: array of the materials; partial: partial stresses of the
- * points, NULL for none. */
+ * hardening modulus H and the accumulated plastic strain a, and the booked plastic work of materials with a flow law.
+ * m: array of the materials; partial: partial stresses of the points, NULL for none. */
 real points_plastic_work(const struct particles *p, const struct material *m, const struct partial_stress *partial);
 
 /* Returns the difference between two kinetic energies of a leap-frog velocity update [J]: the mean of 1/2 m v^2 at the

@@ -35,4 +35,9 @@ status fill_check_lists(const struct particles *p, const struct scene *s);
  * else 1. Does nothing if p->strength is NULL. */
 void fill_strength(struct particles *p, const struct scene *s);
 
+/* Sets the temperature of each particle [K] (fill_strength.c): the room temperature of its material, ROOM_TEMPERATURE
+ * if that has none. Does nothing if p->temperature is NULL. */
+void fill_temperature(struct particles *p, const struct scene *s);
+#define ROOM_TEMPERATURE 293.15
+
 #endif

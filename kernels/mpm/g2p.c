@@ -12,6 +12,7 @@
  * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
 #include "kernels/kernels.h"
 #include "plastic.h"
+#include "points_flow.h"
 #include "scatter.h"
 #include "shape.h"
 #include "stress.h"
@@ -234,6 +235,11 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     if (yields && dim == 3) points_yield(p, t->elastic, s.point);
     for (int k = 0; k < n && yields && dim < 3; k++)
         if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
+    if (__builtin_expect(t->laws, 0) && !t->momentum_only) {
+        row_of_points kept[DIM_MAX * DIM_MAX]; /* L itself stays in registers */
+        for (int k = 0; k < dim * dim; k++) kept[k] = L[k];
+        points_flow(p, t, s.point, n, kept, dim);
+    }
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 

@@ -82,7 +82,7 @@ static real rayleigh_speed(real longitudinal, real shear)
 real material_stress_at(const struct material *m, real strain)
 {
     const real elastic = m->young * strain;
-    if (!material_yields(m) || elastic <= m->yield_stress) return elastic;
+    if (!material_yields(m) || m->law.given || elastic <= m->yield_stress) return elastic;
     return m->yield_stress + m->yield_tangent * (strain - m->yield_stress / m->young);
 }
 
@@ -94,10 +94,12 @@ void material_compute_constants(struct material *m, enum space space)
         m->c11 = m->bulk = E;
         m->c12 = m->shear = m->shear_speed = m->rayleigh_speed = 0;
         m->wave_speed = sqrt(E / m->density);
+        law_compute_constants(&m->law, m->yield_stress, E, nu, 0, m->density);
         return;
     }
     bool thin = space == SPACE_PLANE_STRESS;
     m->shear = E / (2 * (1 + nu));
+    law_compute_constants(&m->law, m->yield_stress, E, nu, m->shear, m->density);
     m->c12 = thin ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
     m->c11 = m->c12 + 2 * m->shear;
     m->bulk = m->c12 + 2 * m->shear / space_dim(space);

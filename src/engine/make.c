@@ -100,9 +100,10 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .shear = given->shear,
                                               .space = s->space,
                                               .poisson = given->poisson,
+                                              .law = given->law.given ? &given->law : NULL,
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given)};
-        if (!material_yields(given)) continue;
+        if (!material_yields(given) || given->law.given) continue;
         tables->elastic[m].yield = given->yield_stress;
         tables->elastic[m].hardening = given->yield_hardening;
     }
@@ -304,6 +305,13 @@ static status named(const struct scene *s, status made)
     return status_prepend_location(place, made);
 }
 
+/* Returns the optional arrays of particles that the law of a material needs (bits WITH_...). */
+static int law_arrays(const struct law *law)
+{
+    if (!law->given) return 0;
+    return WITH_LAW | (law->kinematic.modulus > 0 ? WITH_BACK_STRESS : 0) | (law_heats(law) ? WITH_TEMPERATURE : 0);
+}
+
 /* Returns the optional arrays of particles that the scene needs (bits WITH_...). */
 static int optional_arrays(const struct scene *s)
 {
@@ -311,6 +319,7 @@ static int optional_arrays(const struct scene *s)
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
         if (material_yields(&s->material[m]))
             optional |= WITH_PLASTIC | (scene_in_steps(s) ? WITH_PLASTIC_CORRECTION : 0);
+    for (int m = 0; m < s->materials; m++) optional |= law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;
     if (s->method != METHOD_MPM && scene_scatters(s)) optional |= WITH_STRENGTH;
@@ -442,6 +451,7 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
                                                0.5 * s->spacing,
                                                e->clock.dt,
                                                e->clock.dt,
+                                               e->part.plastic_work != NULL,
                                                false,
                                                NULL,
                                                false,

@@ -77,8 +77,9 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         snprintf(subject, sizeof subject, "material %s", a->name);
         units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
         units_judge(s, RULE_DENSITY, subject, a->density, "", to);
-        snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", a->yield_stress, a->young);
-        if (material_yields(a)) units_judge(s, RULE_YIELD, subject, a->yield_stress / a->young, note, to);
+        const real yield = a->law.given ? a->law.yield : a->yield_stress;
+        snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
+        if (material_yields(a)) units_judge(s, RULE_YIELD, subject, yield / a->young, note, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
         if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[RULE_STRETCH].least))
             units_judge(s, RULE_STRETCH, subject, stretch, note, to);

@@ -180,6 +180,11 @@ static void copy_plastic_strain(const struct frame_source *s, const int32_t *row
                  s->extra.state.plastic_strain ? s->extra.state.plastic_strain : s->p->plastic_strain);
 }
 
+static void copy_temperature(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
+{
+    copy_scalars(rows, row, first, end, s->p->temperature);
+}
+
 static void copy_kind(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     copy_bytes(rows, row, first, end, s->p->kind);
@@ -255,6 +260,7 @@ const struct frame_field frame_fields[FRAME_FIELDS] = {
     {POINT_DATA "density", "kg/m^3", HDF_F32, 1, ROW_WHOLE, false, copy_density},
     {POINT_DATA "plastic_work", "J/m^3", HDF_F32, 1, ROW_WHOLE, false, copy_plastic_work},
     {POINT_DATA "level", "", HDF_U8, 1, ROW_WHOLE, false, copy_level},
+    {POINT_DATA "temperature", "K", HDF_F32, 1, ROW_WHOLE, false, copy_temperature},
     {POINT_DATA "strength", "", HDF_F32, 1, ROW_WHOLE, true, copy_strength},
     {"/Cleave/reference", "m", HDF_F64, 0, ROW_VECTOR, true, copy_reference},
 };
@@ -269,6 +275,7 @@ static bool field_exists(const struct frame_field *field, const struct frame_sou
     const int64_t k = field - frame_fields;
     if (k >= FIELD_ON_DEMAND && k <= FIELD_ON_DEMAND_LAST) return s->extra.asked >> (k - 1) & 1;
     if (field->copy == copy_plastic_strain) return s->p->plastic_strain || s->extra.state.plastic_strain;
+    if (field->copy == copy_temperature) return s->p->temperature != NULL;
     if (field->copy == copy_strength) return s->p->strength != NULL;
     if (field->copy == copy_push) return s->extra.push != NULL;
     if (field->copy == copy_fragment) return s->extra.fragment != NULL;

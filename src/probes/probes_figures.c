@@ -19,7 +19,13 @@ static const char *const symmetric_name[DIM_MAX + 1][SYM_MAX] = {
 /* Returns the number of stress readings; in plane strain zz is last. */
 static int stresses_count(const struct particles *p) { return symmetric_count(p->dim) + (p->plane_strain != NULL); }
 
-int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1; }
+/* Returns the number of readings of flow laws: plastic strain, and the temperature of materials that heat. */
+static int law_readings_count(const struct particles *p)
+{
+    return (p->plastic_work != NULL) + (p->temperature != NULL);
+}
+
+int readings_count(const struct particles *p) { return 2 * p->dim + stresses_count(p) + 1 + law_readings_count(p); }
 
 struct column reading_column(const struct particles *p, int k)
 {
@@ -35,6 +41,11 @@ struct column reading_column(const struct particles *p, int k)
     } else if (stress < stresses_count(p)) {
         snprintf(c.name, sizeof c.name, "stress_%s", symmetric_name[dim][stress]);
         snprintf(c.unit, sizeof c.unit, "Pa");
+    } else if (stress == stresses_count(p) + 1) {
+        snprintf(c.name, sizeof c.name, "plastic_strain");
+    } else if (stress == stresses_count(p) + 2) {
+        snprintf(c.name, sizeof c.name, "temperature");
+        snprintf(c.unit, sizeof c.unit, "K");
     }
     return c;
 }
@@ -45,7 +56,9 @@ void particle_readings(const struct particles *p, int64_t i, real *value)
     for (int d = 0; d < p->dim; d++) *value++ = p->v[d][i];
     for (int a = 0; a < symmetric_count(p->dim); a++) *value++ = p->stress[a][i];
     if (p->plane_strain) *value++ = particle_stress_across(p, i);
-    *value = p->damage[i];
+    *value++ = p->damage[i];
+    if (p->plastic_work) *value++ = p->plastic_strain[i];
+    if (p->temperature) *value++ = p->temperature[i];
 }
 
 const struct column growth_figure[GROWTH_FIGURES] = {

@@ -466,6 +466,7 @@ static status fill_made(struct particles *p, const struct draft *d, int optional
     for (int k = 0; k < s->initials; k++) TRY(check_initial(s, &s->initial[k]));
     take_draft(p, d, optional);
     fill_strength(p, s);
+    fill_temperature(p, s);
     take_skipped(p, d);
     TRY(check_values(p, d, spacing));
     TRY(fill_check_lists(p, s));

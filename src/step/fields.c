@@ -110,8 +110,8 @@ static void gradients_make(const struct run *e, real **H)
 /* ---- plastic work and levels ------------------------------------------------------------------------------------- */
 
 /* Returns the plastic work per volume [n, J/m^3], NULL if nothing yields: sigma_y a + H a^2/2 of material points,
- * with the equivalent plastic strain a and the hardening modulus H; the work of its bonds over the volume of a
- * peridynamic particle. The caller frees it. */
+ * with the equivalent plastic strain a and the hardening modulus H, or the booked work of a flow law; the work of its
+ * bonds over the volume of a peridynamic particle. The caller frees it. */
 static real *plastic_work_make(const struct particles *p, const struct bonds *b, const struct material *material)
 {
     if (!p->plastic_strain && !b->plastic_path) return NULL;
@@ -123,6 +123,8 @@ static real *plastic_work_make(const struct particles *p, const struct bonds *b,
         const bool bonds = p->kind[i] == KIND_PD && b->plastic_path && b->row_of[i] >= 0;
         if (bonds)
             work[i] = bond_row_plastic_work(b, b->row_of[i]) / p->volume0[i];
+        else if (m->law.given)
+            work[i] = p->plastic_work[i];
         else if (a > 0)
             work[i] = (m->yield_stress + 0.5 * m->yield_hardening * a) * a;
     }
