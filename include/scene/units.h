@@ -22,6 +22,8 @@ enum unit {
     UNIT_ACCELERATION,
     UNIT_ENERGY,
     UNIT_ANGLE,
+    UNIT_TEMPERATURE,
+    UNIT_SPECIFIC_HEAT,
     UNITS
 };
 

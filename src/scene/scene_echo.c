@@ -248,6 +248,40 @@ void write_mapping(struct writer *w, const char *key, const char *group, const v
     w->indent -= 2;
 }
 
+/* Writes the points of a hardening curve as a list of pairs. */
+static void write_curve(struct writer *w, const struct flow_curve *c)
+{
+    write_key(w, flow_words[FLOW_TABLE]);
+    for (int k = 0; k < c->points; k++) {
+        fputs(k ? ", " : " [", w->out);
+        write_list(w, (const real[]){c->strain[k], c->stress[k]}, 2);
+    }
+    fputs("]  # 1, Pa\n", w->out);
+}
+
+/* Writes the law by which a material yields, if it has one. Linear hardening is that of yield_tangent, if given. */
+static void write_material_law(struct writer *w, const struct material *m)
+{
+    const struct law *law = &m->law;
+    const char *word = flow_words[law->flow];
+    char group[64];
+    if (!law->given) return;
+    snprintf(group, sizeof group, "material.hardening.%s", word ? word : "");
+    if (!word)
+        write_mapping(w, "johnson_cook", "material.johnson_cook", law);
+    else if (law->flow != FLOW_LINEAR || !(m->yield_tangent > 0)) {
+        write_key(w, "hardening");
+        fputc('\n', w->out);
+        w->indent += 2;
+        if (law->flow == FLOW_TABLE)
+            write_curve(w, &law->table);
+        else
+            write_mapping(w, word, group, law);
+        w->indent -= 2;
+    }
+    if (law->kinematic.modulus > 0) write_mapping(w, "kinematic", "material.kinematic", law);
+}
+
 /* Writes `material` for a single material, else the list `materials`. */
 static void write_materials(struct writer *w)
 {
@@ -260,6 +294,7 @@ static void write_materials(struct writer *w)
         write_item(w);
         if (one) w->indent = 2, w->dash = false;
         write_group(w, "material", &m);
+        write_material_law(w, &m);
         if (material_viscous(&m)) write_mapping(w, "viscosity", "material.viscosity", &m);
         if (m.scatter.given) write_mapping(w, "scatter", "material.scatter", &m.scatter);
     }

@@ -57,27 +57,26 @@ static const struct foreign {
     {"yield|yielding|yield_strength|yield_point|sigma_y|sigy|plastic|plasticity|von_mises|mises|ductile|j2",
      "material.yield_stress material.yield_tangent material.yield_hardening",
      "with `yield_tangent` or `yield_hardening`"},
-    {"hardening|hardening_modulus|isotropic_hardening|H|plastic_modulus|strain_hardening",
+    {"hardening_modulus|isotropic_hardening|H|plastic_modulus|strain_hardening",
      "material.yield_hardening material.yield_tangent", NULL},
     {"tangent_modulus|E_t|Et|etan", "material.yield_tangent", NULL},
-    {"johnson_cook|jc|strain_rate|rate|rate_dependence|strain_rate_hardening|viscoplastic|viscoplasticity|cowper_"
-     "symonds",
-     "material.yield_stress material.yield_hardening",
-     "=Cleave does not do yielding that depends on rate or temperature; von Mises with linear hardening comes nearest: "
-     "yield_stress, yield_hardening"},
+    {"jc|strain_rate|rate|rate_dependence|strain_rate_hardening|viscoplastic|viscoplasticity|cowper_symonds",
+     "material.johnson_cook",
+     "=the yield stress depends on rate and temperature by `johnson_cook`, in material points (`method: mpm`)"},
     {"friction_angle|cohesion|dilation_angle|dilatancy|drucker_prager|mohr_coulomb|cap|pressure_dependence|concrete|"
      "soil|"
      "sand",
      "material.yield_stress contact.friction",
      "=Cleave does not do yielding that depends on pressure (Mohr-Coulomb, Drucker-Prager); nearest: yield_stress (von "
      "Mises), and contact.friction between faces"},
-    {"kinematic_hardening|backstress|chaboche|hardening_curve|plastic_strain|stress_strain_curve|swift|voce|ludwik",
-     "material.yield_hardening",
-     "=Cleave does not do hardening that is kinematic or a curve; linear isotropic hardening comes nearest: "
-     "yield_hardening"},
+    {"kinematic_hardening|backstress|back_stress|chaboche|prager|armstrong_frederick|bauschinger", "material.kinematic",
+     "=`kinematic` has one back stress, with modulus and recall"},
+    {"hardening_curve|hardening_law|plastic_strain|stress_strain_curve|swift|voce|ludwik", "material.hardening", NULL},
+    {"heat_capacity|c_p|cp|thermal_capacity", "material.specific_heat",
+     "=plastic work heats a material with `johnson_cook` and `specific_heat`; heat does not flow"},
     /* other physics */
-    {"temperature|thermal|heat|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|specific_heat|"
-     "heat_capacity|initial_temperature|diffusion|cooling",
+    {"temperature|thermal|heat|expansion|thermal_expansion|cte|alpha_t|conductivity|thermal_conductivity|"
+     "initial_temperature|diffusion|cooling",
      "initial.displacement_gradient",
      "=Cleave does not do heat; a uniform strain at the start comes nearest: initial.displacement_gradient"},
     {"orthotropic|orthotropy|anisotropic|anisotropy|transversely_isotropic|fibre|fiber|fibres|fibers|fibre_angle|"

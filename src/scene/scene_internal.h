@@ -3,6 +3,8 @@
 #ifndef CLEAVE_SCENE_INTERNAL
 #define CLEAVE_SCENE_INTERNAL
 
+#include <string.h>
+
 #include "base/edit_distance.h"
 #include "data/expression.h"
 #include "scene/scene.h"
@@ -150,6 +152,14 @@ size_t quantity_read(struct quantity *q, const char *text, bool with_unit, const
 /* Sets q to 1 of the unit whose symbol is at the beginning of a text. Returns the length of the symbol; 0 if there is
  * none. */
 size_t quantity_read_unit(struct quantity *q, const char *text);
+
+/* Returns true if the text is a unit with kelvin of this kind. Kelvin is no symbol of its own, since variables may be
+ * called K. */
+static inline bool is_kelvin(const char *text, enum unit unit)
+{
+    if (unit == UNIT_TEMPERATURE) return strcmp(text, "K") == 0;
+    return unit == UNIT_SPECIFIC_HEAT && (strcmp(text, "J/(kg K)") == 0 || strcmp(text, "J/kg/K") == 0);
+}
 
 /* Returns true if q has the unit `unit` or no unit. Otherwise returns false and writes the fault to what[room], as the
  * rest of a sentence that begins with the text of the value. */
@@ -375,6 +385,15 @@ bool is_motion(const struct node *n);
 status read_motions(struct reader *r, const struct node *n, struct solid *s);
 
 status read_materials(struct reader *r, const struct node *root);
+
+/* Words of enum flow in `hardening`; NULL for laws that have a key of their own (scene_laws.c). */
+extern const char *const flow_words[FLOW_LAWS];
+
+/* Reads the flow law, kinematic hardening and heating of a material; n: its node. Call it after the keys of linear
+ * hardening are read (scene_laws.c). REFUSED for invalid constants, contradictions, and where the method or solver has
+ * no laws. */
+status read_law(struct reader *r, const struct node *n, struct material *m);
+
 status read_bodies(struct reader *r, const struct node *root);
 
 /* Reads the parts of a body from the list of key k; list NULL: not given (scene_body_parts.c). */

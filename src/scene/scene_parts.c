@@ -116,17 +116,19 @@ static status scene_parts_read_material(struct reader *r, const struct node *n, 
 {
     const struct scene *s = r->scene;
     bool line = s->space == SPACE_LINE;
-    m->energy_release_rate = NAN;
+    m->energy_release_rate = m->law.specific_heat = m->law.taylor_quinney = NAN;
     m->poisson = line ? 0 : material_bond_poisson(s->space);
     strcpy(m->name, "material");
     TRY(read_group(r, n, n, "material", m));
     TRY(check_poisson(r, n, m));
     TRY(read_strength(r, n, m));
     TRY(read_hardening(r, n, m));
+    TRY(read_law(r, n, m));
     TRY(read_scatter(r, node_find(n, "scatter"), m));
     TRY(read_viscosity(r, node_find(n, "viscosity"), m));
+    const struct node *yield = node_find(n, "yield_stress");
     if (s->model != MODEL_BOND && material_yields(m))
-        return fault(r, node_find(n, "yield_stress"),
+        return fault(r, yield ? yield : n,
                      "model %s does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` without "
                      "the key model",
                      s->model == MODEL_OSPD ? "ospd" : "mospd");

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <strings.h>
 
 enum { NUMBER_LONGEST = 60, UNIT_LONGEST = 40 };
@@ -29,6 +28,8 @@ const struct unit_row unit_rows[UNITS] = {
     [UNIT_ACCELERATION] = {"an acceleration", "m/s^2", "-9.81 m/s^2", {2, 0, -4}},
     [UNIT_ENERGY] = {"an energy", "J", "2 mJ", {4, 2, -4}},
     [UNIT_ANGLE] = {"an angle", "rad", "30 deg", {0, 0, 0}},
+    [UNIT_TEMPERATURE] = {"a temperature in kelvin", "K", "294 K", {0, 0, 0}},
+    [UNIT_SPECIFIC_HEAT] = {"a specific heat", "J/(kg K)", "383 J/(kg K)", {4, 0, -4}},
 };
 
 /* ---- units ------------------------------------------------------------------------------------------------------- */
@@ -406,7 +407,7 @@ bool number_read(real *value, const char *text, enum unit unit, bool infinite, c
     const int clock = clock_seconds(rest, unit);
     const real radians = unit == UNIT_ANGLE ? angle_radians(rest) : 1;
     if (radians == 0) return complain(c, *rest ? "has another unit" : "has no unit", unit);
-    if (unit == UNIT_ANGLE) rest = "";
+    if (unit == UNIT_ANGLE || is_kelvin(rest, unit)) rest = "";
     if (!clock && !unit_fits(c, rest, unit, &ten)) return false;
     if (divisor == 0) return complain(c, "divides by 0", unit);
     *value = number_scaled(text, length, ten, clock, divisor) * radians;

@@ -93,7 +93,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, friction_angle: 30}|6:43|does not do yielding that depends on pressure
 6|material: {young: 190 GPa, density: 7800, thermal-expansion: 1}|6:43|does not do heat
 6|material: {young: 190 GPa, density: 7800, conductivity: 1}|6:43|does not do heat
-6|material: {young: 190 GPa, density: 7800, Johnson_Cook: {}}|6:43|linear hardening comes nearest: yield_stress
+6|material: {young: 190 GPa, density: 7800, strain_rate: 1}|6:43|by `johnson_cook`
 6|material: {young: 190 GPa, density: 7800, orthotropic: {}}|6:43|does not do anisotropic materials
 6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
 6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
@@ -142,6 +142,29 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; `model: ospd` has any
 6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given beside critical_stretch
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|no slope below young
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|linear, voce, power or table is expected
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_hardening: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:88|keep one of the two
+6|material: {young: 190 GPa, density: 7800, hardening: {linear: {modulus: 1 GPa}}}|6:43|yield_stress is expected beside it
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {power: {coefficient: 1 GPa, exponent: 1.2}}}|6:104|out of range
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|2 to 16 are expected
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is no point of a curve
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|the first point is the yield stress
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains ascend
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|steeper from here on
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; `method: mpm` is expected
+6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|yield_stress is expected beside it
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, kinematic: {recall: 3}}|6:64|modulus: missing
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356}}|6:64|keep one of the two
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 1.3, C: 0.025, T_melt: 1356}}|6:81|out of range
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 200 K}}|6:99|is not above T_room
+6|material: {young: 190 GPa, density: 7800, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.3, C: 0.025, T_melt: 1356 m}}|6:99|a temperature in kelvin is expected
+6|material: {young: 190 GPa, density: 7800, specific_heat: 383}|6:43|no meaning without johnson_cook
+6|material: {young: 190 GPa, density: 7800, specific_heat: 383 J}|6:43|a specific heat is expected
+6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no meaning without specific_heat
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
 8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to

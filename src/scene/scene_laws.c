@@ -1,0 +1,153 @@
+/* Reads laws by which metals yield: hardening curves, kinematic hardening, Johnson-Cook, heating (data/law.h). */
+#include "scene_internal.h"
+
+#include <math.h>
+
+/* Relative excess up to which a slope of a hardening curve counts as no steeper than the one before: roundings of
+ * decimal numbers. */
+#define SLOPE_ROUNDING 1e-9
+
+const char *const flow_words[FLOW_LAWS] = {
+    [FLOW_LINEAR] = "linear", [FLOW_VOCE] = "voce", [FLOW_POWER] = "power", [FLOW_TABLE] = "table"};
+
+/* Returns REFUSED unless the curve is that of a stable material that the return mapping can solve without search: from
+ * strain 0 on, strains ascend, stresses do not fall, slopes do not grow. n: list of the points. */
+static status check_curve(struct reader *r, const struct node *n, const struct flow_curve *c)
+{
+    const struct node *point = n->first;
+    real before = INFINITY;
+    for (int k = 0; k < c->points; k++, point = point->next) {
+        if (k == 0 && c->strain[0] != 0)
+            return fault(r, point, "begins at a plastic strain of %g; the first point is the yield stress, at 0",
+                         c->strain[0]);
+        if (k == 0) continue;
+        if (!(c->strain[k] > c->strain[k - 1]))
+            return fault(r, point, "plastic strain %g does not lie after %g; strains ascend", c->strain[k],
+                         c->strain[k - 1]);
+        const real slope = (c->stress[k] - c->stress[k - 1]) / (c->strain[k] - c->strain[k - 1]);
+        if (slope < 0)
+            return fault(r, point, "the stress falls to %g Pa; a yield stress that does not fall is expected",
+                         c->stress[k]);
+        if (slope > before * (1 + SLOPE_ROUNDING))
+            return fault(r, point,
+                         "the curve is steeper from here on (%g Pa after %g Pa per strain); a curve whose slope does "
+                         "not grow is expected",
+                         slope, before);
+        before = slope;
+    }
+    return OK;
+}
+
+/* Reads a hardening curve, a list of pairs of plastic strain and stress. */
+static status read_curve(struct reader *r, const struct node *n, struct flow_curve *c)
+{
+    const struct key strain = {
+        .path = "material.hardening.table", .type = KEY_REAL, .unit = UNIT_NONE, .range = {0, 1000, false, true}};
+    const struct key stress = {.path = "material.hardening.table",
+                               .type = KEY_REAL,
+                               .unit = UNIT_PRESSURE,
+                               .range = {0, INFINITY, true, true}};
+    TRY(expect_kind(r, n, NODE_LIST, "a list of points [plastic strain, stress]"));
+    if (n->n < 2 || n->n > FLOW_POINTS) return fault(r, n, "has %d points; 2 to %d are expected", n->n, FLOW_POINTS);
+    for (const struct node *point = n->first; point; point = point->next, c->points++) {
+        if (point->kind != NODE_LIST || point->n != 2)
+            return fault(r, point, "%s is no point of a curve; [plastic strain, stress] is expected",
+                         node_shown(r, point));
+        TRY(read_number(r, &strain, point->first, &c->strain[c->points]));
+        TRY(read_number(r, &stress, point->first->next, &c->stress[c->points]));
+    }
+    return check_curve(r, n, c);
+}
+
+/* Reads the flow law in `hardening`. REFUSED for none or several, and beside keys of linear hardening. material: its
+ * parent node. */
+static status read_hardening_law(struct reader *r, const struct node *material, const struct node *n, struct law *law)
+{
+    char group[64];
+    const struct node *given = NULL, *modulus = node_find(material, "yield_hardening");
+    TRY(read_group(r, n, n, "material.hardening", law));
+    for (int flow = 0; flow < FLOW_LAWS; flow++) {
+        const struct node *one = flow_words[flow] ? node_find(n, flow_words[flow]) : NULL;
+        if (one && given) return fault_both(r, given, one);
+        if (one) given = one, law->flow = flow;
+    }
+    if (!given) return fault(r, n, "has no law; linear, voce, power or table is expected");
+    if (modulus) return fault_both(r, modulus, n);
+    law->given = true;
+    if (law->flow == FLOW_TABLE) return read_curve(r, given, &law->table);
+    snprintf(group, sizeof group, "material.hardening.%s", flow_words[law->flow]);
+    return read_group(r, given, given, group, law);
+}
+
+/* Reads Johnson and Cook's law. */
+static status read_johnson_cook(struct reader *r, const struct node *material, const struct node *n, struct law *law)
+{
+    const struct node *hardening = node_find(material, "hardening"), *modulus = node_find(material, "yield_hardening");
+    if (hardening || modulus) return fault_both(r, hardening ? hardening : modulus, n);
+    TRY(read_group(r, n, n, "material.johnson_cook", law));
+    law->given = true, law->flow = FLOW_JOHNSON_COOK;
+    if (law->johnson_cook.T_melt > law->johnson_cook.T_room) return OK;
+    return fault(r, node_find(n, "T_melt"), "%g K is not above T_room, %g K; the melting temperature is expected",
+                 law->johnson_cook.T_melt, law->johnson_cook.T_room);
+}
+
+/* Reads what heats the material. REFUSED without a law that depends on temperature. */
+static status read_heat(struct reader *r, const struct node *material, struct law *law)
+{
+    const struct node *heat = node_find(material, "specific_heat"), *share = node_find(material, "taylor_quinney");
+    if (!heat && share) return fault(r, share, "has no meaning without specific_heat");
+    if (!heat) return OK;
+    if (!law->given || law->flow != FLOW_JOHNSON_COOK)
+        return fault(r, heat, "has no meaning without johnson_cook, whose yield stress depends on temperature");
+    if (!share) law->taylor_quinney = 0.9;
+    return OK;
+}
+
+/* Returns REFUSED for a yield stress or tangent that the law replaces, or lacks. */
+static status check_first_yield(struct reader *r, const struct node *material, const struct node *law_node,
+                                const struct material *m)
+{
+    const struct node *yield = node_find(material, "yield_stress"), *tangent = node_find(material, "yield_tangent");
+    const bool own = m->law.flow == FLOW_TABLE || m->law.flow == FLOW_JOHNSON_COOK;
+    const bool linear = m->law.flow == FLOW_LINEAR && !node_find(material, "hardening");
+    if (own && isfinite(m->yield_stress)) return fault_both(r, yield, law_node);
+    if (!own && !isfinite(m->yield_stress))
+        return fault(r, law_node, "needs the yield stress at no plastic strain; yield_stress is expected beside it");
+    if (!linear && m->yield_tangent > 0) return fault_both(r, tangent, law_node);
+    return OK;
+}
+
+/* Returns REFUSED where the method or solver of the scene has no laws. */
+static status check_law_place(struct reader *r, const struct node *law_node)
+{
+    const struct scene *s = r->scene;
+    if (s->method != METHOD_MPM)
+        return fault(r, law_node,
+                     "is for material points; `method: mpm` is expected, or linear hardening by yield_hardening, which "
+                     "bonds have");
+    if (!scene_moves(s))
+        return fault(r, law_node,
+                     "is for steps in time; `solver: explicit` is expected, or linear hardening by yield_hardening, "
+                     "which load steps have");
+    return OK;
+}
+
+status read_law(struct reader *r, const struct node *n, struct material *m)
+{
+    struct law *law = &m->law;
+    const struct node *hardening = node_find(n, "hardening"), *kinematic = node_find(n, "kinematic"),
+                      *johnson_cook = node_find(n, "johnson_cook"), *first = hardening ? hardening : johnson_cook;
+    if (hardening) TRY(read_hardening_law(r, n, hardening, law));
+    if (johnson_cook) TRY(read_johnson_cook(r, n, johnson_cook, law));
+    if (kinematic) {
+        TRY(read_group(r, kinematic, kinematic, "material.kinematic", law));
+        if (!law->given)
+            law->flow = FLOW_LINEAR, law->hardening = m->young * m->yield_tangent / (m->young - m->yield_tangent);
+        law->given = true;
+    }
+    TRY(read_heat(r, n, law));
+    if (!law->given) return OK;
+    if (!first) first = kinematic;
+    TRY(check_first_yield(r, n, first, m));
+    return check_law_place(r, first);
+}
