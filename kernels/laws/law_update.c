@@ -54,9 +54,9 @@ static ALWAYS_INLINE void relative_product(const lanes *x, const lanes *y, lanes
         for (int c = 0; c < components(space); c++) *odd += (c < 3 ? 1.5 : 3.0) * x[c] * y[c];
 }
 
-/* The equation for t: squares of the trial relative stress [Pa^2] and rates of shrinking [Pa]. */
+/* The equation for t: squares of the trial relative stress [Pa^2], rates of shrinking, and q at t = 0 [Pa]. */
 struct flow_equation {
-    lanes even, odd, A, B;
+    lanes even, odd, A, B, q;
 };
 
 /* Computes the equation at a factor g of the back stress. stiffness: effective kinematic modulus [Pa]. */
@@ -66,32 +66,36 @@ static ALWAYS_INLINE struct flow_equation equation_at(const struct law *law, con
     struct flow_equation e;
     relative_stress(p, g, xi, space);
     relative_product(xi, xi, &e.even, &e.odd, space);
-    e.even = lanes_max(e.even, lanes_of(0)), e.odd = lanes_max(e.odd, lanes_of(1e-200));
+    e.q = lanes_root(lanes_max(e.even + e.odd, lanes_of(1e-200)));
     const real uniaxial = space == SPACE_LINE ? law->young : 0.5 * law->young / (1 - law->poisson);
     e.A = uniaxial + stiffness, e.B = 3 * law->shear + stiffness;
     return e;
 }
 
-/* Returns q at t [Pa]; *fall: -q dq/dt [Pa^3]. */
-static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
+/* Returns the rate at which the components shrink in spaces where all shrink alike [Pa]. */
+static ALWAYS_INLINE lanes single_rate(const struct flow_equation *e, const enum space space)
 {
-    const lanes v = 1.0 / (1.0 + e->B * t);
-    lanes q2 = e->odd * v * v;
-    *fall = e->odd * e->B * v * v * v;
-    if (space == SPACE_LINE || space == SPACE_PLANE_STRESS) {
-        const lanes u = 1.0 / (1.0 + e->A * t);
-        q2 += e->even * u * u, *fall += e->even * e->A * u * u * u;
-    }
-    return lanes_root(q2);
+    return space == SPACE_LINE ? e->A : e->B;
 }
 
-/* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da, by Newton's method from t = 0;
- * t = 0 where q(0) is below bound. One step is exact where all components shrink alike. */
+/* Returns q at t [Pa]; *fall: -q dq/dt [Pa^3], in plane stress only. */
+static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes t, lanes *fall, const enum space space)
+{
+    if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
+    const lanes u = 1.0 / (1.0 + e->A * t), v = 1.0 / (1.0 + e->B * t);
+    *fall = e->even * e->A * u * u * u + e->odd * e->B * v * v * v;
+    return lanes_root(e->even * u * u + e->odd * v * v);
+}
+
+/* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where q(0) is below
+ * bound. In closed form where all components shrink alike, else by Newton's method from t = 0. */
 static ALWAYS_INLINE lanes equation_solve(const struct flow_equation *e, lanes bound, lanes slope,
                                           const enum space space)
 {
     lanes t = lanes_of(0), fall;
-    for (int k = 0; k < (space == SPACE_PLANE_STRESS ? STEPS_PLANE_STRESS : 1); k++) {
+    if (space != SPACE_PLANE_STRESS)
+        return lanes_max((e->q - bound) / (slope * e->q + bound * single_rate(e, space)), lanes_of(0));
+    for (int k = 0; k < STEPS_PLANE_STRESS; k++) {
         const lanes inverse = 1.0 / equation_stress(e, t, &fall, space);
         const lanes rest = 1.0 - slope * t - bound * inverse;
         t = lanes_max(t + rest / (slope + bound * fall * inverse * inverse * inverse), lanes_of(0));
@@ -113,15 +117,20 @@ static ALWAYS_INLINE lanes effective_modulus(const struct law *law, const struct
     return law->kinematic.modulus - law->kinematic.recall * (even + odd) / q;
 }
 
-/* Returns t of a small step, by one linearised evaluation. *left: factor g of the back stress. */
-static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p, lanes bound, lanes slope,
+/* Returns t of a small step, by one linearised evaluation. trial, xi: equation and relative stress at g = 1; *left:
+ * receives the factor g of the back stress. */
+static ALWAYS_INLINE lanes solve_explicit(const struct law *law, const struct law_points *p,
+                                          const struct flow_equation *trial, const lanes *xi, lanes bound, lanes slope,
                                           lanes *left, const enum space space)
 {
-    lanes xi[SYM_MAX], fall;
-    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
-    const lanes C = effective_modulus(law, p, xi, lanes_root(e.even + e.odd), space);
+    const lanes least = lanes_min(slope, lanes_of(law->steepest));
+    lanes fall;
+    *left = lanes_of(1);
+    if (!(law->kinematic.recall > 0)) return equation_solve(trial, bound, least, space);
+    struct flow_equation e = *trial;
+    const lanes C = effective_modulus(law, p, xi, e.q, space);
     e.A += C - law->kinematic.modulus, e.B += C - law->kinematic.modulus;
-    const lanes t = equation_solve(&e, bound, lanes_min(slope, lanes_of(law->steepest)), space);
+    const lanes t = equation_solve(&e, bound, least, space);
     *left = 1.0 / (1.0 + law->kinematic.recall * t * equation_stress(&e, t, &fall, space));
     return t;
 }
@@ -134,8 +143,8 @@ static ALWAYS_INLINE lanes solve_load_step(const struct law *law, const struct l
     const real C = law->kinematic.modulus, recall = law->kinematic.recall;
     lanes xi[SYM_MAX], fall, slope, t = lanes_of(0);
     struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(0), xi, space);
-    const lanes q = lanes_root(e.even + e.odd), stiff = space == SPACE_LINE ? e.A : e.B;
-    lanes more = lanes_min((q - bound) / stiff, flow_reach(law, q, p->rate, p->temperature) - p->a);
+    lanes more = flow_reach(law, e.q, p->rate, p->temperature) - p->a;
+    more = lanes_min((e.q - bound) / single_rate(&e, space), more);
     more = lanes_max(more, lanes_of(0));
     *left = lanes_of(1);
     for (int k = 0; k < (recall > 0 ? PASSES_RECALL : PASSES); k++) {
@@ -184,19 +193,22 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
 static ALWAYS_INLINE void points_return(const struct law *law, struct law_points *p, const enum space space,
                                         const enum law_mode mode)
 {
-    lanes xi[SYM_MAX], strain[SYM_MAX], slope, fall, left = lanes_of(1);
-    const struct flow_equation trial = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
+    lanes xi[SYM_MAX], strain[SYM_MAX], slope, fall, left;
+    struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
     const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
     const lanes bound = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
-    const lanes_mask yields = p->active & lanes_less(bound * bound, trial.even + trial.odd);
+    const lanes_mask yields = p->active & lanes_less(bound, e.q);
     if (!lanes_any(yields)) return;
-    lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, bound, slope, &left, space)
+    lanes t = mode == LAW_EXPLICIT ? solve_explicit(law, p, &e, xi, bound, slope, &left, space)
                                    : solve_load_step(law, p, bound, &left, space);
-    t = lanes_choose(yields, t, lanes_of(0)), left = lanes_choose(yields, left, lanes_of(1));
-    const struct flow_equation e = equation_at(law, p, left, law->kinematic.modulus * left, xi, space);
-    const lanes v = 1.0 / (1.0 + e.B * t), u = 1.0 / (1.0 + e.A * t);
-    for (int c = 0; c < components(space); c++)
-        xi[c] *= c == 0 && (space == SPACE_LINE || space == SPACE_PLANE_STRESS) ? u : v;
+    t = lanes_choose(yields, t, lanes_of(0));
+    if (law->kinematic.recall > 0) {
+        left = lanes_choose(yields, left, lanes_of(1));
+        e = equation_at(law, p, left, law->kinematic.modulus * left, xi, space);
+    }
+    const bool first_differs = space == SPACE_PLANE_STRESS || space == SPACE_LINE;
+    const lanes u = first_differs ? 1.0 / (1.0 + e.A * t) : lanes_of(1), v = 1.0 / (1.0 + e.B * t);
+    for (int c = 0; c < components(space); c++) xi[c] *= c == 0 && first_differs ? u : v;
     p->a += t * equation_stress(&e, t, &fall, space);
     flow_apply(law, p, xi, t, left, strain, space);
     const lanes work = trapezoid(p, strain, space);
