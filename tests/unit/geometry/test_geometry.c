@@ -412,7 +412,7 @@ static void bad_abaqus(void **state)
                {" 3, 6, 5\n", "", "an element of 4 nodes has but 1"},
                {"CPS4R", "B31", "no element that fills a body, but others such as T3D2"},
                {"*NSET, NSET=left", "*NGEN", "*NGEN; a deck that writes out all nodes"},
-               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET from another file"},
+               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET reads another file"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
                {"*node, nset=all", "*node, system=C", "coordinates in the system C"},
                {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};
