@@ -61,4 +61,9 @@ void engine_warn_of_units(const struct scene *s, const struct particles *p, cons
 void engine_warn_of_speed(const struct scene *s, const struct loads *loads, const struct particles *p,
                           struct warnings *to);
 
+/* Adds warnings to *to about supports that hold all particles, and about pairs of supports that prescribe different
+ * motions of the same particles. */
+void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                             struct warnings *to);
+
 #endif

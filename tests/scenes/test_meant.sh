@@ -378,4 +378,28 @@ says "without contact" '^warning: contact.between: none: peridynamic bodies pass
 silent "without contact: no collision" 'bodies collide' "$plates" -s contact.between=none
 says "without contact, adaptive" 'warning: particles that become peridynamic pass .*; here contact.between is none' "$plates" -s contact.between=none -s method=adaptive
 
+# ---- supports, shapes, encounters, frames ------------------------------------------------------------------------------
+
+# A plate of 20 x 20 particles; with lengths in m in place of mm a region holds all of it and a hole lies beside it.
+cat >"$work/plate.yaml" <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 10 us
+method: pd
+material: {young: 70 GPa, density: 2700, energy_release_rate: 10}
+body: {box: {from: [0, 0], to: [20 mm, 20 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{name: a, fixed: all, face: y-}, {name: b, velocity: [0, 0.5 m/s], face: y+}]
+END
+plate=$work/plate.yaml
+says "a region in m" '^warning: boundary a holds all 400 particles: nothing can move; check the units of its region (mm?)$' "$plate" \
+    -s 'boundary=[{name: a, fixed: all, region: {box: {from: [0, 0], to: [20, 1]}}}]'
+silent "a region in mm" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, region: {box: {from: [0, 0], to: [20 mm, 1 mm]}}}'
+# The layer behind a face is three particles deep.
+says "two supports of a face" '^warning: boundaries a and b prescribe different motions along y of the same 60 particles: ' "$plate" \
+    -s 'boundary.a={name: a, fixed: all, face: y+}'
+silent "two supports that share an edge" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, face: x-}'
+silent "two supports of different components" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: [x], face: y+}' \
+    -s 'boundary.b={name: b, velocity: [free, 0.5 m/s], face: y+}'
+
 finish

@@ -1,0 +1,78 @@
+/* Warns of supports that leave nothing to move, and of two supports that prescribe different motions of the same
+ * particles. */
+#include <math.h>
+#include <stdio.h>
+
+#include "engine_internal.h"
+
+enum { MOMENTS_OF_SUPPORTS = 8 }; /* times at which the motions of two supports are compared */
+
+/* Warns of a boundary that holds all components of all particles at rest. */
+static void warn_of_held(const struct scene *s, const struct load *l, const struct particles *p, struct warnings *to)
+{
+    const struct boundary *b = l->boundary;
+    const unsigned all = (1u << s->dim) - 1;
+    const bool rests = !b->rotates && dot(b->value, b->value, s->dim) == 0;
+    if (b->kind != BOUNDARY_VELOCITY || l->n < p->n || p->n < p->n_body || (b->components & all) != all || !rests)
+        return;
+    warnings_add(to, "boundary %s holds all %lld particles: nothing can move; check the units of its region (mm?)",
+                 b->name, (long long)l->n);
+}
+
+/* Returns true if the motion that a load prescribes is known at all times. */
+static bool motion_known(const struct load *l)
+{
+    return l->boundary->kind == BOUNDARY_VELOCITY && load_check_displacement_known(l->boundary) == OK;
+}
+
+/* Returns the components (bit d: component d) in which two loads prescribe different displacements of a particle that
+ * is the j-th of load a and the k-th of load b. */
+static unsigned components_apart(const struct scene *s, const struct particles *p, const struct load *a, int64_t j,
+                                 const struct load *b, int64_t k)
+{
+    unsigned apart = 0;
+    for (int m = 1; m <= MOMENTS_OF_SUPPORTS; m++) {
+        real u[DIM_MAX], w[DIM_MAX];
+        const real t = scene_moves(s) ? s->duration * m / MOMENTS_OF_SUPPORTS : INFINITY;
+        load_displacement_at(a, p, j, t, u);
+        load_displacement_at(b, p, k, t, w);
+        for (int d = 0; d < s->dim; d++)
+            if (fabs(u[d] - w[d]) > 1e-6 * (fabs(u[d]) + fabs(w[d]))) apart |= 1u << d;
+    }
+    return apart & a->boundary->components & b->boundary->components;
+}
+
+/* Warns of two loads that prescribe the same components of the same particles differently, if these are at least half
+ * of the particles of one of the loads; at edges that two faces share there are fewer. */
+static void warn_of_contrary(const struct scene *s, const struct particles *p, const struct load *a,
+                             const struct load *b, struct warnings *to)
+{
+    int64_t common = 0;
+    unsigned apart = 0;
+    char axes[2 * DIM_MAX + 1] = "";
+    int used = 0;
+    if (!motion_known(a) || !motion_known(b) || !(a->boundary->components & b->boundary->components)) return;
+    for (int64_t j = 0, k = 0; j < a->n && k < b->n;) {
+        const int32_t i = a->particle[j], other = b->particle[k];
+        const unsigned here = i == other ? components_apart(s, p, a, j, b, k) : 0;
+        apart |= here, common += here != 0;
+        j += i <= other, k += other <= i;
+    }
+    if (common == 0 || 2 * common < real_min(a->n, b->n)) return;
+    for (int d = 0; d < s->dim; d++)
+        if (apart >> d & 1)
+            used += snprintf(axes + used, sizeof axes - (size_t)used, "%s%c", used ? "," : "", "xyz"[d]);
+    warnings_add(to,
+                 "boundaries %s and %s prescribe different motions along %s of the same %lld particle%s: leave one of "
+                 "them out, or give each a face or region of its own",
+                 a->boundary->name, b->boundary->name, axes, (long long)common, common == 1 ? "" : "s");
+}
+
+void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
+                             struct warnings *to)
+{
+    for (int a = 0; a < loads->n; a++) {
+        warn_of_held(s, &loads->load[a], p, to);
+        for (int b = 0; b < a; b++) warn_of_contrary(s, p, &loads->load[b], &loads->load[a], to);
+    }
+}
