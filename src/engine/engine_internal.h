@@ -66,4 +66,7 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
 void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                              struct warnings *to);
 
+/* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */
+void engine_warn_of_shapes(const struct scene *s, struct warnings *to);
+
 #endif

@@ -401,5 +401,15 @@ says "two supports of a face" '^warning: boundaries a and b prescribe different 
 silent "two supports that share an edge" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: all, face: x-}'
 silent "two supports of different components" '^warning: boundar' "$plate" -s 'boundary.a={name: a, fixed: [x], face: y+}' \
     -s 'boundary.b={name: b, velocity: [free, 0.5 m/s], face: y+}'
+# From the corner at 20 mm to 8 m: sqrt(2) 7.98 m.
+solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
+says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?)$' "$plate" \
+    -s "$(solids 'subtract: {disc: {centre: [10, 10], radius: 2}}')"
+says "a hole beside a corner" 'solid 2 of its shape removes nothing, as it lies outside' "$plate" \
+    -s "$(solids 'subtract: {disc: {centre: [21.5 mm, 21.5 mm], radius: 2 mm}}')"
+says "a disc that is not subtracted" '^warning: body body: solid 2 of its shape adds nothing, as the solids before it contain it' "$plate" \
+    -s "$(solids 'disc: {centre: [10 mm, 10 mm], radius: 2 mm}')"
+silent "a hole" 'of its shape' "$plate" -s "$(solids 'subtract: {disc: {centre: [10 mm, 10 mm], radius: 2 mm}}')"
+silent "a disc across an edge" 'of its shape' "$plate" -s "$(solids 'disc: {centre: [20 mm, 10 mm], radius: 2 mm}')"
 
 finish

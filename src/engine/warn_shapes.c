@@ -1,0 +1,88 @@
+/* Warns of solids in the shape of a body that have no effect: one that is subtracted where there is nothing, one that
+ * is added where the body is already. */
+#include <math.h>
+
+#include "engine_internal.h"
+
+enum { SOLIDS_MOST = 32, POINTS_OF_SOLID = 20000 }; /* solids of a body, points of each, that are tested */
+
+/* Returns the k-th number, from 1 on, of the sequence of van der Corput with the given base, in 0..1. */
+static real radical_inverse(int k, int base)
+{
+    real sum = 0, digit = 1;
+    for (; k > 0; k /= base) digit /= base, sum += digit * (k % base);
+    return sum;
+}
+
+/* Computes the common part of the boxes of a solid and of the region before it. before: box of the region (low, high).
+ * Returns the distance of the boxes [m]: 0 if they meet. */
+static real boxes_common(const struct solid *solid, int dim, real *low, real *high)
+{
+    struct bounds box;
+    real apart2 = 0;
+    solid_bounding_box(solid, dim, &box);
+    for (int d = 0; d < dim; d++) {
+        low[d] = real_max(low[d], box.low[d]), high[d] = real_min(high[d], box.high[d]);
+        apart2 += square(real_max(0, low[d] - high[d]));
+    }
+    return sqrt(apart2);
+}
+
+/* Returns true if a point of the box low..high, among POINTS_OF_SOLID evenly spread ones (Halton 1960), is in the solid
+ * and, as `inside` says, in the region before it or not. */
+static bool point_found(const struct solid *solid, const struct region *before, int dim, bool inside, const real *low,
+                        const real *high)
+{
+    static const int base[DIM_MAX] = {2, 3, 5};
+    for (int k = 1; k <= POINTS_OF_SOLID; k++) {
+        real X[DIM_MAX] = {0};
+        for (int d = 0; d < dim; d++) X[d] = low[d] + (high[d] - low[d]) * radical_inverse(k, base[d]);
+        if (solid_is_within(solid, X, dim, 0) && region_contains(before, X, dim, 0) == inside) return true;
+    }
+    return false;
+}
+
+/* Warns if solid k of the shape of body b, which is subtracted, removes nothing. */
+static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struct warnings *to)
+{
+    const struct region before = {.n = k, .solid = b->shape.solid};
+    real low[DIM_MAX], high[DIM_MAX];
+    if (!region_bounds(&before, dim, low, high)) return;
+    const real apart = boxes_common(&b->shape.solid[k], dim, low, high);
+    if (apart > 0)
+        warnings_add(
+            to, "body %s: solid %d of its shape removes nothing: it is %.3g m from the body; check its units (mm?)",
+            b->name, k + 1, apart);
+    else if (!point_found(&b->shape.solid[k], &before, dim, true, low, high))
+        warnings_add(to,
+                     "body %s: solid %d of its shape removes nothing, as it lies outside of the body; check its place",
+                     b->name, k + 1);
+}
+
+/* Warns if solid k of the shape of body b, which is added, lies within the solids before it. */
+static void warn_of_added(const struct scene_body *b, int k, int dim, struct warnings *to)
+{
+    const struct region before = {.n = k, .solid = b->shape.solid};
+    struct bounds box;
+    solid_bounding_box(&b->shape.solid[k], dim, &box);
+    for (int d = 0; d < dim; d++)
+        if (!isfinite(box.high[d] - box.low[d])) return;
+    if (!point_found(&b->shape.solid[k], &before, dim, false, box.low, box.high))
+        warnings_add(to,
+                     "body %s: solid %d of its shape adds nothing, as the solids before it contain it; to cut it out: "
+                     "subtract: {...}",
+                     b->name, k + 1);
+}
+
+void engine_warn_of_shapes(const struct scene *s, struct warnings *to)
+{
+    for (int b = 0; b < s->bodies + s->rigids; b++) {
+        const struct scene_body *body = &s->body[b];
+        const int solids = body->file || body->shape.n > SOLIDS_MOST ? 0 : body->shape.n;
+        for (int k = 1; k < solids; k++)
+            if (body->shape.solid[k].subtract)
+                warn_of_subtracted(body, k, s->dim, to);
+            else if (!body->shape.solid[k].intersect)
+                warn_of_added(body, k, s->dim, to);
+    }
+}
