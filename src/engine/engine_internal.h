@@ -69,4 +69,7 @@ void engine_warn_of_supports(const struct scene *s, const struct loads *loads, c
 /* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */
 void engine_warn_of_shapes(const struct scene *s, struct warnings *to);
 
+/* Adds warnings to *to about bodies that move at the start and meet no other body within the duration. */
+void engine_warn_of_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
+
 #endif

@@ -411,5 +411,11 @@ says "a disc that is not subtracted" '^warning: body body: solid 2 of its shape 
     -s "$(solids 'disc: {centre: [10 mm, 10 mm], radius: 2 mm}')"
 silent "a hole" 'of its shape' "$plate" -s "$(solids 'subtract: {disc: {centre: [10 mm, 10 mm], radius: 2 mm}}')"
 silent "a disc across an edge" 'of its shape' "$plate" -s "$(solids 'disc: {centre: [20 mm, 10 mm], radius: 2 mm}')"
+# From 20 mm to the lower end of a disc at 8.997 m, less a spacing, at 50 m/s: 0.1795 s.
+fly() { echo "bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 20 mm]}}}, {name: ball, shape: {disc: {centre: [10 mm, $1], radius: 3 mm}}, velocity: [$2]}]"; }
+says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
+says "a ball that flies away" '^warning: body ball meets no other body, as its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
+says "a ball that flies past" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
+silent "a ball that hits" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '24.1 mm' '0, -50')"
 
 finish

@@ -1,0 +1,118 @@
+/* Warns of bodies that fly from the start, and that meet no other body before the end of the run. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "engine_internal.h"
+
+enum { FLYING_MOST = 64 }; /* largest number of bodies that are compared in pairs */
+
+/* Box round a body and range of its velocities at the start. */
+struct flight {
+    real low[DIM_MAX], high[DIM_MAX];        /* [m] */
+    real slowest[DIM_MAX], fastest[DIM_MAX]; /* least and largest velocity along each axis [m/s] */
+    bool known;                              /* the box is finite, and no force acts before the body meets another */
+};
+
+/* Computes the flights of the deformable bodies [bodies + rigids]; joined bodies count as the first of them. */
+static void flights_of_particles(const struct scene *s, const struct particles *p, struct flight *f)
+{
+    for (int b = 0; b < s->bodies; b++)
+        for (int d = 0; d < s->dim; d++)
+            f[b].low[d] = f[b].slowest[d] = INFINITY, f[b].high[d] = f[b].fastest[d] = -INFINITY;
+    for (int64_t i = 0; i < p->n; i++) {
+        struct flight *own = &f[s->body[p->body[i]].joined];
+        own->known = true;
+        for (int d = 0; d < s->dim; d++) {
+            own->low[d] = real_min(own->low[d], p->X[d][i] - 0.5 * s->spacing);
+            own->high[d] = real_max(own->high[d], p->X[d][i] + 0.5 * s->spacing);
+            own->slowest[d] = real_min(own->slowest[d], p->v[d][i]);
+            own->fastest[d] = real_max(own->fastest[d], p->v[d][i]);
+        }
+    }
+}
+
+/* Computes the flights of the rigid bodies, whose shapes may be unbounded. */
+static void flights_of_rigids(const struct scene *s, struct flight *f)
+{
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++) {
+        const struct scene_body *body = &s->body[b];
+        f[b].known = region_bounds(&body->shape, s->dim, f[b].low, f[b].high);
+        for (int d = 0; d < s->dim; d++) f[b].slowest[d] = f[b].fastest[d] = body->velocity[d];
+    }
+}
+
+/* Returns true if all particles of a body fly along an axis with at least half of the largest speed. */
+static bool flies(const struct flight *f, int dim)
+{
+    bool any = false;
+    for (int d = 0; d < dim; d++)
+        any |= f->slowest[d] * f->fastest[d] > 0 && 2 * real_min(fabs(f->slowest[d]), fabs(f->fastest[d])) >
+                                                        real_max(fabs(f->slowest[d]), fabs(f->fastest[d]));
+    return any;
+}
+
+/* Returns the time after which two bodies can meet [s]: when the ranges of their places overlap along every axis;
+ * INFINITY if they never do. reach: distance at which they meet [m]. */
+static real time_to_meet(const struct flight *a, const struct flight *b, int dim, real reach)
+{
+    real after = 0;
+    for (int d = 0; d < dim; d++) {
+        const real ahead = b->low[d] - a->high[d] - reach, behind = a->low[d] - b->high[d] - reach;
+        const real closing = ahead > 0 ? a->fastest[d] - b->slowest[d] : b->fastest[d] - a->slowest[d];
+        if (ahead <= 0 && behind <= 0) continue;
+        after = real_max(after, closing > 0 ? real_max(ahead, behind) / closing : INFINITY);
+    }
+    return after;
+}
+
+/* Returns true if nothing but contact changes the flight of bodies: no force, weight, or motion that a boundary
+ * prescribes, and no plane of symmetry, at which a body may meet its own image. */
+static bool fly_freely(const struct scene *s)
+{
+    bool freely = scene_moves(s) && dot(s->gravity, s->gravity, s->dim) == 0;
+    for (int k = 0; k < s->boundaries; k++) {
+        const struct boundary *b = &s->boundary[k];
+        const bool holds = b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, s->dim) == 0;
+        freely = freely && (holds || b->kind == BOUNDARY_ABSORBING);
+    }
+    for (int b = s->bodies; b < s->bodies + s->rigids; b++)
+        freely = freely && dot(s->body[b].force, s->body[b].force, s->dim) == 0;
+    return freely;
+}
+
+/* Warns if body a, which flies, meets none of the others within the duration. */
+static void warn_of_flight(const struct scene *s, const struct flight *f, int a, struct warnings *to)
+{
+    real soonest = INFINITY;
+    int other = -1;
+    for (int b = 0; b < s->bodies + s->rigids; b++) {
+        if (b == a || (b < s->bodies && s->body[b].joined != b)) continue;
+        if (!f[b].known) return;
+        const real after = time_to_meet(&f[a], &f[b], s->dim, s->spacing);
+        if (other < 0 || after < soonest) other = b, soonest = after;
+    }
+    if (other < 0 || soonest <= s->duration) return;
+    if (isfinite(soonest))
+        warnings_add(to,
+                     "body %s reaches %s after %.3g s, the duration is %.3g s: check its place (mm?) and velocity, or "
+                     "the duration",
+                     s->body[a].name, s->body[other].name, soonest, s->duration);
+    else
+        warnings_add(to,
+                     "body %s meets no other body, as its velocity leads past %s or away from it: check its place and "
+                     "the sign of its velocity",
+                     s->body[a].name, s->body[other].name);
+}
+
+void engine_warn_of_encounters(const struct scene *s, const struct particles *p, struct warnings *to)
+{
+    const int bodies = s->bodies + s->rigids;
+    if (!fly_freely(s) || bodies < 2 || bodies > FLYING_MOST || p->n < p->n_body) return;
+    struct flight *f = NEW("warn.flights", bodies, struct flight);
+    flights_of_particles(s, p, f);
+    flights_of_rigids(s, f);
+    for (int b = 0; b < bodies; b++)
+        if (f[b].known && flies(&f[b], s->dim)) warn_of_flight(s, f, b, to);
+    memory_free(f);
+}
