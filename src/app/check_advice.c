@@ -21,6 +21,8 @@
 #include "step/shock.h"
 
 #define FEATURE 4 /* horizons */
+/* share of FEATURE from which on a part is thick enough: 12 spacings at a horizon of 3.015 spacings have 3.98 */
+#define FEATURE_NEARLY 0.99
 #define WAVE 16   /* spacings */
 #define REACHED 4 /* rho c v  */
 #define PASSAGES 4
@@ -98,20 +100,28 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
+/* Returns the largest number of two decimal digits that is at most `value`, which is positive. */
+static real rounded_down(real value)
+{
+    const real digit = pow(10, floor(log10(value)) - 1);
+    return digit * floor(value / digit * (1 + 1e-9));
+}
+
 /* Writes a line for each body with a part thinner than FEATURE horizons, where most particles have incomplete
  * families. Not for bodies of material points only, and not in 1D. */
 static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = count_thin_layers(e, b, FEATURE * s->horizon), size = layers * s->spacing;
+        const double layers = count_thin_layers(e, b, FEATURE_NEARLY * FEATURE * s->horizon),
+                     size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(
             out,
-            "accuracy       body %s: a part of %.4g m is %.2g horizons (%.3g spacings) thick; below %d horizons most "
+            "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons most "
             "particles lack neighbours beyond a face: use a spacing of %s",
             s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-            length_in_words(size / (FEATURE * s->horizon), 2, s->spacing).text);
+            length_in_words(rounded_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }

@@ -198,13 +198,13 @@ silent "keys that have" 'has no effect' "$far" -s mpm.levels=1 -s mpm.fill=neede
 
 # ---- not resolved ------------------------------------------------------------------------------------------------------
 
-says "thin plate" 'accuracy  *body body: a part of 0.01 m is 1.7 horizons (5 spacings)' kalthoff_winkler_3d
+says "thin plate" 'accuracy  *body body: a part of 0.01 m is 1.66 horizons (5 spacings)' kalthoff_winkler_3d
 silent "thick plate" 'accuracy  *body' kalthoff_winkler
 # Between rollers families are complete; beside one, the body counts twice.
 rollers() { sed "/name: $1/d" inputs/plate_pulse.yaml >"$work/rollers.yaml"; }
 silent "thin between mirrors" 'accuracy  *body' plate_impact_3d
 rollers high
-says "thin beside a mirror" 'accuracy  *body body: a part of 0.008 m is 2.7 horizons (8 spacings)' "$work/rollers.yaml"
+says "thin beside a mirror" 'accuracy  *body body: a part of 0.008 m is 2.65 horizons (8 spacings)' "$work/rollers.yaml"
 holds "a spacing is advised in the unit of the scene" grep -q 'lack neighbours beyond a face: use a spacing of [0-9.]* mm' "$work/said"
 silent "thick beside a mirror" 'accuracy  *body' "$work/rollers.yaml" -s "body={box: {from: [0, 0], to: [1024 mm, 8 mm]}}"
 silent "narrow hole" 'accuracy  *body' plate_hole -s particles.spacing=2mm

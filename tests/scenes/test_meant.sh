@@ -193,7 +193,7 @@ strain() { folder=$1; shift; "$cleave" run "$bar" -q -o "$work/$folder" "$@" >/d
 whole=$(strain whole -s bodies= -s "$box")
 near "a lattice as a list" "$(strain list)" "$whole" 1e-9
 near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles="$work/decimals.csv" -s "$third")" "$whole" 1e-6
-says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.7 horizons' "$bar"
+says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.66 horizons' "$bar"
 says "a list that is none" '^accuracy  *body p: parts of its list are 5 layers thin: with pd.surface: volume .* 48 %; in a list .* 12 %' "$bar" \
     -s bodies.p.particles="$work/shaken.csv"
 
@@ -417,5 +417,8 @@ says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, the 
 says "a ball that flies away" '^warning: body ball meets no other body, as its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
 says "a ball that flies past" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
 silent "a ball that hits" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '24.1 mm' '0, -50')"
+# 12 spacings are 3.98 horizons of 3.015 spacings; 11 are 3.65, and 11 mm/12.06 = 0.912 mm.
+silent "a part of nearly four horizons" '^accuracy  *body body: a part' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 12 mm]}}'
+says "a part of less than four horizons" 'a part of 0.011 m is 3.65 horizons (11 spacings) thick; .* use a spacing of 0.91 mm' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 11 mm]}}'
 
 finish
