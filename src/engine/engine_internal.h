@@ -72,4 +72,7 @@ void engine_warn_of_shapes(const struct scene *s, struct warnings *to);
 /* Adds warnings to *to about bodies that move at the start and meet no other body within the duration. */
 void engine_warn_of_encounters(const struct scene *s, const struct particles *p, struct warnings *to);
 
+/* Adds warnings to *to about times of frames beyond the end of the run. */
+void engine_warn_of_output(const struct scene *s, struct warnings *to);
+
 #endif

@@ -216,6 +216,7 @@ void engine_warn_of_input(struct run *e)
     engine_warn_of_supports(s, &e->loads, &e->part, to);
     engine_warn_of_shapes(s, to);
     engine_warn_of_encounters(s, &e->part, to);
+    engine_warn_of_output(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);
     warn_of_regions(s, e->frame, &e->part, to);
     warn_of_boundaries(s, &e->loads, to);

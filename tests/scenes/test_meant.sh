@@ -417,6 +417,9 @@ says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, the 
 says "a ball that flies away" '^warning: body ball meets no other body, as its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
 says "a ball that flies past" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
 silent "a ball that hits" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '24.1 mm' '0, -50')"
+says "frames every 1 s" '^warning: output.every: 1 s is longer than the duration of 1e-05 s' "$plate" -s output.every=1
+says "frames after the end" '^warning: output.times: 1 of 2 lie beyond the duration of 1e-05 s, the last at 0.001 s' "$plate" -s 'output.times=[1 us, 1 ms]'
+silent "frames within the run" '^warning: output' "$plate" -s 'output.times=[1 us, 10 us]'
 # 12 spacings are 3.98 horizons of 3.015 spacings; 11 are 3.65, and 11 mm/12.06 = 0.912 mm.
 silent "a part of nearly four horizons" '^accuracy  *body body: a part' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 12 mm]}}'
 says "a part of less than four horizons" 'a part of 0.011 m is 3.65 horizons (11 spacings) thick; .* use a spacing of 0.91 mm' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 11 mm]}}'
