@@ -223,7 +223,7 @@ status cost_load_steps(struct cost *c, struct run *e)
 
 void print_load_steps_cost(const struct run *e, const struct cost *c, int threads)
 {
-    printf("run time       %.2g to %.2g s on %d idle core%s: at most some %.2g equilibria of %.2g s", c->least, c->most,
+    printf("run time       %.2g to %.2g s on %d idle core%s: about %.2g equilibria of %.2g s", c->least, c->most,
            threads, threads > 1 ? "s" : "", c->equilibria, c->step);
     if (c->overload > 0 && c->overload < NOTHING_BREAKS && e->scene->steps.control == CONTROL_LOAD)
         printf(

@@ -423,5 +423,8 @@ silent "frames within the run" '^warning: output' "$plate" -s 'output.times=[1 u
 # 12 spacings are 3.98 horizons of 3.015 spacings; 11 are 3.65, and 11 mm/12.06 = 0.912 mm.
 silent "a part of nearly four horizons" '^accuracy  *body body: a part' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 12 mm]}}'
 says "a part of less than four horizons" 'a part of 0.011 m is 3.65 horizons (11 spacings) thick; .* use a spacing of 0.91 mm' "$plate" -s 'body={box: {from: [0, 0], to: [20 mm, 11 mm]}}'
+"$cleave" check "$plate" -s solver=cg -s 'boundary.b={name: b, displacement: [0, 1 um], face: y+}' >"$work/said" 2>&1
+holds "an equilibrium: run time with a range: $(cat "$work/said")" \
+    grep -q '^run time  *about .* s for 1000 steps ([0-9.e-]* to [0-9.e-]* s), up to [0-9.e+]* s for all 200000 that it may take' "$work/said"
 
 finish
