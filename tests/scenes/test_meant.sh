@@ -426,5 +426,10 @@ says "a part of less than four horizons" 'a part of 0.011 m is 3.65 horizons (11
 "$cleave" check "$plate" -s solver=cg -s 'boundary.b={name: b, displacement: [0, 1 um], face: y+}' >"$work/said" 2>&1
 holds "an equilibrium: run time with a range: $(cat "$work/said")" \
     grep -q '^run time  *about .* s for 1000 steps ([0-9.e-]* to [0-9.e-]* s), up to [0-9.e+]* s for all 200000 that it may take' "$work/said"
+# The plate tears along the face that is pulled at 5 m/s, not at its pre-crack.
+"$cleave" run "$plate" -o "$work/torn" -s duration=30us -s boundary.b.velocity='[0, 5 m/s]' -s 'cracks=[{from: [-1 mm, 10.1 mm], to: [8 mm, 10.1 mm]}]' \
+    >"$work/said" 2>/dev/null
+holds "place of the longest crack: $(cat "$work/said")" \
+    grep -q 'longest crack grew 19 mm at 0 degrees, from (0.0005, 0.0165) to (0.0195, 0.0165) m, not from a pre-crack$' "$work/said"
 
 finish
