@@ -12,7 +12,7 @@
 
 /* Words of the key `accept`, one bit each: plausibility rules (src/engine/warn_units.c) that the scene breaks on
  * purpose. */
-#define ACCEPT_WORDS "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages"
+#define ACCEPT_WORDS "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy"
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 

@@ -21,6 +21,8 @@ enum rule {
     RULE_DENSITY,
     RULE_YIELD,
     RULE_PASSAGES,
+    RULE_THICKNESS,
+    RULE_ENERGY,
     RULES
 };
 
@@ -28,7 +30,8 @@ enum rule {
  * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
  * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
  * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
- * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. */
+ * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. Energy:
+ * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
@@ -39,7 +42,7 @@ static const struct {
     [RULE_STRESS] = {1e-2, 1e3,
                      "the largest stress that loads, speeds and displacements can make, over the strength, is", "",
                      "loads (Pa), speeds (m/s), displacements (m) and what says when bonds break"},
-    [RULE_STRAIN] = {0, 0.2, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
+    [RULE_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
     [RULE_STEPS] = {5, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
     [RULE_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
                     "duration, lengths (mm?) and young (GPa?)"},
@@ -47,8 +50,11 @@ static const struct {
                         "spacing and lengths (mm?)"},
     [RULE_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
     [RULE_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (MPa?) and young (GPa?)"},
-    [RULE_PASSAGES] = {0, 3000, "the number of times that waves cross the bodies in the duration is", "",
+    [RULE_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
                        "duration (ms for us?), lengths (mm?) and young (GPa?)"},
+    [RULE_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
+                        "thickness and lengths (mm?)"},
+    [RULE_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
 };
 
 /* Warns if `value` is beyond the limits of quantity k, unless the scene accepts it. subject: the part of the scene that
@@ -77,6 +83,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         snprintf(subject, sizeof subject, "material %s", a->name);
         units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
         units_judge(s, RULE_DENSITY, subject, a->density, "", to);
+        if (isfinite(a->energy_release_rate)) units_judge(s, RULE_ENERGY, subject, a->energy_release_rate, "", to);
         const real yield = a->law.given ? a->law.yield : a->yield_stress;
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
         if (material_yields(a)) units_judge(s, RULE_YIELD, subject, yield / a->young, note, to);
@@ -290,10 +297,21 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
     }
 }
 
+/* Warns of a plate in plane stress that is much thicker than wide. longest: longest edge of the box around all
+ * particles [m]. */
+static void units_of_thickness(const struct scene *s, real longest, struct warnings *to)
+{
+    char note[80];
+    if (s->space != SPACE_PLANE_STRESS || s->bodies == 0) return;
+    snprintf(note, sizeof note, " (%.3g m over %.3g m)", s->thickness, longest);
+    units_judge(s, RULE_THICKNESS, "space", s->thickness / longest, note, to);
+}
+
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
                           const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
     units_of_time(s, clock, wave_speed, particles_longest_edge(p), to);
+    units_of_thickness(s, particles_longest_edge(p) + s->spacing, to);
     units_of_materials(s, to);
     units_of_tractions(s, to);
     units_of_loads(s, p, l, to);

@@ -114,7 +114,7 @@ const struct key keys[] = {
         "figures of this scene that look like mistakes of units and are meant, a list: speed of waves, critical "
         "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves "
         "travel, particles across a body with a crack, density, yield stress over Young's modulus, number of times "
-        "that waves cross the body",
+        "that waves cross the body, thickness over width in plane stress, energy release rate",
         .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error of a figure, which pilot runs estimate",
