@@ -204,6 +204,13 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
     real stress = real_max(f.stress, units_stress_at_start(p));
     stress = real_max(stress, impedance * real_max(f.speed, scene_moves(s) ? units_speed_at_start(s, p) : 0));
     stress = real_max(stress, scene_moves(s) ? real_min(stretched, enough) : stretched);
+    if (stress == 0 && !(s->accept & 1u << RULE_STRESS)) {
+        warnings_add(to,
+                     "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
+                     "their values and times (us?); if this is meant: accept: [stress]",
+                     s->duration);
+        return;
+    }
     snprintf(note, sizeof note, " (%.3g Pa; E s_c is %.3g Pa)", stress, strength);
     units_judge(s, RULE_STRESS, "loads", stress / strength, note, to);
 }
@@ -310,7 +317,7 @@ static void units_of_thickness(const struct scene *s, real longest, struct warni
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,
                           const struct run_clock *clock, real wave_speed, struct warnings *to)
 {
-    units_of_time(s, clock, wave_speed, particles_longest_edge(p), to);
+    units_of_time(s, clock, wave_speed, real_max(particles_longest_edge(p), s->spacing), to);
     units_of_thickness(s, particles_longest_edge(p) + s->spacing, to);
     units_of_materials(s, to);
     units_of_tractions(s, to);

@@ -202,13 +202,15 @@ status fill_lattice_site(const struct scene *s, int body, real *X)
 static status draft_empty(const struct draft *d, int body, bool listed)
 {
     real from[DIM_MAX], to[DIM_MAX];
-    char why[200] = "holds no particle; is it, with ";
+    char why[200] = "holds no particle: its shape is at most ";
     size_t used = strlen(why);
     if (listed) return draft_refuse(d, body, "its list holds no particle of it");
     region_bounds(&d->scene->body[body].shape, d->scene->dim, from, to);
     for (int a = 0; a < d->scene->dim; a++)
         used += (size_t)snprintf(why + used, sizeof why - used, "%s%.4g", a ? " x " : "", to[a] - from[a]);
-    snprintf(why + used, sizeof why - used, " m at most: is it thinner than the spacing, or in another unit?");
+    snprintf(why + used, sizeof why - used,
+             " m, the spacing %.4g m: use a spacing below its thickness, or check the units of both (mm?)",
+             d->scene->spacing);
     return draft_refuse(d, body, why);
 }
 

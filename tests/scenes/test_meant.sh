@@ -441,5 +441,10 @@ holds "an equilibrium: run time with a range: $(cat "$work/said")" \
     >"$work/said" 2>/dev/null
 holds "place of the longest crack: $(cat "$work/said")" \
     grep -q 'longest crack grew 19 mm at 0 degrees, from (0.0005, 0.0165) to (0.0195, 0.0165) m, not from a pre-crack$' "$work/said"
+free='boundary=[{traction: [0, 1 MPa], face: y+, time: {step: {from: 1 ms, until: 1 s}}}]'
+says "a load after the end" '^warning: loads: nothing loads the body: no load, speed or displacement differs from 0 up to 1e-05 s;' "$plate" -s "$free"
+silent "a load after the end that is meant" 'nothing loads' "$plate" -s "$free" -s 'accept=[stress]'
+says "no load" '^warning: loads: nothing loads the body' "$plate" -s boundary=[]
+says "a spacing larger than the body" 'body body: holds no particle: its shape is at most 0.02 x 0.02 m, the spacing 0.05 m' "$plate" -s particles.spacing=50mm
 
 finish
