@@ -6,6 +6,65 @@
 #include "commands.h"
 #include "scene/scene.h"
 
+/* Words that are neither keys nor values of keys, and where the manual or the program answers. words: a|b|c. */
+static const struct {
+    const char *words, *answer;
+} topics[] = {
+    {"adaptive|coupling|conversion|convert", "inputs/choosing.md; the key `method`; `cleave help conversion`"},
+    {"bond|bonds|bond_based|ospd|mospd|peridynamics|peridynamic|state_based|ordinary_state_based|nosb",
+     "inputs/choosing.md and inputs/elasticity.md; the keys `model` and `pd`; the equations: `cleave help theory`"},
+    {"mpm|material_point|material_points|material_point_method",
+     "inputs/choosing.md; the keys `method` and `mpm`; the equations: `cleave help theory`"},
+    {"model|method|choosing|choice|accuracy", "inputs/choosing.md"},
+    {"result|results|figures|summary|frame|frames|output|csv|hdf|paraview", "inputs/results.md; `cleave help run`"},
+    {"fragment|fragments|fragmentation|pieces",
+     "fragments.csv and fragment of summary.json, in inputs/results.md; a scene: inputs/ring_fragments.yaml"},
+    {"impact|projectile|collision|bodies_meet|spall", "inputs/contact.md; `cleave new NAME impact` writes a scene"},
+    {"branch|branching|crack_branching", "a scene: inputs/glass_branching.yaml; the probe `tip` follows a crack tip"},
+    {"crack|crack_growth|crack_propagation|propagation|growth|fracture_mechanics",
+     "inputs/materials.md and the keys `cracks` and `growth`; under slowly growing loads: inputs/slow.md"},
+    {"static|load_steps|quasi_static|slow|equilibrium", "inputs/slow.md; the keys `solver` and `steps`"},
+    {"wave|waves|bar|pulse", "`cleave new NAME bar` writes a scene; inputs/bar_step.yaml, inputs/bar_pulse.yaml"},
+    {"resume|restart|continue|checkpoint|checkpoints|interrupt|stop",
+     "`cleave run SCENE --resume` continues from the newest checkpoint; `cleave run --help`, inputs/running.md"},
+    {"threads|install|running|memory|performance", "inputs/running.md"},
+    {"python|post_processing|postprocessing|h5py", "inputs/python.md"},
+    {"visualise|visualize|visualisation|visualization|view|picture|pictures|film|movie",
+     "inputs/pictures.md; `cleave plot --help`; ParaView opens frames.hdf.series of a run"},
+    {"example|examples|sample|samples|tutorial|tutorials|start|begin|getting_started|introduction",
+     "`cleave new` lists kinds of scenes to begin with; inputs/README.md, the manual, lists the scenes of inputs/"},
+    {"manual|documentation|docs|doc|readme", "inputs/README.md, the manual; `cleave help scene` lists all keys"},
+    {"load|loads|support|supports|boundary_condition|boundary_conditions", "inputs/loads.md; the key `boundary`"},
+    {"body|bodies|solid|solids|shape|geometry", "inputs/bodies.md; from files: inputs/files.md"},
+    {"mesh|image|images|stl|surface", "inputs/files.md"},
+    {"particle_list|lists", "inputs/lists.md"},
+    {"material|materials|plasticity", "inputs/materials.md"},
+    {"study|studies|parameter_study|convergence|error_bar|error_bars|uncertainty",
+     "inputs/studies.md; `cleave sweep --help`, `cleave converge --help`"},
+    {"lammps", "inputs/lammps.md; `cleave export --help`"},
+    {"references|reference|literature|papers|citation|cite", "inputs/references.md"},
+    {"scenes|yaml", "inputs/scenes.md; `cleave help scene` lists all keys"},
+};
+
+/* Returns where the manual or the program answers about a word, or NULL. */
+static const char *topic_answer(const char *word)
+{
+    const size_t length = strlen(word);
+    for (size_t k = 0; k < COUNT_OF(topics); k++)
+        for (const char *c = topics[k].words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL)
+            if (strcspn(c, "|") == length && !strncmp(c, word, length)) return topics[k].answer;
+    return NULL;
+}
+
+/* Prints where the manual answers about a word, and the keys that the word names. REFUSED for an unknown word. */
+static status help_topic(const char *word)
+{
+    const char *answer = topic_answer(word);
+    if (answer) printf("%s: %s\n", word, answer);
+    if (answer && scene_has_key(word)) putchar('\n');
+    return answer && !scene_has_key(word) ? OK : scene_print_help(stdout, word);
+}
+
 /* Prints the page of all keys, after the line with which an editor finds the schema. */
 static status help_scene(void)
 {
@@ -23,7 +82,7 @@ static status help_misspelt(const char *word)
 {
     static const char *const pages[] = {"scene", "units", "expression", "run", "theory", "trust"};
     const char *nearest = pages[0];
-    if (scene_has_key(word)) return OK;
+    if (scene_has_key(word) || topic_answer(word)) return OK;
     for (size_t k = 0; k < COUNT_OF(pages); k++)
         if (edit_distance(word, pages[k]) < edit_distance(word, nearest)) nearest = pages[k];
     for (int k = 0; k < commands_count; k++)
@@ -47,7 +106,7 @@ status command_help(int argc, char **argv)
     char joined[256];
     const bool completion = argc > 1 && !strcmp(argv[1], "--completion");
     const char *word = completion ? argv[1] : help_word(argc, argv, joined, sizeof joined);
-    if (!word || !strcmp(word, "scene")) return help_scene();
+    if (!word || !strcmp(word, "scene") || !strcmp(word, "all") || !strcmp(word, "--all")) return help_scene();
     if (!strcmp(word, "--completion")) return completion_print(stdout, argc == 3 ? argv[2] : "");
     if (!strcmp(word, "--schema")) return scene_print_schema(stdout);
     if (!strcmp(word, "--manual")) return manual_print(stdout);
@@ -60,5 +119,5 @@ status command_help(int argc, char **argv)
     for (int k = 0; k < commands_count; k++)
         if (!strcmp(word, commands[k].name)) return usage_print_of(stdout, &commands[k]), OK;
     TRY(help_misspelt(word));
-    return scene_print_help(stdout, word);
+    return help_topic(word);
 }

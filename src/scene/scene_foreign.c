@@ -18,7 +18,9 @@ static const struct foreign {
      "material.young", NULL},
     {"nu|poisson's_ratio|poissons_ratio|poisson_ratio|poissons", "material.poisson", NULL},
     {"rho|mass_density|rho0", "material.density", NULL},
-    {"K|kappa|bulk|bulk_modulus|G|mu|shear|shear_modulus|lame|lame_lambda|lame_mu|lambda",
+    {"K", "material.young material.poisson material.toughness probes.sif",
+     "with `poisson`, if K is the bulk modulus: E = 3 K (1 - 2 nu); a critical stress-intensity factor is `toughness`"},
+    {"kappa|bulk|bulk_modulus|G|mu|shear|shear_modulus|lame|lame_lambda|lame_mu|lambda",
      "material.young material.poisson", "with `poisson`: E = 9 K G/(3 K + G), nu = E/(2 G) - 1"},
     {"wave_speed|sound_speed|c0", "material.young material.density",
      "with `density` and `poisson`; E = rho c^2 in a bar"},
@@ -39,6 +41,9 @@ static const struct foreign {
     {"damage", "output.fields probes.break probes.tip material.critical_stretch",
      "=damage is a result, the share of broken bonds, in every frame; what breaks bonds is `energy_release_rate`, "
      "`toughness` or `critical_stretch` of the material"},
+    {"stress|stresses|strain|strains|sigma|epsilon", "output.fields probes.line boundary.traction",
+     "=stress is a result, in every frame, and `output.fields` adds others; on a face it is a load, `traction`; at the "
+     "start it follows from initial.displacement_gradient"},
     {"weibull|weibull_modulus|flaws|heterogeneity|random_strength", "material.scatter", NULL},
     {"precrack|pre_crack|pre_cracks|precracks|crack_list|notch|notches|initial_crack|slit|slits|flaw", "cracks", NULL},
     {"tie|tied|cohesive|cohesive_zone|czm|interface|adhesion|adhesive|glue|bonded", "interfaces", NULL},

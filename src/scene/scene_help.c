@@ -133,16 +133,26 @@ bool key_is_below(const struct key *k, const char *path)
     return length == 0 || k->path[length] == '\0' || k->path[length] == '.';
 }
 
-/* Returns REFUSED with a message that names the key nearest to `path` by edit distance. */
+/* Returns the edit distance between `path` and the path of a key, or the last part of that path if it is nearer. */
+static int key_distance(const struct key *k, const char *path)
+{
+    const int whole = edit_distance(k->path, path), leaf = edit_distance(key_leaf(k), path);
+    return whole < leaf ? whole : leaf;
+}
+
+/* Returns REFUSED with a message that names the key nearest to `path` by edit distance, or the pages of `cleave help`
+ * if more than a third of the letters differ. */
 static status help_unknown(const char *path)
 {
     const struct key *nearest = &keys[0];
-    for (int k = 1; k < keys_count; k++) {
-        int here = edit_distance(keys[k].path, path), leaf = edit_distance(key_leaf(&keys[k]), path);
-        int best = edit_distance(nearest->path, path), best_leaf = edit_distance(key_leaf(nearest), path);
-        if ((here < leaf ? here : leaf) < (best < best_leaf ? best : best_leaf)) nearest = &keys[k];
-    }
-    return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
+    for (int k = 1; k < keys_count; k++)
+        if (key_distance(&keys[k], path) < key_distance(nearest, path)) nearest = &keys[k];
+    if (key_distance(nearest, path) <= ((int)strlen(path) + 1) / 3)
+        return status_set(REFUSED, "%.64s: unknown key; the nearest is %s", path, nearest->path);
+    return status_set(REFUSED,
+                      "%.64s: neither a key nor a page; `cleave help scene` lists the keys, and the pages are units, "
+                      "expression, run, theory and trust; the manual is inputs/README.md",
+                      path);
 }
 
 /* Returns true if `leaf` is the last part of the path of k. */
@@ -151,12 +161,29 @@ static bool has_leaf(const struct key *k, const char *leaf)
     return k->type != KEY_GROUP && !strcmp(key_leaf(k), leaf);
 }
 
+/* Returns true if `word`, with _ for blanks, is one of the words that a key has as values. The key `accept` is left
+ * out: its words name other things. */
+static bool is_value_of(const struct key *k, const char *word)
+{
+    const size_t length = strlen(word);
+    if (!strcmp(k->path, "accept")) return false;
+    for (const char *c = k->type == KEY_CHOICE || k->type == KEY_SET ? k->words : NULL; c && *c;) {
+        const size_t here = strcspn(c, "|");
+        bool equal = here == length && length > 0;
+        for (size_t j = 0; j < here && equal; j++) equal = word[j] == (c[j] == ' ' ? '_' : c[j]);
+        if (equal) return true;
+        c += here + (c[here] == '|');
+    }
+    return false;
+}
+
 bool scene_has_key(const char *key)
 {
     char path[128];
     path_of_table(key, path, sizeof path);
     bool has = key_present_name(path) || foreign_word_keys(path);
-    for (int k = 0; k < keys_count && !has; k++) has = key_is_below(&keys[k], path) || has_leaf(&keys[k], path);
+    for (int k = 0; k < keys_count && !has; k++)
+        has = key_is_below(&keys[k], path) || has_leaf(&keys[k], path) || is_value_of(&keys[k], path);
     return has;
 }
 
@@ -184,19 +211,32 @@ static void help_foreign(FILE *out, const char *word)
     }
 }
 
+/* Prints the keys whose last part is `word`, the keys that have it as a value, and the key that corresponds to it as a
+ * word of other programs. Returns the number of keys. */
+static int help_word_of_keys(FILE *out, const char *word)
+{
+    int printed = 0;
+    for (int k = 0; k < keys_count; k++)
+        if (has_leaf(&keys[k], word)) print_key(out, &keys[k]), printed++;
+    for (int k = 0; k < keys_count; k++) {
+        if (!is_value_of(&keys[k], word)) continue;
+        fprintf(out, "%s%s is a value of %s\n", printed ? "\n" : "", word, keys[k].path);
+        print_key(out, &keys[k]), printed++;
+    }
+    if (foreign_word_keys(word) && printed > 0) fputc('\n', out);
+    if (foreign_word_keys(word)) help_foreign(out, word), printed++;
+    return printed;
+}
+
 status scene_print_help(FILE *out, const char *key)
 {
     char path[128] = "";
-    int found = 0, leaves = 0;
+    int found = 0;
     if (key) path_of_table(key, path, sizeof path);
     const char *now = key_present_name(path);
     if (now) fprintf(out, "%s is now called %s\n\n", path, now), snprintf(path, sizeof path, "%s", now);
     for (int k = 0; k < keys_count; k++) found += key_is_below(&keys[k], path);
-    for (int k = 0; k < keys_count && found == 0; k++)
-        if (has_leaf(&keys[k], path)) print_key(out, &keys[k]), leaves++;
-    if (leaves > 0) return OK;
-    if (found == 0 && foreign_word_keys(path)) return help_foreign(out, path), OK;
-    if (found == 0) return help_unknown(path);
+    if (found == 0) return help_word_of_keys(out, path) > 0 ? OK : help_unknown(path);
     if (!key)
         fprintf(out, "Keys of a scene: type [SI unit]; range or words; default. A number without a unit is SI.\n"
                      "Units are written behind it: 0.5 mm, 190 GPa, 7800 kg/m^3.\n\n");

@@ -93,6 +93,11 @@ is "a mistyped command: exit status" $? 2
 is "and its line" "$(cat "$work/err")" "unknown command rnu; the nearest is run"
 "$cleave" help thoery 2>"$work/err"
 is "a mistyped page" "$(cat "$work/err")" "thoery: neither a page nor a key; the nearest is theory"
+for word in adaptive bond ospd peridynamics results resume python fragment impact branching example tutorial wave modulus stress; do
+    holds "help $word answers" "$cleave" help $word >"$work/out"
+done
+"$cleave" help gold 2>"$work/err"
+is "a word that is like no key" "$(cut -d ';' -f 1 "$work/err")" "gold: neither a key nor a page"
 is "a reader that leaves" "$("$cleave" help 2>&1 | head -n 1 | wc -l)" 1
 holds "options of a command by what they are of it" test "$("$cleave" plot --help | grep -c '^  -o FILE')" = 1
 finish
