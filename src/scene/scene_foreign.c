@@ -38,6 +38,8 @@ static const struct foreign {
      "material.energy_release_rate material.toughness material.critical_stretch material.scatter",
      "=bonds break by their stretch, which follows from `energy_release_rate` or `toughness`; or give "
      "`critical_stretch`, about strength/E"},
+    {"softening|traction_separation|bilinear|trilinear|damage_evolution", "material.critical_stretch",
+     "=Cleave does not do softening: bonds are elastic up to their critical stretch, and break there"},
     {"damage", "output.fields probes.break probes.tip material.critical_stretch",
      "=damage is a result, the share of broken bonds, in every frame; what breaks bonds is `energy_release_rate`, "
      "`toughness` or `critical_stretch` of the material"},
@@ -114,8 +116,12 @@ static const struct foreign {
     {"implicit|newmark|hht|newton|newton_raphson|arc_length|riks", "solver steps",
      "=Cleave does not do implicit dynamics; solver: static with `steps` follows equilibria, `steps.control` their "
      "path"},
+    {"title|job|jobname|job_name|heading|header", "name", NULL},
+    {"adaptive|coupled|coupling", "method", "as method: adaptive"},
+    {"step|stage|load_case|analysis_step", "duration time.step steps",
+     "for a run in time; load steps of solver static are `steps`"},
     {"gpu|cuda|device|mpi|ranks|nodes|processes|threads|n_threads|num_threads|cores|cpus", "",
-     "=no key: Cleave runs on the cores of one machine, and -t sets the number of threads"},
+     "=Cleave runs on the cores of one machine; the option -t of `cleave run` sets the number of threads"},
     /* damping, waves */
     {"viscosity|artificial_viscosity|bulk_viscosity|linear_viscosity|quadratic_viscosity|q1|q2", "material.viscosity",
      NULL},
@@ -123,10 +129,14 @@ static const struct foreign {
     {"non_reflecting|nonreflecting|silent|pml|infinite_elements|absorbing_boundary|transmitting", "boundary.absorbing",
      NULL},
     /* discretisation */
-    {"dx|h|mesh_size|cellsize|element_size|cell_size|grid_size|resolution|lattice|lattice_constant|particle_spacing|n_"
+    {"dx|h|mesh_size|cellsize|element_size|cell_size|grid_size|resolution|lattice_constant|particle_spacing|n_"
      "particles|"
      "num_nodes|discretisation|discretization|node_spacing",
      "particles.spacing", NULL},
+    {"lattice|packing|hexagonal|hex|fcc|bcc", "particles.spacing particles.irregularity",
+     "=Cleave fills bodies by a square or cubic lattice of particles.spacing; particles.irregularity moves particles "
+     "off "
+     "it"},
     {"delta|horizon_size|horizon_ratio|m_ratio|cutoff|family|neighbour_radius|neighbor_radius", "particles.horizon",
      "in spacings"},
     {"influence_function|weight_function|kernel", "pd.influence", NULL},
@@ -137,7 +147,7 @@ static const struct foreign {
     {"mesh|mesh_file|input_mesh_file|inp|msh|stl|image", "body solid.mesh particles.spacing",
      "=a file is a shape, as body: {mesh: {file: part.inp, unit: mm}} (also stl, image), filled with particles of "
      "particles.spacing"},
-    {"nset|elset|node_set|node_sets|set|sets|group|groups|region|fix", "regions boundary.region",
+    {"nset|elset|node_set|node_sets|set|sets|group|groups|region", "regions boundary.region",
      "=regions are solids with names (the key regions), or a box, ball, ... where they are used: boundary: [{fixed: "
      "all, "
      "region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}]"},
@@ -153,7 +163,8 @@ static const struct foreign {
      "=Cleave does not do mass scaling; solver: static or relaxation finds equilibria without time"},
     {"geometry|domain|part|instance|specimen|sample", "body bodies", "or `bodies`"},
     {"material_model|constitutive|constitutive_model|law|bond_type|pair_style|formulation|lps|pmb", "model", NULL},
-    {"sphere|circle", "solid.ball solid.disc", NULL},
+    {"sphere", "solid.ball solid.disc", NULL},
+    {"circle", "solid.disc solid.ball", "in the plane, as {disc: {centre: [0, 0], radius: 2 mm}}"},
     {"rectangle|cuboid|cube|brick|prism|square", "solid.box", NULL},
     {"hole|holes|void|cutout|difference", "solid.subtract", NULL},
     /* time */
@@ -166,7 +177,8 @@ static const struct foreign {
      "duration time.step steps.number", "with time.step; load steps of solver static: steps.number"},
     {"wall_time|walltime|time_limit", "time.wall", NULL},
     /* loads, supports, initial states */
-    {"bc|bcs|disbc|loadbc|velocity_bc|displacement_bc|boundary_condition|boundary_conditions|boundaries|constraint|"
+    {"bc|bcs|fix|roller|rollers|disbc|loadbc|velocity_bc|displacement_bc|boundary_condition|boundary_conditions|"
+     "boundaries|constraint|"
      "constraints|support|supports|dirichlet|"
      "encastre|"
      "clamp|clamped|pinned|prescribed_displacement",
@@ -216,6 +228,16 @@ static const struct {
     {"boundary", "force|forces|load|point_force|point_load|cload|F|P|forcedensity|force_density|b",
      "a force on a face is a traction [Pa], force over area: {traction: [0, 1 MPa], face: y+}; a force per volume is "
      "body_force [N/m^3]"},
+    {"boundary", "fix|fixity", "here it is `fixed`, as {fixed: [x], face: x-}; all holds every component"},
+    {"boundary", "roller|rollers|slider|sliding",
+     "a roller is {fixed: [y], face: y-}, which holds one component; a plane of symmetry is {mirror: {axis: y, at: "
+     "0}}"},
+    {"contact", "mu|mu_s|mu_k|friction_coefficient|coefficient", "here it is `friction`"},
+    {"mpm", "kernel|basis|interpolation|gimp|cpdi|shape_functions", "here it is `shape`"},
+    {"probes", "strain|stress|velocity|displacement|acceleration|damage|sensor|gauge|node|position",
+     "{point: {at: [0, 0]}} records the motion at a point and {line: ...} a profile; fields are in every frame, more "
+     "of "
+     "them by output.fields"},
     {"boundary", "encastre|clamp|clamped|pinned|support|constraint|held|hold|rigid|xsymm|ysymm|zsymm",
      "a support is {fixed: all, face: x-}, or [x], [y], [z] for some components; a plane of symmetry is {mirror: "
      "{axis: "
@@ -235,6 +257,20 @@ static const struct {
      "the number of steps follows from `duration`, at the left margin, and time.step"},
     {"particles", "dx|h|size|distance|resolution|number|n|radius|count", "their distance is `spacing`"},
     {"particles", "delta|neighbours|neighbors|cutoff", "the reach of bonds is `horizon`, in spacings"},
+};
+
+/* Values that people give a key although it has another meaning. path: path of the key; words: a|b|c, or * for all
+ * values; text: advice behind the message. */
+static const struct {
+    const char *path, *words, *text;
+} foreign_values[] = {
+    {"model", "correspondence|nosb|nosbpd|nosb_pd|non_ordinary|state_based|neo_hookean|elastic|linear_elastic",
+     "Cleave does not do correspondence or other laws of bonds; mospd comes nearest"},
+    {"solver", "implicit|newmark|hht|newton|newton_raphson|arc_length|quasi_static|quasistatic",
+     "Cleave does not do implicit dynamics; static, with load steps, follows equilibria"},
+    {"contact.stiffness", "*", "it is a factor of the stiffness of the bonds, not a stiffness in N/m or N/m^3"},
+    {"crack", "*", "pre-cracks are the key `cracks`: cracks: [{from: [0, 0], to: [5 mm, 0]}]"},
+    {"time", "*", "the simulated time is the key `duration`, and the time step is time: {step: 1 ns}"},
 };
 
 /* Compares two words, with - and a blank equal to _; words longer than two letters without regard to case. */
@@ -285,6 +321,16 @@ bool foreign_word_advice(const char *word, const char *group, char *text, size_t
     snprintf(text, room, "here it is `%.*s`%s%s", (int)strcspn(name, " "), name, row->text ? ", " : "",
              row->text ? row->text : "");
     return true;
+}
+
+const char *foreign_value_advice(const char *path, const char *value)
+{
+    for (size_t k = 0; k < COUNT_OF(foreign_values); k++) {
+        const char *words = foreign_values[k].words;
+        if (strcmp(foreign_values[k].path, path) != 0) continue;
+        if (!strcmp(words, "*") || words_have(words, value)) return foreign_values[k].text;
+    }
+    return NULL;
 }
 
 const char *foreign_word_keys(const char *word)

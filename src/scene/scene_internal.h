@@ -207,6 +207,10 @@ const struct quantity *variable_value(struct reader *r, const char *name, char *
 bool number_of_text(struct reader *r, real *value, const char *text, enum unit unit, bool infinite, char *what,
                     size_t room);
 
+/* Replaces the message what[room] about a number of the key k if `text` is a length and the key counts spacings: by one
+ * that contains the length in spacings. The spacing of the scene must have been read. */
+void length_in_spacings_advise(struct reader *r, const struct key *k, const char *text, char *what, size_t room);
+
 /* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
  * messages; NULL for other words. */
 const char *reserved_word(const char *name);
@@ -290,6 +294,9 @@ const struct key *key_elsewhere(const char *leaf, int *keys_of_name);
 /* Writes advice for a word of another program that is no key of `group` ("" for the top): the equivalent key, or a note
  * that Cleave has none. Returns false, and writes nothing, for unknown words. */
 bool foreign_word_advice(const char *word, const char *group, char *text, size_t room);
+
+/* Returns advice about a wrong value of the key at `path`, or NULL. */
+const char *foreign_value_advice(const char *path, const char *value);
 
 /* Returns the keys equivalent to a word of another program, separated by spaces, perhaps none; NULL for unknown words.
  */

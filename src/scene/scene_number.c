@@ -162,3 +162,17 @@ bool number_of_text(struct reader *r, real *value, const char *text, enum unit u
     if (looks_like_expression(r, text)) snprintf(what, room, "%s", other);
     return false;
 }
+
+void length_in_spacings_advise(struct reader *r, const struct key *k, const char *text, char *what, size_t room)
+{
+    char other[256];
+    real length;
+    if (k->unit != UNIT_NONE || !strstr(k->help, "in spacings")) return;
+    if (!number_of_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
+    if (!(r->scene->spacing > 0)) {
+        snprintf(what, room, "is a length; a number of spacings is expected");
+        return;
+    }
+    snprintf(what, room, "is a length; a number of spacings is expected, here %s: %.4g%s", key_leaf(k),
+             length / r->scene->spacing, strcmp(key_leaf(k), "horizon") ? "" : " (3.015 is usual)");
+}

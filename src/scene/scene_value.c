@@ -178,7 +178,10 @@ status check_keys(struct reader *r, const struct node *map, const char *group)
 
 status expect_kind(struct reader *r, const struct node *n, enum node_kind kind, const char *what)
 {
-    return n->kind == kind ? OK : fault(r, n, "%s is not %s", node_shown(r, n), what);
+    const bool top = n->key && n->parent && !n->parent->key;
+    const char *advice = top ? foreign_value_advice(n->key, n->text) : NULL;
+    if (n->kind == kind) return OK;
+    return fault(r, n, "%s is not %s%s%s", node_shown(r, n), what, advice ? "; " : "", advice ? advice : "");
 }
 
 status expect_list(struct reader *r, const struct key *k, const struct node *n)
@@ -203,12 +206,14 @@ static status check_range(struct reader *r, const struct key *k, const struct no
     const struct unit_row *unit = &unit_rows[k->unit];
     const char *name = k->type == KEY_INT ? "a whole number" : unit->name;
     bool bounded = isfinite(range->most);
-    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s", node_shown(r, n), name,
+    const char *advice = foreign_value_advice(k->path, n->text);
+    return fault(r, n, "%s is out of range; %s %s %s%s%s is expected%s%s%s%s", node_shown(r, n), name,
                  range->open ? "above" : "from", number_text(least, range->least),
                  bounded       ? (range->open ? " up to " : " to ")
                  : range->open ? ""
                                : " on",
-                 bounded ? number_text(most, range->most) : "", k->unit ? ", as " : "", k->unit ? unit->example : "");
+                 bounded ? number_text(most, range->most) : "", k->unit ? ", as " : "", k->unit ? unit->example : "",
+                 advice ? "; " : "", advice ? advice : "");
 }
 
 status read_number(struct reader *r, const struct key *k, const struct node *n, real *value)
@@ -222,8 +227,10 @@ status read_number(struct reader *r, const struct key *k, const struct node *n, 
         return OK;
     }
     bool infinite = k->infinite && !(k->type == KEY_POINT && r->bounded);
-    if (!number_of_text(r, value, n->text, k->unit, infinite, what, sizeof what))
+    if (!number_of_text(r, value, n->text, k->unit, infinite, what, sizeof what)) {
+        length_in_spacings_advise(r, k, n->text, what, sizeof what);
         return fault(r, n, "%s %s", node_shown(r, n), what);
+    }
     return check_range(r, k, n, *value);
 }
 
@@ -287,7 +294,10 @@ static status read_choice(struct reader *r, const struct key *k, const struct no
 {
     const char *words = word_list(r, k->words);
     int word = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
-    if (word < 0) return fault(r, n, "%s is unknown; %s is expected", node_shown(r, n), words);
+    const char *advice = foreign_value_advice(k->path, n->text);
+    if (word < 0)
+        return fault(r, n, "%s is unknown; %s is expected%s%s", node_shown(r, n), words, advice ? "; " : "",
+                     advice ? advice : "");
     if (k->size == sizeof(int)) memcpy(place, &word, sizeof word);
     if (k->size == 1) *(bool *)place = word == 1;
     return OK;

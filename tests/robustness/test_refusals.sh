@@ -98,6 +98,14 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
 6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
 8|  - sphere: {radius: 1}|8:5|here it is `ball`
+8|  - circle: {radius: 1}|8:5|here it is `disc`
+5|method: adaptive^contact: {mu: 0.3}|6:11|here it is `friction`
+11|mpm: {kernel: gimp}|11:7|here it is `shape`
+5|method: adaptive^model: correspondence|6:1|does not do correspondence or other laws
+5|method: adaptive^contact: {stiffness: 1e9}|6:11|it is a factor of the stiffness of the bonds
+5|method: adaptive^time: 10 us|6:1|the simulated time is the key `duration`
+5|method: adaptive^crack: [{at: 1}]|6:1|pre-cracks are the key `cracks`
+10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|a number of spacings is expected, here horizon: 3
 2|space: plane stress^crack: {from: [0, 0], to: [1 mm, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
 13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
 16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
