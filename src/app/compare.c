@@ -336,7 +336,8 @@ static void compare_time(const struct pair *p)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
                           compare_figure_of(p->folder[1], figure[k].key));
     double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
-    if (a > 0 && b > 0) printf("  A/B = %.4g, t_r = 1 - A/B = %.4g\n", a / b, 1 - a / b);
+    if (a > 0 && b > 0)
+        printf("  A/B = %.4g, t_r = 1 - A/B = %.4g: the share of the time of B that A saves\n", a / b, 1 - a / b);
 }
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */

@@ -28,45 +28,60 @@ static const struct entry description[] = {
 };
 static const struct entry options[] = {
     {"-o DIR",
-     "folder of the results (default: results/ and the scene's name, with _sweep or _converge behind it for "
-     "studies). One that holds another run is refused.",
-     "run sweep converge"},
-    {"-o DIR", "folder that the input of LAMMPS goes to.", "export"},
-    {"-o FILE", "the picture, or a folder for it (default: pictures/ of the run, results/NAME_scene.png).", "plot"},
+     "writes the results to this folder (default: results/NAME, where NAME is the name of the scene). A folder that "
+     "contains another run is refused.",
+     "run"},
+    {"-o DIR",
+     "writes the results to this folder (default: results/NAME_sweep or results/NAME_converge). A folder that contains "
+     "another study is refused.",
+     "sweep converge"},
+    {"-o DIR", "writes the input of LAMMPS to this folder.", "export"},
+    {"-o FILE",
+     "writes the picture to this file or folder (default: pictures/ of the run; with --scene, results/NAME_scene.png).",
+     "plot"},
     {"-s KEY=VALUE",
-     "lays a value over the scene's: material.young=70e9, boundary.0.velocity='[0, 20 m/s]', cracks.1.to='[20 mm, 0]', "
-     "materials.steel.young=210e9. Items of lists go by number, from 0 (boundary.0 or boundary[0]), or by name. An "
-     "empty value takes the key, or the item, away.",
+     "replaces the value of a key of the scene, or adds the key: material.young=70e9, boundary.0.velocity='[0, 20 "
+     "m/s]', "
+     "cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists are named by their number, from 0 "
+     "(boundary.0 or boundary[0]), or by their name. An empty value, KEY=, removes the key or the item.",
      NULL},
-    {"-t THREADS", "number of threads. The results do not depend on it.", NULL},
-    {"--resume", "goes on from the newest checkpoint.", NULL},
-    {"--overwrite",
-     "replaces an older run, study or export, which is left alone otherwise; with plot, a file that cleave has not "
-     "drawn.",
+    {"-t THREADS", "sets the number of threads. The results do not depend on it.", NULL},
+    {"--resume", "continues the run in the folder from its newest checkpoint.", NULL},
+    {"--overwrite", "replaces an older run in the folder. Without this option the command is refused.", "run"},
+    {"--overwrite", "replaces an older study or export in the folder. Without this option the command is refused.",
+     "sweep converge export"},
+    {"--overwrite", "replaces a file that cleave has not drawn. Without this option the command is refused.", "plot"},
+    {"-q", "prints no progress and no figures at the end. Warnings are printed, and are in summary.json.", NULL},
+    {"-j RUNS", "sets how many runs of a study run at the same time (default: the number of cores).", NULL},
+    {"--list", "prints the command of each run, one per line, and runs nothing.", NULL},
+    {"--collect", "makes the table and the pictures of a study from its finished runs, and runs nothing.", NULL},
+    {"--of FIGURE",
+     "studies this figure of summary.json, its names joined by points, as crack.start_time. The option may be "
+     "repeated.",
      NULL},
-    {"-q", "no progress and no figures at the end; warnings are still said, and stand in summary.json.", NULL},
-    {"-j RUNS", "runs of a study at once (default: as many as there are cores).", NULL},
-    {"--list", "runs nothing and prints the command of each run, a line each.", NULL},
-    {"--collect", "runs nothing and makes the table and pictures of a study from the runs that are done.", NULL},
-    {"--of FIGURE", "a figure of summary.json, its names joined by points, as crack.start_time; several may be named.",
-     NULL},
-    {"--budget TIME", "time for the runs of a study, as 5min.", NULL},
-    {"--levels COUNT", "number of spacings, from 3 to 6.", NULL},
-    {"--runs COUNT", "number of runs at each spacing.", NULL},
+    {"--budget TIME", "limits the time for the runs of a study, as 5min.", NULL},
+    {"--levels COUNT", "sets the number of spacings, from 3 to 6.", NULL},
+    {"--runs COUNT", "sets the number of runs at each spacing.", NULL},
     {"--horizon", "keeps the length of the horizon while the spacing varies.", NULL},
     {"--field NAME", "draws this field of the frames: displacement, velocity_y, von_mises, ...", NULL},
-    {"--times T,...", "of the frames nearest to these times, as 10us,20us; or all, last.", NULL},
-    {"--frames N", "of so many frames, evenly spread; or all, last.", NULL},
-    {"--slice z=4mm", "through a solid; without a place, where most damage is.", NULL},
-    {"--view iso", "a solid from outside: iso, x+, x-, y+, y-, z+, z-.", NULL},
-    {"--format png", "png, svg, pdf; mp4, gif (films of all frames, by ffmpeg). The ending of -o says the same.", NULL},
+    {"--times T,...", "draws the frames nearest to these times, as 10us,20us; or all, or last.", NULL},
+    {"--frames N", "draws so many frames, evenly spread in time; or all, or last.", NULL},
+    {"--slice z=4mm", "draws a section through a solid. Without a position the section goes through the most damage.",
+     NULL},
+    {"--view iso", "draws a solid from outside: iso, x+, x-, y+, y-, z+, z-.", NULL},
+    {"--format png",
+     "sets the format: png, svg, pdf, or mp4 and gif (films of all frames, made by ffmpeg). The ending of the file of "
+     "-o sets it, too.",
+     NULL},
     {"--scene SCENE", "draws a scene before it runs: particles, cracks, loads, supports, probes.", NULL},
-    {"--no-trial", "check: leaves out run time and memory, for which it takes trial steps.", NULL},
-    {"--style peri", "peri: pair_style peri of every LAMMPS; bpm: bond_style bpm/peri of 2026.", NULL},
-    {"--allow-different", "exports what differs in LAMMPS, too; README.txt there says in what.", NULL},
-    {"--quick", "smaller cases.", NULL},
-    {"--readme", "writes what is printed and tables to bench/results/ of the source tree.", NULL},
-    {"--help", "after any command: what it takes.", NULL},
+    {"--no-trial", "leaves out the trial steps from which run time and memory are estimated.", NULL},
+    {"--style peri",
+     "sets the style of LAMMPS: peri is pair_style peri of every version, bpm is bond_style bpm/peri of 2026.", NULL},
+    {"--allow-different",
+     "exports scenes that LAMMPS computes differently, too. README.txt in the folder lists the differences.", NULL},
+    {"--quick", "measures smaller cases.", NULL},
+    {"--readme", "writes the output and tables to bench/results/ of the source tree.", NULL},
+    {"--help", "after any command: prints its usage and options.", NULL},
     {"--version", "in place of a command: prints the version, and the commit where the source tree was in git.", NULL},
 };
 static const struct entry exit_status[] = {
@@ -77,8 +92,8 @@ static const struct entry exit_status[] = {
 };
 static const struct entry environment[] = {
     {"NO_COLOR, OMP_NUM_THREADS, OMP_PLACES, OMP_PROC_BIND", "are honoured.", NULL},
-    {"CLEAVE_SIMD", "takes a set of kernels other than the widest that the processor runs: avx512, avx2 or portable.",
-     NULL},
+    {"CLEAVE_SIMD",
+     "selects a set of kernels in place of the widest that the processor can run: avx512, avx2 or portable.", NULL},
 };
 static const struct entry signals[] = {
     {NULL,
@@ -216,6 +231,14 @@ static void section_troff(FILE *out, const struct section *s)
     }
 }
 
+/* Returns true if an entry is no option, or one of `cleave run`. */
+static bool is_of_run(const struct section *s, const struct entry *e)
+{
+    const struct command *run = NULL;
+    if (s->entry != options) return true;
+    return command_find("run", &run) == OK && takes_option(run, e->term) && is_of(e, run);
+}
+
 status manual_run_print(FILE *out)
 {
     for (size_t j = 0; j < COUNT_OF(sections); j++) {
@@ -223,6 +246,7 @@ status manual_run_print(FILE *out)
         if (!s->of_run) continue;
         fprintf(out, "%s\n", s->title);
         for (int k = 0; k < s->n; k++) {
+            if (!is_of_run(s, &s->entry[k])) continue;
             if (s->entry[k].term) fprintf(out, "  %s\n", s->entry[k].term);
             wrapped(out, s->entry[k].text, s->entry[k].term ? 6 : 2);
         }

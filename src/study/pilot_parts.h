@@ -60,8 +60,7 @@ void pilot_set_overrides(struct pilot *to, const struct scene_override *override
  * be attributed to the figure (it is missing or zero), FAILED if no figure has values at every spacing. */
 status pilot_judge(struct pilot_search *p, struct pilot_candidate *candidate, const struct convergence_study *s);
 
-/* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected duration of the run.
- * */
+/* Prints the results of the pilot runs of the method `candidate`: spacing, accuracy, and expected time of the run. */
 void pilot_print(const struct pilot_search *p, const struct pilot_candidate *candidate);
 
 /* Stores the choice *to, the scene and overrides for which it was made, and the error bars of the chosen method *best
