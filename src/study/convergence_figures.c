@@ -17,6 +17,9 @@ enum { PRINTED_MOST = 24 };
  * (empirical), so that one step of the horizon removes only a third of it. */
 #define HORIZON_REST 2.9
 
+/* Largest standard deviation of an order that is printed. That of the prior, uniform from 0.5 to 2, is 0.43. */
+#define ORDER_KNOWN 0.35
+
 /* ---- sensitivity of a figure ------------------------------------------------------------------------------------- */
 
 /* Returns the change of a figure if the time step is 10 % longer: the slope of a least-squares fit, over the runs of
@@ -106,10 +109,11 @@ static bool figure_moves(const struct figure_study *f)
 /* ---- choice ------------------------------------------------------------------------------------------------------ */
 
 /* Returns true if a figure is reported by a study that requests none. Figures of single crack tips are not, as the
- * numbers of tips differ between runs. */
-static bool is_of_interest(const char *name)
+ * numbers of tips differ between runs; nor are angles in a line. */
+static bool is_of_interest(const struct convergence_study *s, const char *name)
 {
     const char *dot = strrchr(name, '.');
+    if (s->scene.dim == 1 && dot && !strcmp(dot, ".angle_deg")) return false;
     return !study_figure_is_technical(name) && strncmp(name, "crack.tips.", 11) != 0 && !(dot && !strcmp(dot, ".tied"));
 }
 
@@ -131,9 +135,9 @@ static bool is_one_of_several(const struct convergence_study *s, const char *nam
  * energies. */
 static int part_of(const char *name) { return !strncmp(name, "crack.", 6) ? 0 : !strncmp(name, "energy.", 7) ? 2 : 1; }
 
-static bool is_wanted(const char *name, const char *const *wanted, int wanteds)
+static bool is_wanted(const struct convergence_study *s, const char *name, const char *const *wanted, int wanteds)
 {
-    if (wanteds == 0) return is_of_interest(name);
+    if (wanteds == 0) return is_of_interest(s, name);
     for (int k = 0; k < wanteds; k++)
         if (strcmp(name, wanted[k]) == 0) return true;
     return false;
@@ -158,7 +162,7 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     *figure = NEW("study.figures", s->table.figures, struct figure_study);
     *figures = 0;
     for (int f = 0; f < s->table.figures && wanteds == 0; f++)
-        if (is_of_interest(s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
+        if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
                     "%s is left out, as several positions are equal in a run, which reports one of them; --of %s shows "
                     "it\n",
@@ -166,7 +170,7 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
             if ((wanteds > 0 || !is_one_of_several(s, s->table.figure[f])) && part_of(s->table.figure[f]) == part &&
-                is_wanted(s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
+                is_wanted(s, s->table.figure[f], wanted, wanteds) && figure_make(&(*figure)[*figures], s, f) &&
                 (wanteds > 0 || figure_moves(&(*figure)[*figures])))
                 ++*figures;
     figures_units(s, *figure, *figures);
@@ -253,6 +257,32 @@ static const char *mover(const struct figure_study *f)
     return most == 0 ? "nothing" : most == spacing ? "spacing" : most == step ? "time step" : "horizon";
 }
 
+/* Returns true if the limit of a crack length or an energy is negative although its means are positive. */
+static bool limit_is_impossible(const struct figure_study *f)
+{
+    const char *dot = strrchr(f->name, '.');
+    const bool positive = !strncmp(f->name, "energy.", 7) || (dot && !strcmp(dot, ".length_end"));
+    double least = INFINITY;
+    for (int k = 0; k < f->c.levels; k++) least = fmin(least, f->c.level[k].mean);
+    return positive && least > 0 && f->c.extrapolated < 0;
+}
+
+/* Prints the orders of convergence and the limit of a figure, unless its means do not converge. */
+static void order_print(const struct figure_study *f)
+{
+    const struct convergence *c = &f->c;
+    char text[40];
+    if (c->verdict == VERDICT_DIVERGES || c->verdict == VERDICT_OSCILLATES) return;
+    if (isfinite(c->order)) printf(", order %.2f from the finest three spacings", c->order);
+    if (!isfinite(c->order_likely)) return;
+    if (c->order_error < ORDER_KNOWN)
+        printf("; order %.1f +- %.1f from all spacings", c->order_likely, c->order_error);
+    else
+        printf("; all spacings allow orders from 0.5 to 2");
+    certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
+    printf(", %s%s", limit_is_impossible(f) ? "no limit, which would be negative: " : "limit ", text);
+}
+
 static void figure_print(const struct figure_study *f, int own)
 {
     const struct convergence *c = &f->c;
@@ -263,11 +293,7 @@ static void figure_print(const struct figure_study *f, int own)
         printf(" %s (%.4g mm)%s", text, 1e3 * c->level[k].spacing, k > 0 ? "," : "");
     }
     printf("; %s", verdict_name[c->verdict]);
-    if (isfinite(c->order)) printf(", order %.2f from the finest three spacings", c->order);
-    if (isfinite(c->order_likely)) {
-        certain_digits(text, sizeof text, c->extrapolated, c->uncertainty[0] / 4);
-        printf("; order %.1f +- %.1f from all spacings, limit %s", c->order_likely, c->order_error, text);
-    }
+    order_print(f);
     if (isfinite(c->index)) printf("; grid convergence index %.2g", c->index);
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
     printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty[0], c->level[0].error,
