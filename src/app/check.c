@@ -228,11 +228,12 @@ static bool texts_alike(const char *a, const char *b)
     return true;
 }
 
-/* Adds the warnings of trial steps to *found, unless one that differs in numbers alone, such as the time, is there. */
+/* Adds the warnings of trial steps to *found, unless one that differs in numbers alone, such as the time, is there. The
+ * warning of a break in a collision is left out, as advise_shocks announces the collision. */
 static void warnings_of_trial(struct warnings *found, const struct warnings *trial)
 {
     for (int k = 0; k < trial->n; k++) {
-        bool there = false;
+        bool there = strstr(trial->text[k], ", in a collision at ");
         for (int m = 0; m < found->n; m++) there |= texts_alike(found->text[m], trial->text[k]);
         if (!there) warnings_add(found, "%s", trial->text[k]);
     }

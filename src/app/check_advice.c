@@ -20,11 +20,10 @@
 #include "mesh/mesh_part.h"
 #include "step/shock.h"
 
-#define FEATURE 4 /* horizons */
-/* share of FEATURE from which on a part is thick enough: 12 spacings at a horizon of 3.015 spacings have 3.98 */
-#define FEATURE_NEARLY 0.99
-#define WAVE 16   /* spacings */
-#define REACHED 4 /* rho c v  */
+#define FEATURE 4   /* horizons */
+#define ENOUGH 0.99 /* share of FEATURE horizons that is tolerated: 12 spacings are 3.98 horizons */
+#define WAVE 16     /* spacings */
+#define REACHED 4   /* rho c v  */
 #define PASSAGES 4
 #define LITTLE 0.1
 #define BESIDE_FACE 1.5  /* largest distance at which a probe counts as at a face [spacings] */
@@ -100,11 +99,11 @@ static void advise_thin(const struct scene *s, double layers, FILE *out)
     fprintf(out, "; method adaptive bends within 1 %% from 10 layers on");
 }
 
-/* Returns the largest number of two decimal digits that is at most `value`, which is positive. */
-static real rounded_down(real value)
+/* Rounds a positive number down to two digits, with a tolerance for round-off. */
+static real two_digits_down(real value)
 {
     const real digit = pow(10, floor(log10(value)) - 1);
-    return digit * floor(value / digit * (1 + 1e-9));
+    return floor(value / digit + 1e-6) * digit;
 }
 
 /* Writes a line for each body with a part thinner than FEATURE horizons, where most particles have incomplete
@@ -113,15 +112,14 @@ static void advise_features(const struct run *e, FILE *out)
 {
     const struct scene *s = e->scene;
     for (int b = 0; b < s->bodies && s->dim > 1 && s->method != METHOD_MPM; b++) {
-        const double layers = count_thin_layers(e, b, FEATURE_NEARLY * FEATURE * s->horizon),
-                     size = layers * s->spacing;
+        const double layers = count_thin_layers(e, b, ENOUGH * FEATURE * s->horizon), size = layers * s->spacing;
         if (!isfinite(layers)) continue;
         fprintf(
             out,
             "accuracy       body %s: a part of %.4g m is %.3g horizons (%.3g spacings) thick; below %d horizons most "
             "particles lack neighbours beyond a face: use a spacing of %s",
             s->body[b].name, size, size / horizon_of(s), layers, FEATURE,
-            length_in_words(rounded_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
+            length_in_words(two_digits_down(size / (FEATURE * s->horizon)), 2, s->spacing).text);
         if (s->method == METHOD_PD) advise_thin(s, layers, out);
         fprintf(out, "\n");
     }
@@ -215,17 +213,34 @@ static real rise_time(const struct time_function *f)
     return f->kind == TIME_PULSE || f->kind == TIME_RAMP ? f->until - f->from : INFINITY;
 }
 
+/* Returns true if boundary b is a load that rises in the time `rise` [s]. */
+static bool rises_in(const struct boundary *b, real rise)
+{
+    return b->kind != BOUNDARY_MIRROR && rise_time(&b->time) == rise;
+}
+
+/* Writes a line for all loads with the rise time of boundary b, if no earlier boundary has this rise time and waves
+ * travel less than WAVE spacings in it. */
+static void advise_rise(const struct scene *s, const struct material_tables *tables, int b, FILE *out)
+{
+    const real rise = rise_time(&s->boundary[b].time), length = tables->wave_speed * rise / s->spacing;
+    if (!rises_in(&s->boundary[b], rise) || length >= WAVE) return;
+    for (int k = 0; k < b; k++)
+        if (rises_in(&s->boundary[k], rise)) return;
+    int more = 0;
+    fprintf(out, "accuracy       boundary %s", s->boundary[b].name);
+    for (int k = b + 1; k < s->boundaries; k++)
+        if (rises_in(&s->boundary[k], rise)) fprintf(out, ", %s", s->boundary[k].name), more++;
+    fprintf(out,
+            " change%s while a wave travels %.3g spacings; below %d spacings waves disperse: use a spacing of %s or a "
+            "slower load\n",
+            more ? "" : "s", length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
+}
+
 /* Writes a line for loads and pulses shorter than WAVE spacings. */
 static void advise_waves(const struct scene *s, const struct material_tables *tables, FILE *out)
 {
-    for (int b = 0; b < s->boundaries && scene_moves(s); b++) {
-        const real length = tables->wave_speed * rise_time(&s->boundary[b].time) / s->spacing;
-        if (s->boundary[b].kind != BOUNDARY_MIRROR && length < WAVE)
-            fprintf(out,
-                    "accuracy       boundary %s changes while a wave travels %.3g spacings; below %d spacings waves "
-                    "disperse: use a spacing of %s or a slower load\n",
-                    s->boundary[b].name, length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
-    }
+    for (int b = 0; b < s->boundaries && scene_moves(s); b++) advise_rise(s, tables, b, out);
     for (int k = 0; k < s->initials; k++)
         if (s->initial[k].sets_pulse && s->initial[k].pulse.width < WAVE * s->spacing)
             fprintf(
@@ -415,9 +430,10 @@ static void hint_frame(const struct run *e, struct warnings *to)
         if (strain < LITTLE) snprintf(text, sizeof text, ", and waves strain it by at most %.2g", strain);
         warnings_add(
             to,
-            "body %s meets no other body%s: mpm.frame: %s in place of current would take a tenth to a thirtieth "
+            "body %s meets no other body%s%s: mpm.frame: %s in place of current would take a tenth to a thirtieth "
             "of the time for its material points",
-            e->scene->body[b].name, text, e->scene->current_frame_key ? "reference" : "auto");
+            e->scene->body[b].name, e->scene->rigids > 0 ? " but rigid ones" : "", text,
+            e->scene->current_frame_key ? "reference" : "auto");
     }
 }
 

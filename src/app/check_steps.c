@@ -66,14 +66,14 @@ static real crack_behind(const struct scene *s, const struct particles *part, co
 
 void print_load_steps(const struct run *e)
 {
-    static const char *const by[] = {[CONTROL_LOAD] = "by pseudo-time",
+    static const char *const by[] = {[CONTROL_LOAD] = "of equal length",
                                      [CONTROL_ENERGY] = "at most, by energy",
                                      [CONTROL_OPENING] = "by an opening"};
     const struct scene *s = e->scene;
     const int tips = tips_of_cracks(e->fracture);
     printf(
-        "solver         static: %d load steps %s, pseudo-time to %.4g s, each in equilibrium to a residual of %.3g of "
-        "the load\n",
+        "solver         static: %d load steps %s, pseudo-time from 0 to %.4g s, each in equilibrium to a residual of "
+        "%.3g of the load\n",
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (is_sif_driven(e))

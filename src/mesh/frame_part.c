@@ -52,7 +52,10 @@ status frames_choose(struct reference_frame *r, struct grid_method *mpm, struct 
     grid_part_make(mpm, s, p, frame_in_use(r));
     if (s->bodies == 1 && s->body[0].frame == FRAME_AUTO && s->method != METHOD_PD) {
         const char *why = frame_obstacle(p, mpm, &r->hollow);
-        take_frame(&r->choice[0], !why, why ? why : "it keeps its neighbours and meets no other body");
+        take_frame(&r->choice[0], !why,
+                   why             ? why
+                   : s->rigids > 0 ? "it keeps its neighbours and meets no other body but rigid ones"
+                                   : "it keeps its neighbours and meets no other body");
         if (why) grid_part_make(mpm, s, p, frame_in_use(r));
     }
     frames_mark(p, r);
