@@ -111,7 +111,8 @@ static const struct {
     {"method: adaptive", "method: fem", "5:1: method: fem is unknown; pd, mpm, adaptive or auto is expected"},
     {"method: adaptive", "model: lps", "5:1: model: lps is unknown; bond, ospd or mospd is expected"},
     {"method: adaptive", "solver: newton",
-     "5:1: solver: newton is unknown; explicit, relaxation, cg or static is expected"},
+     "5:1: solver: newton is unknown; explicit, relaxation, cg or static is expected; Cleave does not do implicit "
+     "dynamics; static, with load steps, follows equilibria"},
     {"method: adaptive", "solver: cg", "5:1: solver: cg is for method pd; relaxation is expected with material points"},
     {"method: adaptive", "solver_tolerance: 0",
      "5:1: solver_tolerance: 0 is out of range; a plain number from 1e-12 to 0.1 is expected"},
