@@ -196,8 +196,9 @@ status figure_name_check(const struct scene *s, const char *name)
     }
     if (known && !lacks) return OK;
     if (known) return status_set(REFUSED, "%.80s: no run of this scene has this figure: it needs %s", name, lacks);
+    const bool similar = n.distance <= (int)strlen(n.name) / 2;
     return status_set(REFUSED,
-                      "%.80s: summary.json has no such figure; the nearest is %s, and names in it are joined by "
-                      "points, as in crack.angle_deg",
-                      name, n.name);
+                      "%.80s: summary.json has no such figure; %s%s, and names in it are joined by points, as in "
+                      "crack.angle_deg",
+                      name, similar ? "the nearest is " : "inputs/results.md describes them", similar ? n.name : "");
 }
