@@ -40,6 +40,12 @@ status option_has_value(const char *option, bool has, const char *usage)
     return has ? OK : status_set(REFUSED, "%s needs a value; usage: cleave %s", option, usage);
 }
 
+status option_refuse_second(const char *scene, const char *word)
+{
+    if (strchr(word, '=')) return status_set(REFUSED, "%s: a value of a key follows the option -s: -s %s", word, word);
+    return status_set(REFUSED, "one scene at a time: %s and %s", scene, word);
+}
+
 static status read_threads(struct run_arguments *a, const char *text)
 {
     return count_read(&a->threads, text, 1, THREADS_MOST)
@@ -78,7 +84,7 @@ static status arguments_read_all(struct run_arguments *a, int argc, char **argv,
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene)
-            return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
+            return option_refuse_second(a->scene, word);
         else
             a->scene = word;
     }

@@ -88,7 +88,7 @@ static status converge_words(struct converge_arguments *a, int argc, char **argv
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->wish.scene)
-            return status_set(REFUSED, "one scene at a time: %s and %s", a->wish.scene, word);
+            return option_refuse_second(a->wish.scene, word);
         else
             a->wish.scene = word;
     }

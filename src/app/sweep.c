@@ -56,7 +56,7 @@ static status sweep_words(struct sweep_arguments *a, int argc, char **argv)
         else if (word[0] == '-' && word[1])
             return status_set(REFUSED, "unknown option %s; usage: cleave %s", word, usage);
         else if (a->scene)
-            return status_set(REFUSED, "one scene at a time: %s and %s", a->scene, word);
+            return option_refuse_second(a->scene, word);
         else
             a->scene = word;
     }

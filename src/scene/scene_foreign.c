@@ -307,6 +307,8 @@ static const struct foreign *foreign_row(const char *word)
 
 bool foreign_word_advice(const char *word, const char *group, char *text, size_t room)
 {
+    if (isdigit((unsigned char)*word))
+        return snprintf(text, room, "a comma separates keys here; the decimal sign is a point, as in 1.5 mm"), true;
     for (size_t k = 0; k < COUNT_OF(foreign_within) && *group; k++)
         if (strcmp(foreign_within[k].group, group) == 0 && words_have(foreign_within[k].words, word))
             return snprintf(text, room, "%s", foreign_within[k].text), true;

@@ -211,6 +211,10 @@ bool number_of_text(struct reader *r, real *value, const char *text, enum unit u
  * that contains the length in spacings. The spacing of the scene must have been read. */
 void length_in_spacings_advise(struct reader *r, const struct key *k, const char *text, char *what, size_t room);
 
+/* Returns the unit that the name of an unknown unit means, as text for a message: `us?` for usec; NULL for other names
+ * (scene_unit_words.c). */
+const char *unit_word_meant(const char *text);
+
 /* Returns the meaning of a word that is reserved in expressions and cannot name a variable, such as "a unit", for
  * messages; NULL for other words. */
 const char *reserved_word(const char *name);

@@ -312,9 +312,10 @@ static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit,
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
         char other[UNIT_LONGEST + 1];
-        if (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other))
+        const char *meant = unit_word_meant(unit_text);
+        if (!meant && (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other)))
             return complain(c, "has an unknown unit", unit);
-        snprintf(wrong, sizeof wrong, "has an unknown unit (%s?)", other);
+        snprintf(wrong, sizeof wrong, "has an unknown unit (%s%s)", meant ? meant : other, meant ? "" : "?");
         return complain(c, wrong, unit);
     }
     const signed char *twice = unit_rows[unit].twice;

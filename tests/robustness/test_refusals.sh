@@ -98,6 +98,9 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, fatigue: {}}|6:43|does not do fatigue
 6|material: {young: 190 GPa, density: 7800, yield: 1 GPa}|6:43|here it is `yield_stress`
 8|  - sphere: {radius: 1}|8:5|here it is `ball`
+4|duration: 1 usec|4:1|has an unknown unit (us?)
+6|material: {young: 190 psi, density: 7800}|6:12|(1 psi is 6.895e3 Pa)
+10|particles: {spacing: 1,5 mm}|10:24|the decimal sign is a point
 8|  - circle: {radius: 1}|8:5|here it is `disc`
 5|method: adaptive^contact: {mu: 0.3}|6:11|here it is `friction`
 11|mpm: {kernel: gimp}|11:7|here it is `shape`
@@ -365,6 +368,7 @@ run|no scene given|usage
 run good.yaml --fast|unknown option --fast|usage
 run good.yaml -x|unknown option -x|usage
 run good.yaml good.yaml|one scene at a time|
+run good.yaml method=pd|method=pd: |follows the option -s: -s method=pd
 run good.yaml -o|-o needs a value|
 run good.yaml -s|-s needs a value|
 run good.yaml -s duration|-s duration|particles.spacing=0.5mm

@@ -1,0 +1,53 @@
+/* Explains names of units that scenes do not have, from other systems of units or spellings, for messages. */
+#include <string.h>
+
+#include "scene_internal.h"
+
+/* word: name of a unit, also its plural in s; meant: text of the message. */
+static const struct {
+    const char *word, *meant;
+} unit_words[] = {
+    {"sec", "s?"},
+    {"second", "s?"},
+    {"msec", "ms?"},
+    {"millisecond", "ms?"},
+    {"usec", "us?"},
+    {"microsec", "us?"},
+    {"microsecond", "us?"},
+    {"nsec", "ns?"},
+    {"minute", "min?"},
+    {"hour", "h?"},
+    {"hr", "h?"},
+    {"meter", "m?"},
+    {"metre", "m?"},
+    {"micron", "um?"},
+    {"in", "1 in is 25.4 mm"},
+    {"inch", "1 inch is 25.4 mm"},
+    {"ft", "1 ft is 304.8 mm"},
+    {"psi", "1 psi is 6.895e3 Pa"},
+    {"ksi", "1 ksi is 6.895e6 Pa"},
+    {"Mpsi", "1 Mpsi is 6.895e9 Pa"},
+    {"bar", "1 bar is 1e5 Pa"},
+    {"atm", "1 atm is 101325 Pa"},
+    {"kgf", "1 kgf is 9.80665 N"},
+    {"lbf", "1 lbf is 4.448 N"},
+    {"lb", "1 lb is 0.4536 kg"},
+    {"t", "1 t is 1e3 kg"},
+    {"tonne", "1 t is 1e3 kg"},
+    {"g/cc", "g/cm^3?"},
+    {"kg/cum", "kg/m^3?"},
+    {"erg", "1 erg is 1e-7 J"},
+    {"fps", "1 ft/s is 0.3048 m/s"},
+    {"mph", "1 mph is 0.447 m/s"},
+    {"km/h", "1 km/h is 0.2778 m/s"},
+};
+
+const char *unit_word_meant(const char *text)
+{
+    for (size_t k = 0; k < COUNT_OF(unit_words); k++) {
+        const size_t length = strlen(unit_words[k].word);
+        if (strncmp(text, unit_words[k].word, length) != 0) continue;
+        if (!text[length] || !strcmp(text + length, "s")) return unit_words[k].meant;
+    }
+    return NULL;
+}
