@@ -307,11 +307,10 @@ static bool unit_in_other_case(const char *text, char *out, size_t room)
 static bool unit_fits(struct complaint c, const char *unit_text, enum unit unit, int *ten)
 {
     struct measure m;
-    char wrong[64];
+    char wrong[64], other[UNIT_LONGEST + 1];
     *ten = 0;
     if (*unit_text == '\0') return true;
     if (!unit_read(&m, unit_text)) {
-        char other[UNIT_LONGEST + 1];
         const char *meant = unit_word_meant(unit_text);
         if (!meant && (strlen(unit_text) > UNIT_LONGEST || !unit_in_other_case(unit_text, other, sizeof other)))
             return complain(c, "has an unknown unit", unit);
