@@ -178,4 +178,34 @@ pull()
 whole=$(pull quarters)
 between "advances of the half" "$(compute "$(pull quarter) / $whole - 1")" -1e-6 1e-6
 
+# ---- a ligament of two or three rows between a crack and a face, in bodies that may break -----------------------------------
+
+# Bonds between the end of the crack and the thin ligament have one weight, in whatever order their particles come: a slanted crack and its
+# mirror image, and half a body beside the whole, store the same energy (round-off: 1e-12 measured).
+cat >"$work/ligament.yaml" <<END
+space: plane stress
+thickness: 2 mm
+duration: 20 us
+method: pd
+accept: [stretch, stress]
+material: {young: 72 GPa, density: 2440, energy_release_rate: 100 kJ/m^2}
+body: {box: {from: [-20 mm, 0], to: [20 mm, 20 mm]}}
+particles: {spacing: 1 mm}
+cracks: [{from: [-5.3 mm, 2.2 mm], to: [9.3 mm, 5.2 mm]}]
+time: {step: 0.1 us}
+boundary:
+  - {traction: [0, 20 MPa], face: y+}
+  - {traction: [0, -20 MPa], face: y-}
+output: {frames: 0}
+END
+sed 's/from: \[-20 mm, 0\]/from: [0, 0]/; /^boundary/a\  - {mirror: {axis: x, at: 0}}' "$work/ligament.yaml" >"$work/ligament_half.yaml"
+strain() { calm "$work/ligament" "$work/$1.yaml" -s "cracks=[$2]" --overwrite; figure "$work/ligament" energy.strain; }
+slanted=$(strain ligament '{from: [-5.3 mm, 2.2 mm], to: [9.3 mm, 5.2 mm]}')
+between "a crack and its mirror image" "$(compute "$(strain ligament '{from: [5.3 mm, 2.2 mm], to: [-9.3 mm, 5.2 mm]}') / $slanted - 1")" -1e-10 1e-10
+for y in 2.2 3.2; do
+    whole=$(strain ligament "{from: [-5.3 mm, $y mm], to: [5.3 mm, $y mm]}")
+    half=$(strain ligament_half "{from: [-1 mm, $y mm], to: [5.3 mm, $y mm]}")
+    between "crack at $y mm: half and whole" "$(compute "2 * $half / $whole - 1")" -1e-10 1e-10
+done
+
 finish
