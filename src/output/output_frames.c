@@ -318,42 +318,57 @@ status output_write_frame(struct output *o, const struct particles *p, real t, i
 
 /* A particles file, checked once for all frames that link to it. */
 struct particles_seen {
-    int32_t number;   /* -1: none has been checked */
-    bool lost, known; /* it is missing or damaged for certain; its contents have been read */
-    int64_t content;  /* hash of its contents */
+    int32_t number;            /* -1: none has been checked */
+    char name[PATH_NAME_ROOM]; /* relative to the folder of the run */
+    const char *fault;         /* a phrase that completes "NAME ..." if the file is lost for certain; else NULL */
+    bool known;                /* the hash of its contents has been read */
+    int64_t content;           /* this hash */
 };
 
-/* Checks the particles file `number` of a series, unless it is the one that was checked last. */
+/* Checks the particles file `number` of a series, unless it is the one that was checked last. The checkpoint has the
+ * hash of the last particles file of the series; a file with another hash is of another run, and counts as lost. */
 static void particles_file_look(struct particles_seen *seen, const char *folder, const struct frame_series *s,
                                 int number)
 {
-    char name[PATH_NAME_ROOM];
     if (seen->number == number) return;
-    particles_file_name(s, name, sizeof name, number);
-    const struct path path = path_join(folder, name);
+    particles_file_name(s, seen->name, sizeof seen->name, number);
+    const struct path path = path_join(folder, seen->name);
     seen->number = number;
-    seen->lost = file_certain_damage(path.text) != NULL;
-    seen->known = !seen->lost && path_is_file(path.text) && particles_file_read_content(path.text, &seen->content);
+    seen->fault = file_certain_damage(path.text);
+    seen->known = !seen->fault && path_is_file(path.text) && particles_file_read_content(path.text, &seen->content);
+    if (seen->known && number == s->particles.number && seen->content != s->particles.content)
+        seen->fault = "is of another run";
 }
 
-/* Returns the fault of the frame at `path` as a phrase for a message; NULL if it has none or cannot be read. particles:
- * the particles file that it should link to. */
-static const char *frame_fault(const char *path, const struct frame_entry *e, const struct particles_seen *particles)
+/* Reads time [s] and hash of the contents of the particles file from the frame at `path`. Returns false if the frame
+ * cannot be read. */
+static bool frame_read_marks(const char *path, real *time, int64_t *content)
 {
     struct hdf f;
-    real found = NAN;
-    int64_t content = 0;
-    if (isnan(e->time)) return "is missing";
-    const char *fault = file_certain_damage(path);
-    if (fault || !path_is_file(path)) return fault;
-    if (particles->lost) return "links to a particles file that is lost";
     hdf_open(&f, path);
-    hdf_read_attribute(&f, "/Cleave", "time", HDF_F64, &found);
-    hdf_read_attribute(&f, "/Cleave", "content", HDF_I64, &content);
+    hdf_read_attribute(&f, "/Cleave", "time", HDF_F64, time);
+    hdf_read_attribute(&f, "/Cleave", "content", HDF_I64, content);
     const bool read = !f.failed;
     hdf_close(&f);
-    const bool other = !bits_equal(found, e->time) || (particles->known && content != particles->content);
-    return read && other ? "is another one" : NULL;
+    return read;
+}
+
+/* Returns true if the frame at `path` is lost, and writes a phrase that completes "FRAME ..." to `text`, capacity
+ * `room` [byte]. Returns false if the frame has no fault or cannot be read. particles: the particles file to which the
+ * frame should link. */
+static bool frame_is_lost(const char *path, const struct frame_entry *e, const struct particles_seen *particles,
+                          char *text, size_t room)
+{
+    real time = NAN;
+    int64_t content = 0;
+    const char *fault = isnan(e->time) ? "is missing" : file_certain_damage(path);
+    if (fault) return snprintf(text, room, "%s", fault) > 0;
+    if (!path_is_file(path)) return false;
+    if (particles->fault) return snprintf(text, room, "links to %s, which %s", particles->name, particles->fault) > 0;
+    if (!frame_read_marks(path, &time, &content)) return false;
+    if (!bits_equal(time, e->time)) return snprintf(text, room, "is another one") > 0;
+    if (!particles->known || content == particles->content) return false;
+    return snprintf(text, room, "and %s, to which it links, are of different runs", particles->name) > 0;
 }
 
 /* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity `room`
@@ -364,16 +379,16 @@ static int series_check(const struct output *o, struct frame_series *s, int *los
     struct particles_seen seen = {.number = -1};
     int own = 0;
     for (int k = 0; k < s->frames; k++) {
-        char name[PATH_NAME_ROOM];
+        char name[PATH_NAME_ROOM], fault[PATH_NAME_ROOM + 100];
         frame_name(s, name, sizeof name, k);
         particles_file_look(&seen, o->folder, s, s->entry[k].particles);
-        const char *fault = frame_fault(path_join(o->folder, name).text, &s->entry[k], &seen);
-        if (!fault) continue;
+        const struct path path = path_join(o->folder, name);
+        if (!frame_is_lost(path.text, &s->entry[k], &seen, fault, sizeof fault)) continue;
         if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
         s->entry[k].time = NAN;
         own++;
     }
-    if (seen.lost) s->particles.number = -1;
+    if (seen.fault) s->particles.number = -1;
     return own;
 }
 

@@ -190,7 +190,7 @@ static bool wall_is_over(const struct scene *s, const struct run_report *report)
  * read. */
 static status say_lost(struct output *out, const struct probes *probes, struct warnings *to)
 {
-    char text[PATH_NAME_ROOM + 200];
+    char text[2 * PATH_NAME_ROOM + 300];
     int lost;
     TRY(output_frames_check(out, &lost, text, sizeof text));
     if (lost > 0) warnings_add_and_print(to, text);

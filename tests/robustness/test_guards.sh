@@ -169,8 +169,11 @@ is "frames without what they share: exit status" $? 1
 is "frames without what they share: lines" "$(wc -l <"$work/err")" 1
 holds "frames without what they share: $(cat "$work/err")" grep -q "particles_000000.h5 beside it, to which it links, is missing" "$work/err"
 printf 'x' | dd of="$work/bent/frames/particles_000000.h5" bs=1 seek=4000 conv=notrunc 2>/dev/null
-for lost in lone bent; do
-    warned "$lost: frames that lost what they share" "$work/$lost" "frames/000000.hdf links to a particles file that is lost" $small -s output.frames=6 --resume
+cp -r "$work/lone" "$work/alien"
+calm "$work/other" $small -s particles.spacing=5mm -s output.frames=6
+cp "$work/other/frames/particles_000000.h5" "$work/alien/frames/"
+for lost in lone bent alien; do
+    warned "$lost: frames that lost what they share" "$work/$lost" "frames/000000.hdf links to frames/particles_000000.h5, which is " $small -s output.frames=6 --resume
     holds "$lost: another one" test "$(ls "$work/$lost/frames" | grep -c '^particles_00000[1-6].h5$')" -eq 1
     holds "$lost: the last frame is that of a whole run" "$cleave" compare "$work/$lost" "$work/whole" >/dev/null
 done

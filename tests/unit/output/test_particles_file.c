@@ -181,6 +181,40 @@ static void frames_alone_are_refused(void **state)
     assert_failed(frame_read(&f, frame), "is missing");
 }
 
+/* A restart beside the particles file of another run leaves out the frames that link to it, names the file, and begins
+ * another one; the next frame is read. */
+static void foreign_file_is_left(void **state)
+{
+    (void)state;
+    struct output o;
+    struct particles p;
+    struct frame f;
+    char text[1000];
+    int lost;
+    open_fresh(&o, "foreign");
+    make_particles(&p, 2, 500);
+    p.X[0][3] += 1;
+    assert_int_equal(output_write_frame(&o, &p, 0, 0, scene_text), OK);
+    output_close(&o);
+    open_fresh(&o, "left");
+    p.X[0][3] -= 1;
+    for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
+    assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(lost, 0);
+    assert_int_equal(rename("foreign/frames/particles_000000.h5", "left/frames/particles_000000.h5"), 0);
+    output_particles_changed(&o);
+    assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
+    assert_int_equal(lost, 2);
+    assert_non_null(
+        strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which is of another run, and 1"));
+    assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
+    assert_true(path_is_file("left/frames/particles_000002.h5"));
+    assert_int_equal(frame_read(&f, "left/frames/000002.hdf"), OK);
+    frame_free(&f);
+    particles_free(&p);
+    output_close(&o);
+}
+
 /* A frame that is complete by itself, as those of earlier versions, is read. */
 static void complete_frames_are_read(void **state)
 {
@@ -267,6 +301,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(tables_come_back),
         cmocka_unit_test(one_file_while_particles_are_the_same),
         cmocka_unit_test(frames_alone_are_refused),
+        cmocka_unit_test(foreign_file_is_left),
         cmocka_unit_test(complete_frames_are_read),
         cmocka_unit_test(contact_where_it_is),
     };
