@@ -240,6 +240,47 @@ class Record(collections.abc.Mapping):
 _UNITS = {"displacement": "m", "velocity": "m/s", "stress": "Pa", "contact_force": "N", "spacing": "m"}
 
 
+_particles_read = {}                     # by path of a particles file: its sign, and what _particles_mark returned
+
+
+def _particles_mark(path):
+    """Fault of a particles file as words that complete "FILE ..." ("" if whole), and the hash of its contents. The program's mark at
+    the end of the file, CLEAVEOK, gives the length that the file was written with; the bytes are not compared."""
+    import h5py
+    try:
+        with builtins.open(path, "rb") as file:
+            size = file.seek(0, os.SEEK_END)
+            file.seek(max(size - 24, 0))
+            mark = file.read()
+        if mark[:8] != b"CLEAVEOK" or int.from_bytes(mark[8:16], sys.byteorder) != size - 24:
+            return "is cut short or damaged", None
+        with h5py.File(path, "r") as file:
+            return "", int(file["Cleave"].attrs["content"])
+    except (OSError, KeyError, RuntimeError):
+        return "cannot be read as a particles file", None
+
+
+def _particles_fault(frame, path):
+    """Says why the particles file to which an open frame links cannot be used; "" if it can, or if the frame is complete by itself. A
+    particles file is read once, and again once it has changed."""
+    beside = getattr(frame.get("VTKHDF/Types", getlink=True), "filename", "")
+    if not beside:
+        return ""
+    file = os.path.abspath(os.path.join(os.path.dirname(path), beside))
+    told = "%s beside it, to which it links, " % beside
+    try:
+        state = os.stat(file)
+    except OSError:
+        return told + "is missing"
+    sign = (state.st_mtime_ns, state.st_size, state.st_ino)
+    if _particles_read.get(file, (None,))[0] != sign:
+        _particles_read[file] = (sign, _particles_mark(file))
+    fault, content = _particles_read[file][1]
+    if not fault and frame["Cleave"].attrs.get("content") != content:
+        fault = "is of another run"
+    return told + fault if fault else ""
+
+
 class Frame:
     """The particles at one time. Arrays have a row for each particle, in the order of ids (behind them, in runs with
     coarse cells, a row for each of their quadrature points); nothing is kept.
@@ -264,11 +305,10 @@ class Frame:
             raise Error("%s: there is no such file" % self.path) from None
         except OSError as fault:
             raise Error("%s cannot be read: %s" % (self.path, str(fault).split(" (", 1)[0])) from None
-        link = file.get("VTKHDF/Types", getlink=True)
-        beside = getattr(link, "filename", "")           # of frames that are complete by themselves: none
-        if beside and not os.path.exists(os.path.join(os.path.dirname(self.path), beside)):
+        fault = _particles_fault(file, self.path)
+        if fault:
             file.close()
-            raise Error("%s cannot be read: %s beside it, to which it links, is missing" % (self.path, beside))
+            raise Error("%s cannot be read: %s" % (self.path, fault))
         return file
 
     @property

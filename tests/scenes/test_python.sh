@@ -132,6 +132,25 @@ holds("the line whole", half.history["kinetic"][-1] == 25)
 with open(work + "/half/summary.json", "w") as file:
     file.write('{"status": ')
 refused("half a summary", None, lambda: half.status)
+
+# a frame beside a particles file that is cut short, damaged, of another run or missing; then as it was
+beside = work + "/run/frames/particles_000000.h5"
+whole = open(beside, "rb").read()
+foreign = cleave.run(scene, {"particles.spacing": 0.002}, output=work + "/foreign")
+foreign = open(foreign.folder + "/frames/particles_000000.h5", "rb").read()
+for words, contents in (("is cut short", whole[:-9]), ("is cut short", whole[:3000]), ("is cut short", whole[:2000] + whole[2001:]),
+                        ("is cut short", b""), ("as a particles file", bytes(len(whole) - 24) + whole[-24:]),
+                        ("is of another run", foreign), ("is missing", None)):
+    os.remove(beside)
+    if contents is not None:
+        with open(beside, "wb") as file:
+            file.write(contents)
+    for read in (lambda: frame["id"], lambda: frame["stress"], lambda: frame.reference, lambda: frame.scene, lambda: len(frame)):
+        message = refused("a particles file that " + words, None, read)
+        holds(message, "particles_000000.h5 beside it, to which it links, " in message and words in message)
+with open(beside, "wb") as file:
+    file.write(whole)
+holds("the particles file as it was", (np.diff(frame["id"]) > 0).all() and len(frame) == 400)
 os.remove(run.frames[1].path)
 refused("a frame that is lost", None, lambda: run.frames[1]["stress"])
 
