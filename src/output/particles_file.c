@@ -122,8 +122,11 @@ void particles_file_create_links(struct hdf *frame, const struct particles_file 
 bool particles_file_read_content(const char *path, int64_t *content)
 {
     struct hdf h;
+    char target[PATH_NAME_ROOM];
+    *content = 0;
     hdf_open(&h, path);
-    hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content);
+    if (hdf_has_attribute(&h, "/Cleave", "content") && !hdf_read_link_file(&h, "/VTKHDF/Types", target, sizeof target))
+        hdf_read_attribute(&h, "/Cleave", "content", HDF_I64, content);
     hdf_close(&h);
     return !h.failed;
 }

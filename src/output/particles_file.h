@@ -42,7 +42,8 @@ void particles_file_free(struct particles_file *f);
 /* Creates the links of a frame to the particles file. fields: bit set of the fields of the frame. */
 void particles_file_create_links(struct hdf *frame, const struct particles_file *f, unsigned fields);
 
-/* Reads the hash of the contents of the particles file `path` into *content. Returns false if it cannot be read. */
+/* Reads the hash of the contents of the particles file `path` into *content; 0, which is the hash of none, if the file
+ * is a frame or another file of a run. Returns false if the file cannot be read. */
 bool particles_file_read_content(const char *path, int64_t *content);
 
 /* Checks the particles file `path`. Stores the hash of its contents in *content. Returns NULL if the file is whole,

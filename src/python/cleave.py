@@ -255,6 +255,8 @@ def _particles_mark(path):
         if mark[:8] != b"CLEAVEOK" or int.from_bytes(mark[8:16], sys.byteorder) != size - 24:
             return "is cut short or damaged", None
         with h5py.File(path, "r") as file:
+            if getattr(file.get("VTKHDF/Types", getlink=True), "filename", ""):
+                return "is a frame", None
             return "", int(file["Cleave"].attrs["content"])
     except (OSError, KeyError, RuntimeError):
         return "cannot be read as a particles file", None

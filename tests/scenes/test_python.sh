@@ -140,7 +140,7 @@ foreign = cleave.run(scene, {"particles.spacing": 0.002}, output=work + "/foreig
 foreign = open(foreign.folder + "/frames/particles_000000.h5", "rb").read()
 for words, contents in (("is cut short", whole[:-9]), ("is cut short", whole[:3000]), ("is cut short", whole[:2000] + whole[2001:]),
                         ("is cut short", b""), ("as a particles file", bytes(len(whole) - 24) + whole[-24:]),
-                        ("is of another run", foreign), ("is missing", None)):
+                        ("is of another run", foreign), ("is a frame", open(frame.path, "rb").read()), ("is missing", None)):
     os.remove(beside)
     if contents is not None:
         with open(beside, "wb") as file:
