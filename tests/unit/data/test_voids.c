@@ -186,7 +186,7 @@ static void bits_of_particles(void **state)
         near += hides;
     }
     assert_true(near > 10);
-    voids_free(&v);
+    memory_free(v.near); /* shape and body are on the stack */
     cloud_free(&c);
 }
 
