@@ -61,7 +61,7 @@ help:
 	@echo 'make mutants    puts small faults into copies of the program and tells which tests see them (MUTANTS=LIST: others)'
 	@echo 'make bench      measures kernels and efficiency (others: build/cleave bench)'
 	@echo 'make fuzz       feeds scenes and files of all kinds to the readers'
-	@echo 'make lint       searches the sources for faults by cppcheck and clang-tidy 14 (LINT=FILES: in these alone)'
+	@echo 'make lint       searches the sources for faults by cppcheck and clang-tidy 14 (LINTED=FILES: in these alone)'
 	@echo 'make install    below PREFIX ($(PREFIX)): program, manual, scenes, Python module, completion; uninstall removes them'
 	@echo 'make dist deb   a tarball, a Debian package'
 	@echo 'make clean      removes build'
@@ -163,9 +163,9 @@ fuzz: all
 	@BUILD=$(BUILD) CC="$(CC)" sh tests/robustness/long_fuzz.sh $(FUZZ_SECONDS)
 
 # Faults that can be seen without a run: cppcheck over all files at once, clang-tidy (.clang-tidy) over one file after the other.
-LINT     ?= $(SOURCES) $(KERNELS)
+LINTED   ?= $(SOURCES) $(KERNELS)
 lint: $(BUILD)/commit.h $(BUILD)/parts.h $(BUILD)/new_scenes.h $(BUILD)/new_part.h
-	@BUILD=$(BUILD) LIBFLAGS="$(LIBFLAGS)" sh tests/support/lint.sh $(LINT)
+	@BUILD=$(BUILD) LIBFLAGS="$(LIBFLAGS)" sh tests/support/lint.sh $(LINTED)
 
 bench: all
 	$(BUILD)/cleave bench kernels efficiency
