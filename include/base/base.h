@@ -45,6 +45,15 @@ static inline void symmetric_axes(int dim, int s, int *row, int *column)
     *column = s < dim ? s : (*row + 1) % DIM_MAX;
 }
 
+/* Returns the hash of z extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
+static inline uint64_t splitmix(uint64_t z, uint64_t word)
+{
+    z += (word + 1) * UINT64_C(0x9e3779b97f4a7c15);
+    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
+    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
+    return z ^ z >> 31;
+}
+
 /* Result of a function that can fail; the values are the exit statuses of the program. */
 typedef enum { OK = 0, FAILED = 1, REFUSED = 2, INTERRUPTED = 130 } status;
 

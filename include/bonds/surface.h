@@ -43,6 +43,9 @@ status surface_weights_make(struct surface_weights *to, const struct particles *
 /* Releases all arrays of w. */
 void surface_weights_free(struct surface_weights *w);
 
+/* Returns the integer nearest to a number of spacings; quicker than nearbyint. */
+static inline int nearest_step(real spacings) { return (int)(spacings + (spacings < 0 ? -0.5 : 0.5)); }
+
 /* Returns the factor on the weight of the bond of particle i < n with reference vector xi (dim components [m]) [1]; 1
  * if the particle is far from faces or xi is longer than any bond. Both particles of a bond obtain bitwise equal
  * factors. */
@@ -53,7 +56,7 @@ static inline real surface_factor(const struct surface_weights *w, int64_t i, co
     for (int d = w->dim - 1; d >= 0; d--) {
         const real place = xi[d] / w->spacing;
         if (!(fabs(place) < w->reach + 0.5)) return 1;
-        const int step = (int)(place + (place < 0 ? -0.5 : 0.5)); /* the nearest; quicker than nearbyint */
+        const int step = nearest_step(place);
         at = at * (2 * w->reach + 1) + w->reach + (w->mirrors[i] >> d & 1 ? -step : step);
     }
     return w->offset_at[at] < 0 ? 1 : w->factor[(int64_t)w->class_of[i] * w->offsets + w->offset_at[at]];

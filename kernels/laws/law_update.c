@@ -23,6 +23,12 @@ static ALWAYS_INLINE int components(const enum space space)
     return space == SPACE_SOLID ? 6 : space == SPACE_PLANE_STRAIN ? 4 : space == SPACE_PLANE_STRESS ? 3 : 1;
 }
 
+/* Number of components of a tensor that differ from 0, also those normal to a plane. */
+static ALWAYS_INLINE int tensor_components(const enum space space)
+{
+    return space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
+}
+
 /* Computes the independent components of the relative stress s - g X [Pa]: in 3D and plane strain of its deviator, in
  * plane stress sum, difference and shear, in 1D the uniaxial one. */
 static ALWAYS_INLINE void relative_stress(const struct law_points *p, lanes g, lanes *xi, const enum space space)
@@ -175,7 +181,7 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
         p->s[0] -= even + odd, p->s[1] -= even - odd, p->s[3] -= twice * strain[3];
     } else
         for (int c = 0; c < components(space); c++) strain[c] = 1.5 * t * xi[c], p->s[c] -= twice * strain[c];
-    const int last = space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
+    const int last = tensor_components(space);
     for (int c = 0; c < last && law->kinematic.modulus > 0; c++) p->back[c] = left * (p->back[c] + C * strain[c]);
 }
 
@@ -183,7 +189,7 @@ static ALWAYS_INLINE void flow_apply(const struct law *law, struct law_points *p
 static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *strain, const enum space space)
 {
     lanes work = lanes_of(0);
-    const int last = space == SPACE_LINE ? 1 : space == SPACE_SOLID ? 6 : 4;
+    const int last = tensor_components(space);
     for (int c = 0; c < last; c++)
         work += (c < 3 ? 0.5 : 1.0) * (p->volume_before * p->before[c] + p->volume * p->s[c]) * strain[c];
     return work;

@@ -134,6 +134,11 @@ void regular_bonds_free(struct regular_bonds *to);
  * Returns false if the map does not contain all sites needed, so that the neighbours must be searched for. */
 bool regular_bonds_find(const struct site_map *l, const struct particles *p, int64_t i, struct regular_bonds *to);
 
+/* Lists the neighbours of the eight particles i to i + 7 as regular_bonds_find does, without regard to pre-cracks.
+ * Returns false also if they are not all particles of the body, if l has no sites, or if a void is near one of them. */
+bool regular_bonds_find_clear(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+                              int64_t i, struct regular_bonds *to);
+
 /* Returns a new cache, for one thread, of row blocks whose bonds were already computed, so that equal ones are found
  * quickly (bonds_stencil_cache.c). l: map of lattice sites. Release with stencil_cache_free. */
 struct stencil_cache *stencil_cache_make(const struct site_map *l);

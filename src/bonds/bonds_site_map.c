@@ -225,6 +225,15 @@ bool regular_bonds_find(const struct site_map *l, const struct particles *p, int
     return columns_by_offset(to->n, longest);
 }
 
+bool regular_bonds_find_clear(const struct site_map *l, const struct bond_source *s, const struct particles *p,
+                              int64_t i, struct regular_bonds *to)
+{
+    if (!l->at || i + LANES > p->n || !regular_bonds_find(l, p, i, to)) return false;
+    for (int lane = 0; lane < LANES; lane++)
+        if (voids_near(s->voids, i + lane)) return false;
+    return true;
+}
+
 void regular_bonds_make(struct regular_bonds *to, const struct site_map *l)
 {
     to->offset = NEW("site_map.offset", l->most, int32_t);

@@ -61,9 +61,7 @@ void bonds_neighbour_volume(real *volume, const struct particles *p, const struc
         regular_bonds_make(&bonds, &map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
-            bool regular = map.at && first + LANES <= p->n && regular_bonds_find(&map, p, first, &bonds);
-            for (int l = 0; l < LANES && regular; l++) regular = !voids_near(s->voids, first + l);
-            if (regular) {
+            if (regular_bonds_find_clear(&map, s, p, first, &bonds)) {
                 const int64_t cached = stencil_cache_find_row(&bonds, NULL, first);
                 if (cached >= 0)
                     memcpy(volume + first, volume + cached, LANES * sizeof *volume);

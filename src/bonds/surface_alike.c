@@ -19,15 +19,6 @@ static uint64_t mixed(uint64_t hash, uint64_t word)
 }
 #define HASH_START UINT64_C(0xcbf29ce484222325)
 
-/* Returns random word k: step k of Splitmix64 (Steele, Lea, Flood 2014). */
-static uint64_t random_word(uint64_t k)
-{
-    uint64_t z = (k + 1) * UINT64_C(0x9e3779b97f4a7c15);
-    z = (z ^ z >> 30) * UINT64_C(0xbf58476d1ce4e5b9);
-    z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
-    return z ^ z >> 31;
-}
-
 /* ---- kinds of particles ------------------------------------------------------------------------------------------ */
 
 /* Kinds of particles: those of one kind have equal surroundings without any mirror, some families deep. Each kind has
@@ -118,7 +109,7 @@ static void kinds_refine(struct kinds *s, const struct near_faces *b, bool colou
 {
     const int dim = b->offset.dim;
     uint64_t *hash = NEW("surface.hash", b->n, uint64_t), *factor = NEW("surface.hash", b->offset.n, uint64_t);
-    for (int k = 0; k < b->offset.n; k++) factor[k] = random_word((uint64_t)k);
+    for (int k = 0; k < b->offset.n; k++) factor[k] = splitmix(0, (uint64_t)k);
 #pragma omp parallel for schedule(static)
     for (int64_t t = 0; t < b->n; t++) hash[t] = kinds_around(b, s, factor, t);
     struct kinds fine = {.of = NEW("surface.kind", b->n, int32_t)};

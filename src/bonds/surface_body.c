@@ -74,7 +74,7 @@ static int offset_between(const struct offsets *o, const struct particles *p, re
     for (int d = o->dim - 1; d >= 0; d--) {
         const real xi = (p->X[d][j] - p->X[d][i]) / spacing;
         if (!(fabs(xi) < o->reach + 0.5)) return -1;
-        const int step = (int)(xi + (xi < 0 ? -0.5 : 0.5)); /* the nearest; quicker than nearbyint */
+        const int step = nearest_step(xi);
         if (!(fabs(xi - step) < 1e-6)) return -1;
         place = place * (2 * o->reach + 1) + o->reach + step;
     }
@@ -96,23 +96,69 @@ int reverse_offset(const struct near_faces *b, const struct seen *to, int k)
     return b->offset.n - 1 - b->offset.mirrored[to->mirrors * b->offset.n + k];
 }
 
-/* Parameters and working memory of the neighbour search of one thread. */
+/* Parameters and working memory of the neighbour search of one thread, for eight consecutive particles at a time. */
 struct search {
     const struct site_map *map;
     int32_t *found;
     int room;
+    int64_t first;                /* first of the eight particles */
+    bool eight;                   /* their families are in `regular`, which does without a search */
+    struct regular_bonds regular; /* regardless of pre-cracks */
 };
 
-/* Finds the neighbours of particle i that pre-cracks do not hide, and stores them by offset in to [offsets], -1 where
- * there is none; to NULL: they are only counted. Returns their number, or -1 if one is not on the lattice of the
- * particle. */
+/* Allocates the working memory of a search over the map of lattice sites. Release with search_free. */
+static void search_make(struct search *search, const struct near_faces *b, const struct site_map *map)
+{
+    const int room = bonds_most_neighbours(b->source);
+    *search = (struct search){.map = map, .found = NEW("surface.found", room, int32_t), .room = room};
+    regular_bonds_make(&search->regular, map);
+}
+
+/* Releases the working memory of a search. */
+static void search_free(struct search *search)
+{
+    regular_bonds_free(&search->regular);
+    memory_free(search->found);
+}
+
+/* Turns to particles first .. first + 7, whose families are taken from the map where that is possible. */
+static void search_turn(struct search *search, const struct near_faces *b, int64_t first)
+{
+    search->first = first;
+    search->eight = regular_bonds_find_clear(search->map, b->source, b->p, first, &search->regular);
+}
+
+/* Finds the neighbours of particle i, one of the eight, from their regular families, as neighbours_find does. near: a
+ * pre-crack may hide some. */
+static int regular_neighbours(const struct near_faces *b, const struct search *search, int64_t i, bool near,
+                              int32_t *to)
+{
+    const struct bond_source *s = b->source;
+    const struct regular_bonds *regular = &search->regular;
+    const int lane = (int)(i - search->first);
+    int kept = 0;
+    if (!to && regular->full && !near) return regular->n;
+    for (int k = 0; k < regular->n; k++) {
+        const int32_t j = (int32_t)i + regular->offset[k];
+        if (lane < regular->from[k] || lane > regular->to[k]) continue;
+        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
+        if (to) to[regular->number[k]] = j;
+        kept++;
+    }
+    return kept;
+}
+
+/* Finds the neighbours of particle i, one of the eight of the last search_turn, that pre-cracks do not hide, and stores
+ * them by offset in to [offsets], -1 where there is none; to NULL: they are only counted. Returns their number, or -1
+ * if one is not on the lattice of the particle. */
 static int neighbours_find(const struct near_faces *b, const struct search *search, int64_t i, int32_t *to)
 {
     const struct bond_source *s = b->source;
-    const int n = find_neighbours_of(search->map, s, b->p, (int32_t)i, search->found, search->room);
     const bool near = cracks_near_particle(s, b->p, i);
     int kept = 0;
     for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
+    if (search->eight) return regular_neighbours(b, search, i, near, to);
+    const int n = find_neighbours_of(search->map, s, b->p, (int32_t)i, search->found, search->room);
     for (int k = 0; k < n; k++) {
         const int32_t j = search->found[k];
         if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
@@ -124,58 +170,23 @@ static int neighbours_find(const struct near_faces *b, const struct search *sear
     return kept;
 }
 
-/* Finds the families of particles first .. first + 7 from the site map, without regard to cracks. Returns false if the
- * map is not sufficient or a void is near. */
-static bool eight_regular(const struct near_faces *b, const struct site_map *map, struct regular_bonds *regular,
-                          int64_t first)
-{
-    if (!map->at || first + LANES > b->p->n || !regular_bonds_find(map, b->p, first, regular)) return false;
-    bool near = false;
-    for (int l = 0; l < LANES && !near; l++) near = voids_near(b->source->voids, first + l);
-    return !near;
-}
-
-/* Lists the neighbours of particle `lane` of the eight particles from `first` by offset (to [offsets]; NULL: only
- * counted). Returns their number. */
-static int lane_neighbours(const struct near_faces *b, const struct regular_bonds *regular, int64_t first, int lane,
-                           int32_t *to)
-{
-    const struct bond_source *s = b->source;
-    const int64_t i = first + lane;
-    const bool near = cracks_near_particle(s, b->p, i);
-    int kept = 0;
-    for (int k = 0; to && k < b->offset.n; k++) to[k] = -1;
-    for (int k = 0; k < regular->n; k++) {
-        const int32_t j = (int32_t)i + regular->offset[k];
-        if (lane < regular->from[k] || lane > regular->to[k]) continue;
-        if (near && cracks_separate_particles(s->crack, s->cracks, b->p, i, j)) continue;
-        if (to) to[regular->number[k]] = j;
-        kept++;
-    }
-    return kept;
-}
-
 /* Marks whole families. Returns false if a particle is not on the lattice. */
 static bool whole_mark(struct near_faces *b, const struct site_map *map)
 {
-    const int room = bonds_most_neighbours(b->source);
     bool lattice = true;
 #pragma omp parallel reduction(&& : lattice)
     {
-        struct search search = {map, NEW("surface.found", room, int32_t), room};
-        struct regular_bonds regular;
-        regular_bonds_make(&regular, map);
+        struct search search;
+        search_make(&search, b, map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < b->p->n; first += LANES) {
-            const bool eight = eight_regular(b, map, &regular, first);
+            search_turn(&search, b, first);
             for (int64_t i = first; i < first + LANES && i < b->p->n; i++) {
-                const int n = eight ? lane_neighbours(b, &regular, first, (int)(i - first), NULL)
-                                    : neighbours_find(b, &search, i, NULL);
+                const int n = neighbours_find(b, &search, i, NULL);
                 b->whole[i] = n == b->offset.n, lattice = lattice && n >= 0;
             }
         }
-        regular_bonds_free(&regular);
-        memory_free(search.found);
+        search_free(&search);
     }
     return lattice;
 }
@@ -193,30 +204,30 @@ static void near_put(const struct near_faces *b, uint8_t *near, int64_t i)
 static void near_mark(uint8_t *near, const struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
-    const int room = bonds_most_neighbours(b->source);
 #pragma omp parallel
     {
-        int32_t *found = NEW("surface.found", room, int32_t);
-        struct regular_bonds regular;
-        regular_bonds_make(&regular, map);
+        struct search search;
+        search_make(&search, b, map);
+        const struct regular_bonds *regular = &search.regular;
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n_all; first += LANES) {
             const int64_t end = first + LANES < p->n_all ? first + LANES : p->n_all;
             bool whole = true;
             for (int64_t i = first; i < end; i++) whole = whole && is_whole(b, i);
-            const bool eight = !whole && eight_regular(b, map, &regular, first);
-            for (int64_t i = first; i < end && !whole; i++) {
+            if (whole) continue;
+            search_turn(&search, b, first);
+            for (int64_t i = first; i < end; i++) {
                 if (is_whole(b, i)) continue;
                 const int l = (int)(i - first);
                 near_put(b, near, i);
-                for (int k = 0; k < regular.n && eight; k++)
-                    if (l >= regular.from[k] && l <= regular.to[k]) near_put(b, near, i + regular.offset[k]);
-                const int n = eight ? 0 : find_neighbours_of(map, b->source, p, (int32_t)i, found, room);
-                for (int k = 0; k < n; k++) near_put(b, near, found[k]);
+                for (int k = 0; search.eight && k < regular->n; k++)
+                    if (l >= regular->from[k] && l <= regular->to[k]) near_put(b, near, i + regular->offset[k]);
+                const int n =
+                    search.eight ? 0 : find_neighbours_of(map, b->source, p, (int32_t)i, search.found, search.room);
+                for (int k = 0; k < n; k++) near_put(b, near, search.found[k]);
             }
         }
-        regular_bonds_free(&regular);
-        memory_free(found);
+        search_free(&search);
     }
 }
 
@@ -224,29 +235,25 @@ static void near_mark(uint8_t *near, const struct near_faces *b, const struct si
 static bool neighbours_list(struct near_faces *b, const struct site_map *map)
 {
     const struct particles *p = b->p;
-    const int room = bonds_most_neighbours(b->source);
     bool lattice = true;
     b->neighbour = BARE("surface.neighbour", b->n * b->offset.n, int32_t);
 #pragma omp parallel reduction(&& : lattice)
     {
-        struct search own = {map, NEW("surface.found", room, int32_t), room};
-        struct regular_bonds regular;
-        regular_bonds_make(&regular, map);
+        struct search search;
+        search_make(&search, b, map);
 #pragma omp for schedule(static)
         for (int64_t first = 0; first < p->n; first += LANES) {
             bool any = false;
             for (int64_t i = first; i < first + LANES && i < p->n; i++) any = any || b->place[i] >= 0;
-            const bool eight = any && eight_regular(b, map, &regular, first);
+            if (!any) continue;
+            search_turn(&search, b, first);
             for (int64_t i = first; i < first + LANES && i < p->n; i++) {
-                int32_t *to = b->neighbour + (int64_t)b->place[i] * b->offset.n;
                 if (b->place[i] < 0) continue;
-                const int n =
-                    eight ? lane_neighbours(b, &regular, first, (int)(i - first), to) : neighbours_find(b, &own, i, to);
-                lattice = lattice && n >= 0;
+                int32_t *to = b->neighbour + (int64_t)b->place[i] * b->offset.n;
+                lattice = neighbours_find(b, &search, i, to) >= 0 && lattice;
             }
         }
-        regular_bonds_free(&regular);
-        memory_free(own.found);
+        search_free(&search);
     }
     return lattice;
 }

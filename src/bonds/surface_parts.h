@@ -163,8 +163,8 @@ struct fit {
 };
 
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
- * the factors [groups]. Returns the number of products with the moments of all bonds. */
-int surface_solve(const struct fit *q, real *factor);
+ * the factors [groups]. */
+void surface_solve(const struct fit *q, real *factor);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
  * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations. */

@@ -314,7 +314,7 @@ static void descend(struct descent *d)
     }
 }
 
-int surface_solve(const struct fit *q, real *factor)
+void surface_solve(const struct fit *q, real *factor)
 {
     const int width = q->thirds + q->fourths;
     const int64_t classes = q->alike->classes, n = classes * width;
@@ -337,5 +337,4 @@ int surface_solve(const struct fit *q, real *factor)
     memory_free(d.images);
     memory_free(d.change);
     memory_free(d.value);
-    return d.products;
 }

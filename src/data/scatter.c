@@ -26,15 +26,6 @@ real normal_quantile(real u)
     return q < 0 ? -x : x;
 }
 
-/* Returns the hash of z extended by a word, by one step of Splitmix64 (Steele, Lea, Flood 2014). */
-static uint64_t hashed(uint64_t z, uint64_t with)
-{
-    z += (with + 1) * 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ z >> 31;
-}
-
 /* Returns a standard normal number from a hash. */
 static real noise_of(uint64_t hash) { return normal_quantile(((real)(hash >> 11) + 0.5) * 0x1p-53); }
 
@@ -51,7 +42,7 @@ static int64_t weights_along(real place, real weight[NODES])
 
 real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, int64_t id)
 {
-    if (!(s->length > 0)) return noise_of(hashed(hashed(s->seed, 0), (uint64_t)id));
+    if (!(s->length > 0)) return noise_of(splitmix(splitmix(s->seed, 0), (uint64_t)id));
     real weight[DIM_MAX][NODES] = {{1}, {1}, {1}}, sum = 0, squares = 1;
     int64_t first[DIM_MAX] = {0};
     for (int d = 0; d < dim; d++) {
@@ -62,9 +53,10 @@ real scatter_gaussian(const struct strength_scatter *s, const real *X, int dim, 
     }
     for (int k = 0; k < (dim > 2 ? NODES : 1); k++)
         for (int j = 0; j < (dim > 1 ? NODES : 1); j++) {
-            const uint64_t row = hashed(hashed(hashed(s->seed, 0), (uint64_t)(first[2] + k)), (uint64_t)(first[1] + j));
+            const uint64_t row =
+                splitmix(splitmix(splitmix(s->seed, 0), (uint64_t)(first[2] + k)), (uint64_t)(first[1] + j));
             for (int i = 0; i < NODES; i++)
-                sum += weight[2][k] * weight[1][j] * weight[0][i] * noise_of(hashed(row, (uint64_t)(first[0] + i)));
+                sum += weight[2][k] * weight[1][j] * weight[0][i] * noise_of(splitmix(row, (uint64_t)(first[0] + i)));
         }
     return sum / sqrt(squares);
 }

@@ -104,15 +104,11 @@ static bool first_solid_box(const struct region *shape, int dim, real low[DIM_MA
     return false;
 }
 
-/* Returns a uniform random number in [-1/2, 1/2) that depends on seed, particle and component alone, by the
- * finaliser of splitmix64 (Steele, Lea, Flood 2014) applied to a counter. */
+/* Returns a uniform random number in [-1/2, 1/2) that depends on seed, particle and component alone, by
+ * splitmix of a counter. */
 static real scatter(uint64_t seed, int64_t id, int component)
 {
-    uint64_t z = seed + ((uint64_t)id * DIM_MAX + (uint64_t)component + 1) * 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    z ^= z >> 31;
-    return (real)(z >> 11) * 0x1p-53 - 0.5;
+    return (real)(splitmix(seed, (uint64_t)id * DIM_MAX + (uint64_t)component) >> 11) * 0x1p-53 - 0.5;
 }
 
 static real cell_volume(const struct scene *s) { return lattice_volume(scene_section(s), s->spacing, s->dim); }
