@@ -33,6 +33,10 @@ void hdf_open(struct hdf *f, const char *path);
 /* Closes the HDF5 file of *f and all its objects. A failure is stored in f->failed. */
 void hdf_close(struct hdf *f);
 
+/* Closes a file that was created under the temporary name of `path`. If HDF5 has failed, removes the incomplete file,
+ * sets *broken to true and returns FAILED. */
+status hdf_close_written(struct hdf *f, const char *path, bool *broken);
+
 /* Creates the group `name`, a path within the file. A failure is stored in f->failed. */
 void hdf_create_group(struct hdf *f, const char *name);
 

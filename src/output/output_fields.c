@@ -145,7 +145,10 @@ static void copy_density(const struct frame_source *s, const int32_t *row, int64
 static void copy_plastic_work(const struct frame_source *s, const int32_t *row, int64_t first, int64_t end, void *rows)
 {
     const real *work = s->extra.state.plastic_work;
-    for (int64_t r = first; r < end; r++) ((float *)rows)[r] = work ? (float)work[row[r]] : 0;
+    if (work)
+        copy_scalars(rows, row, first, end, work);
+    else
+        array_fill_bytes((float *)rows + first, 0, end - first, sizeof(float));
 }
 
 /* Copies one byte per particle. */
@@ -235,6 +238,10 @@ static void copy_id(const struct frame_source *s, const int32_t *row, int64_t fi
 {
     copy_integers(rows, row, first, end, s->p->id);
 }
+
+const struct frame_field frame_cells[CELL_LISTS] = {{"/VTKHDF/Connectivity", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
+                                                    {"/VTKHDF/Offsets", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
+                                                    {"/VTKHDF/Types", "", HDF_U8, 1, ROW_WHOLE, true, NULL}};
 
 #define POINT_DATA "/VTKHDF/PointData/"
 const struct frame_field frame_fields[FRAME_FIELDS] = {

@@ -33,6 +33,10 @@ enum { FIELD_POINTS, FIELD_CONTACT = 6, FRAME_FIELDS = 25 };
 /* Table of all fields, in the order of their bits. */
 extern const struct frame_field frame_fields[FRAME_FIELDS];
 
+/* Lists of the cells, one vertex for each particle, in the particles file. */
+enum { CELLS_CONNECTIVITY, CELLS_OFFSETS, CELLS_TYPES, CELL_LISTS };
+extern const struct frame_field frame_cells[CELL_LISTS];
+
 /* Returns the set of the fields of a frame, one bit per field in the order of frame_fields[]: the basic ones, plastic
  * strain if a material yields, contact force if the scene has contact, fragments if bodies can break, and those that
  * the scene requests. */
@@ -53,13 +57,5 @@ void frame_units_text(unsigned fields, char *text, size_t room);
 
 /* Returns the size of the stored numbers of one row of a field [byte]. dim: dimension of the body. */
 size_t frame_field_bytes(const struct frame_field *field, int dim);
-
-/* Writes the file name of frame `number` of a series, relative to the folder of the run, to `name`, which holds `room`
- * bytes. */
-void frame_name(const struct frame_series *s, char *name, size_t room, int number);
-
-/* Writes the name of an index file of a series, relative to the folder of the run, to `name`, which holds `room`
- * bytes: the name of the series followed by the ending `end`. */
-void series_file(const struct frame_series *s, char *name, size_t room, const char *end);
 
 #endif

@@ -83,7 +83,7 @@ static void job_choose_particles_file(struct frame_job *job, const struct frame_
 {
     struct frame_series *s = job->series;
     char name[PATH_NAME_ROOM];
-    if (!s->particles.current || source->extra.more) {
+    if (s->particles.number < 0 || !s->particles.current || source->extra.more) {
         particles_file_make(&job->particles, s, source, job->fields, scene_text);
         if (s->particles.number >= 0 && s->particles.content == job->particles.content)
             particles_file_free(&job->particles);
@@ -221,12 +221,7 @@ static status frame_write(struct frame_job *job)
     particles_file_create_links(&f, &job->particles, job->fields);
     for (int k = 0; k < FRAME_FIELDS; k++)
         if (has_rows(job, k)) frame_field_write(&f, &frame_fields[k], job->n, job->dim, job->field[k]);
-    if (!f.failed) hdf_close(&f);
-    if (f.failed) {
-        job->broken = true;
-        file_discard(job->path.text);
-        return file_fault(job->path.text, f.cause);
-    }
+    TRY(hdf_close_written(&f, job->path.text, &job->broken));
     TRY(file_append_footer(job->path.text));
     return file_publish(job->path.text);
 }
@@ -260,7 +255,7 @@ status output_wait(struct output *o)
     o->writing = NULL;
     o->broken = o->broken || job->broken;
     status s = job->ended == OK ? OK : status_set(job->ended, "%s", job->message);
-    if (s != OK) job->series->frames--, job->series->particles.number = -1, job->series->particles.current = false;
+    if (s != OK) job->series->frames--, job->series->particles.number = -1;
     job_free(job);
     return s;
 }
@@ -286,11 +281,11 @@ static void output_frames_job_start(struct frame_job *job)
     if (!job->apart) job_run(job); /* no thread available: write synchronously */
 }
 
-status output_frame_begin(struct output *o, int k, const struct particles *p, const struct frame_extra *extra, real t,
-                          int64_t step, const char *scene_text)
+status output_frame_begin(struct output *o, int number, const struct particles *p, const struct frame_extra *extra,
+                          real t, int64_t step, const char *scene_text)
 {
     const struct frame_source source = {p, extra ? *extra : (struct frame_extra){0}};
-    struct frame_series *series = &o->series[k];
+    struct frame_series *series = &o->series[number];
     char name[PATH_NAME_ROOM];
     TRY(output_wait(o));
     if (o->broken) return FAILED;

@@ -1,5 +1,6 @@
 /* HDF5 operations of the program. After the first fault all further operations on a file do nothing. */
 #include "output/output_hdf5.h"
+#include "output/output_files.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -96,6 +97,15 @@ void hdf_close(struct hdf *f)
         f->cause = errno;
     }
     f->file = -1;
+}
+
+status hdf_close_written(struct hdf *f, const char *path, bool *broken)
+{
+    if (!f->failed) hdf_close(f);
+    if (!f->failed) return OK;
+    *broken = true;
+    file_discard(path);
+    return file_fault(path, f->cause);
 }
 
 void hdf_create_group(struct hdf *f, const char *name)

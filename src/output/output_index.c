@@ -61,12 +61,11 @@ static void xdmf_attribute(FILE *out, const char *file, const struct frame_field
 /* Writes the XDMF grid of one frame. frame, particles: paths of the frame and of its particles file. */
 static void xdmf_grid(FILE *out, const char *frame, const char *particles, const struct frame_entry *e)
 {
-    /* Lists the cells, because the XDMF3 reader creates none from their number alone. */
-    static const struct frame_field vertices = {"/VTKHDF/Connectivity", "", HDF_I32, 1, ROW_WHOLE, true, NULL};
     fprintf(out, "<Grid Name=\"particles\" GridType=\"Uniform\">\n<Time Value=\"%.17g\"/>\n", e->time);
     fprintf(out, "<Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%lld\" NodesPerElement=\"1\">",
             (long long)e->rows);
-    xdmf_item(out, particles, &vertices, e->rows);
+    /* the XDMF3 reader creates no cells from their number alone */
+    xdmf_item(out, particles, &frame_cells[CELLS_CONNECTIVITY], e->rows);
     fprintf(out, "</Topology>\n<Geometry GeometryType=\"XYZ\">");
     xdmf_item(out, frame, &frame_fields[FIELD_POINTS], e->rows);
     fprintf(out, "</Geometry>\n");

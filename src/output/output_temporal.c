@@ -6,6 +6,7 @@
  * each time is one part; its points, cells and connectivity begin at the number of preceding points, and its part of
  * Offsets, which has one entry more than cells, begins one entry later per preceding part. */
 #include "output_fields.h"
+#include "output_index.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,14 +76,14 @@ static void write_steps(struct hdf *f, const struct temporal *a, int64_t *number
     }
 }
 
-/* Writes a virtual dataset. fixed: it lies in the particles files. field: its bit; frames without it have 0. more: rows
- * more than points in each frame. */
-static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, int64_t bit,
+/* Writes a virtual dataset. needed: bits of the fields that a frame must have to have the dataset (0: every frame has
+ * it); its rows are 0 in other frames. more: rows more than points in each frame. */
+static void write_virtual(struct hdf *f, const struct temporal *a, const struct frame_field *field, uint32_t needed,
                           int more)
 {
     for (int k = 0; k < a->n; k++) {
         const char *file = field->fixed ? a->particles[k] : a->frame[k];
-        a->source[k].file = bit < 0 || a->has[k] >> bit & 1 ? file : NULL;
+        a->source[k].file = (a->has[k] & needed) == needed ? file : NULL;
     }
     hdf_write_virtual(f, field->path, field->type, field->columns, a->source, a->n, more);
 }
@@ -91,21 +92,18 @@ static void write_virtual(struct hdf *f, const struct temporal *a, const struct 
 static void write_rows(struct hdf *f, const struct temporal *a, int64_t *number)
 {
     static const char *const count[] = {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"};
-    static const struct frame_field cells[] = {{"/VTKHDF/Connectivity", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
-                                               {"/VTKHDF/Offsets", "", HDF_I32, 1, ROW_WHOLE, true, NULL},
-                                               {"/VTKHDF/Types", "", HDF_U8, 1, ROW_WHOLE, true, NULL}};
     char name[PATH_NAME_ROOM];
     for (int k = 0; k < a->n; k++) number[k] = a->source[k].rows;
     for (int c = 0; c < 3; c++) {
         snprintf(name, sizeof name, "/VTKHDF/%s", count[c]);
         hdf_write_rows(f, name, HDF_I64, a->n, 1, number);
     }
-    for (int c = 0; c < 3; c++) write_virtual(f, a, &cells[c], -1, c == 1);
+    for (int c = 0; c < CELL_LISTS; c++) write_virtual(f, a, &frame_cells[c], 0, c == CELLS_OFFSETS);
     hdf_create_group(f, "/VTKHDF/PointData");
     for (int k = 0; k < FRAME_FIELDS; k++) {
         const struct frame_field *field = &frame_fields[k];
         if (!(a->fields >> k & 1) || field->columns == 0) continue;
-        write_virtual(f, a, field, k, 0);
+        write_virtual(f, a, field, 1u << k, 0);
         hdf_write_text_attribute(f, field->path, "unit", field->unit[0] ? field->unit : "1");
     }
 }
@@ -147,13 +145,8 @@ static status temporal_write(const struct temporal *a, const char *path, const c
     write_steps(&f, a, number);
     write_rows(&f, a, number);
     write_texts(&f, a, scene_text, number);
-    if (!f.failed) hdf_close(&f);
     memory_free(number);
-    if (f.failed) {
-        *broken = true;
-        file_discard(path);
-        return file_fault(path, f.cause);
-    }
+    TRY(hdf_close_written(&f, path, broken));
     TRY(file_append_and_sync(path, NULL, 0));
     return file_publish(path);
 }

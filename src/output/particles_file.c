@@ -58,15 +58,21 @@ void particles_file_free(struct particles_file *f)
     f->rows = NULL, f->cells = NULL;
 }
 
+/* Writes a list of the cells. entries: of the list at `of`. */
+static void particles_write_list(struct hdf *h, int list, int64_t entries, const void *of)
+{
+    hdf_write_table(h, frame_cells[list].path, frame_cells[list].type, entries, 1, 1, of);
+}
+
 /* Writes one vertex cell per particle: cell k consists of point k and starts at k. */
 static void particles_write_cells(struct hdf *h, const struct particles_file *f)
 {
     for (int k = 0; k < 3; k++) hdf_write_rows(h, linked[k], HDF_I64, 1, 1, &f->n);
     for (int64_t k = 0; k <= f->n; k++) f->cells[k] = (int32_t)k;
-    hdf_write_table(h, "/VTKHDF/Connectivity", HDF_I32, f->n, 1, 1, f->cells);
-    hdf_write_table(h, "/VTKHDF/Offsets", HDF_I32, f->n + 1, 1, 1, f->cells);
+    particles_write_list(h, CELLS_CONNECTIVITY, f->n, f->cells);
+    particles_write_list(h, CELLS_OFFSETS, f->n + 1, f->cells);
     array_fill_bytes(f->cells, VTK_VERTEX, f->n, 1);
-    hdf_write_table(h, "/VTKHDF/Types", HDF_U8, f->n, 1, 1, f->cells);
+    particles_write_list(h, CELLS_TYPES, f->n, f->cells);
 }
 
 /* Writes groups, marks, texts, cells and fields of a particles file. */
@@ -98,12 +104,7 @@ status particles_file_write(const struct particles_file *f, bool *broken)
     if (!particles_file_damage(f->path.text, &content) && content == f->content) return OK;
     hdf_create(&h, file_begin_temporary(f->path.text).text, f->compress);
     particles_write_contents(&h, f);
-    if (!h.failed) hdf_close(&h);
-    if (h.failed) {
-        *broken = true;
-        file_discard(f->path.text);
-        return file_fault(f->path.text, h.cause);
-    }
+    TRY(hdf_close_written(&h, f->path.text, broken));
     TRY(file_append_footer(f->path.text));
     return file_publish(f->path.text);
 }

@@ -226,10 +226,9 @@ static status summary_read_find(const char *folder, const char *key, char **text
     struct reader r = {0};
     status s = summary_read_document(&r, folder, key, text);
     const char *other = s == OK && r.found == NULL ? result_other_name(key) : NULL;
-    if (other) {
-        free(*text);
-        r = (struct reader){0};
-        s = summary_read_document(&r, folder, other, text);
+    if (other) { /* the document is sound, as read above */
+        r = (struct reader){.at = *text};
+        (void)value(&r, other, 0);
     }
     if (s == OK && r.found == NULL) s = status_set(FAILED, "%s/summary.json: no %s", folder, key);
     if (s != OK) free(*text);
