@@ -72,10 +72,7 @@ status peer_seconds(const char *log, int steps, double *seconds)
 status peer_run_bond_style(const char *text, int steps, double *seconds)
 {
     const char *scene = PEERS_FOLDER "/bonds.yaml", *folder = PEERS_FOLDER "/bonds";
-    FILE *to = fopen(scene, "w");
-    if (!to) return file_fault(scene, errno);
-    const bool written = fputs(text, to) >= 0;
-    if (fclose(to) != 0 || !written) return file_fault(scene, errno);
+    TRY(file_write_whole(scene, text, strlen(text)));
     TRY(export_lammps(&(struct export_request){
         .scene = scene, .folder = folder, .bond_style = true, .allow_different = true, .overwrite = true}));
     TRY(peer_spawn(folder, "in.lammps", "log.lammps"));

@@ -42,6 +42,12 @@ static inline bool material_yields(const struct material *m)
     return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;
 }
 
+/* Returns the stress at which the material begins to yield [Pa]; only if material_yields. */
+static inline real material_first_yield(const struct material *m)
+{
+    return m->law.given ? m->law.yield : m->yield_stress;
+}
+
 /* Returns true if the material has bulk viscosity. */
 static inline bool material_viscous(const struct material *m)
 {

@@ -115,6 +115,12 @@ static inline bool boundary_is_force(const struct boundary *b)
     return b->kind == BOUNDARY_TRACTION || b->kind == BOUNDARY_BODY_FORCE || b->kind == BOUNDARY_PRESSURE;
 }
 
+/* Returns true if boundary b holds its components at rest. */
+static inline bool boundary_holds(const struct boundary *b, int dim)
+{
+    return b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, dim) == 0;
+}
+
 /* A constrained component of a node, valid as long as the grid keeps its box. */
 struct held {
     int32_t node;

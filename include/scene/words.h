@@ -12,6 +12,9 @@ bool length_read(real *value, const char *text, char *what, size_t room);
  * writes what is wrong to `what` (capacity `room` bytes), as the rest of a sentence that begins with the text. */
 bool time_read(real *value, const char *text, char *what, size_t room);
 
+/* Returns the index of `text` in the words a|b|c, or -1. */
+int word_index(const char *words, const char *text);
+
 /* Returns the name among the n > 0 names in `name` that has the smallest edit distance to `word`, the first of
  * several. */
 const char *word_nearest(const char *word, const char *const *name, int n);

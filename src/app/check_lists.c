@@ -75,8 +75,7 @@ void print_list_advice(const struct run *e, FILE *out)
         if (layers >= LAYERS_MOST) continue;
         fprintf(out,
                 "accuracy       body %s: parts of its list are %d layers thin: with pd.surface: %s their stiffness in "
-                "bending, "
-                "twisting and tension is off by up to about %d %%; ",
+                "bending, twisting and tension is off by up to about %d %%; ",
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
                 layer_stiffness_error(s, s->surface, layers));
         if (s->body[b].list.lattice)

@@ -5,6 +5,7 @@
 #include "base/edit_distance.h"
 #include "commands.h"
 #include "scene/scene.h"
+#include "scene/words.h"
 
 /* Words that are neither keys nor values of keys, and where the manual or the program answers. words: a|b|c. */
 static const struct {
@@ -49,10 +50,8 @@ static const struct {
 /* Returns where the manual or the program answers about a word, or NULL. */
 static const char *topic_answer(const char *word)
 {
-    const size_t length = strlen(word);
     for (size_t k = 0; k < COUNT_OF(topics); k++)
-        for (const char *c = topics[k].words; c; c = strchr(c, '|') ? strchr(c, '|') + 1 : NULL)
-            if (strcspn(c, "|") == length && !strncmp(c, word, length)) return topics[k].answer;
+        if (word_index(topics[k].words, word) >= 0) return topics[k].answer;
     return NULL;
 }
 

@@ -41,8 +41,7 @@ static const struct entry options[] = {
      "plot"},
     {"-s KEY=VALUE",
      "replaces the value of a key of the scene, or adds the key: material.young=70e9, boundary.0.velocity='[0, 20 "
-     "m/s]', "
-     "cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists are named by their number, from 0 "
+     "m/s]', cracks.1.to='[20 mm, 0]', materials.steel.young=210e9. Items of lists are named by their number, from 0 "
      "(boundary.0 or boundary[0]), or by their name. An empty value, KEY=, removes the key or the item.",
      NULL},
     {"-t THREADS", "sets the number of threads. The results do not depend on it.", NULL},
@@ -108,8 +107,7 @@ static const struct entry files[] = {
     {"history.csv",
      "one line per sample: energies, momentum, crack tip, probes; pd_share and mpm_share, shares of the particles by "
      "method, and inactive_share, the share of them that rested, mean over the steps since the last sample; where "
-     "nothing "
-     "outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about their centre of mass",
+     "nothing outside the bodies acts on them angular_momentum_z (in space _x and _y, too), about their centre of mass",
      NULL},
     {"NAME_NNNNNN.csv", "profiles of the line and exact probe NAME, one with every frame", NULL},
     {"fragments.csv", "pieces that bonds hold together at the end (method pd)", NULL},

@@ -46,6 +46,10 @@ status parts_archive(struct run *e, struct archive *a);
 void engine_warn_of_isolated(const struct scene *s, const struct cells *cells, const struct bonds *b,
                              const struct particles *p, struct warnings *to);
 
+/* Returns true if the bounding box of a crack overlaps the box low..high [dim, m], extended by `reach` [m] on every
+ * side. */
+bool crack_meets_box(const struct crack *c, const real *low, const real *high, int dim, real reach);
+
 /* Adds warnings to *to about pre-cracks that are outside of all bodies or cut no bond, and about probes of cracks where
  * no bond can break. reach: length of the longest bonds [m]. */
 void engine_warn_of_cracks(const struct scene *s, const struct particles *p, const struct bonds *b, real reach,

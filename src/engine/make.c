@@ -209,13 +209,13 @@ static real share_filled(const struct region *shape, const real *from, const rea
 
 /* Estimates the number of particles on lattices. *longest: receives the longest edge of the boxes around bodies
  * [spacings]. */
-static real particles_expected(const struct scene *s, real *longest)
+static real particles_expected(const struct scene *s, bool boxes, real *longest)
 {
     real n = 0, from[DIM_MAX], to[DIM_MAX];
     *longest = 0;
     for (int b = 0; b < s->bodies; b++) {
         if (s->body[b].file || !region_bounds(&s->body[b].shape, s->dim, from, to)) continue;
-        real count = share_filled(&s->body[b].shape, from, to, s->dim);
+        real count = boxes ? 1 : share_filled(&s->body[b].shape, from, to, s->dim);
         for (int d = 0; d < s->dim; d++) {
             count *= (to[d] - from[d]) / s->spacing;
             *longest = real_max(*longest, (to[d] - from[d]) / s->spacing);
@@ -228,7 +228,7 @@ static real particles_expected(const struct scene *s, real *longest)
 /* Returns the number of particles, or before they exist its estimate. *longest: as in particles_expected. */
 static real particles_now(const struct scene *s, const struct particles *p, real *longest)
 {
-    const real expected = particles_expected(s, longest);
+    const real expected = particles_expected(s, false, longest);
     return p->n > 0 ? (real)p->n : expected;
 }
 
@@ -252,7 +252,7 @@ real run_estimate_memory(const struct scene *s, const struct particles *p, const
 real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p, const struct bond_source *source)
 {
     real longest;
-    particles_expected(s, &longest);
+    particles_expected(s, true, &longest);
     return memory_of(s, source, (real)p->n_body, longest, true);
 }
 
@@ -263,7 +263,8 @@ real run_estimate_memory_all_pd(const struct scene *s, const struct particles *p
 void engine_say_size(const struct scene *s)
 {
     real longest;
-    const real n = particles_expected(s, &longest);
+    if (particles_expected(s, true, &longest) < POSITIONS_QUICK) return;
+    const real n = particles_expected(s, false, &longest);
     const bool refused =
         s->method == METHOD_PD && n * BYTES_OF_BONDS > (real)machine_memory_size(); /* at once, in a line */
     if (n < POSITIONS_QUICK || refused) return;

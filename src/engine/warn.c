@@ -1,9 +1,6 @@
 /* Warnings before a run, with the measurements behind them. */
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
-#include "base/memory.h"
 #include "engine_internal.h"
 #include "run/part.h"
 #include "grid/grid_part.h"

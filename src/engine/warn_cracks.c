@@ -30,6 +30,7 @@ static bool crack_meets_particles(const struct crack *c, const struct particles 
 static real particle_distance(const struct particles *p, const real *X)
 {
     real least2 = INFINITY;
+#pragma omp parallel for schedule(static) reduction(min : least2)
     for (int64_t i = 0; i < p->n; i++) {
         real r2 = 0;
         for (int d = 0; d < p->dim; d++) r2 += square(p->X[d][i] - X[d]);
@@ -57,29 +58,17 @@ static real crack_distance(const struct crack *c, const struct particles *p)
     return least;
 }
 
-/* Returns true if the box round a crack is farther than `reach` from the box low to high [dim, m]. */
-static bool crack_box_apart(const struct crack *c, const real *low, const real *high, int dim, real reach)
-{
-    bool apart = false;
-    for (int d = 0; d < dim; d++) {
-        real from = INFINITY, to = -INFINITY;
-        for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
-        apart |= from > high[d] + reach || to < low[d] - reach;
-    }
-    return apart;
-}
-
 /* Warns of the first pre-cracks that are farther from all particles than `reach`, the length of bonds [m]. Of many
  * cracks only boxes are compared. Returns true if there are any. */
 static bool warn_of_far_cracks(const struct scene *s, const struct particles *p, real reach, struct warnings *to)
 {
     enum { SEARCHED = 16, NAMED = 3 };
-    real low[DIM_MAX], high[DIM_MAX];
+    real low[DIM_MAX] = {0}, high[DIM_MAX] = {0};
     int far = 0;
-    for (int d = 0; d < s->dim && s->cracks > 0; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
+    for (int d = 0; d < s->dim && s->cracks > SEARCHED; d++) particles_extent(p, p->n, d, &low[d], &high[d]);
     for (int k = 0; k < s->cracks && s->dim > 1 && far < NAMED; k++) {
         const struct crack *c = &s->crack[k];
-        if (s->cracks > SEARCHED ? !crack_box_apart(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
+        if (s->cracks > SEARCHED ? crack_meets_box(c, low, high, s->dim, reach) : crack_meets_particles(c, p, reach))
             continue;
         far++;
         warnings_add(

@@ -1,6 +1,5 @@
 /* Warns of bodies that fly from the start, and that meet no other body before the end of the run. */
 #include <math.h>
-#include <stdio.h>
 
 #include "base/memory.h"
 #include "engine_internal.h"
@@ -73,8 +72,7 @@ static bool fly_freely(const struct scene *s)
     bool freely = scene_moves(s) && dot(s->gravity, s->gravity, s->dim) == 0;
     for (int k = 0; k < s->boundaries; k++) {
         const struct boundary *b = &s->boundary[k];
-        const bool holds = b->kind == BOUNDARY_VELOCITY && !b->rotates && dot(b->value, b->value, s->dim) == 0;
-        freely = freely && (holds || b->kind == BOUNDARY_ABSORBING);
+        freely = freely && (boundary_holds(b, s->dim) || b->kind == BOUNDARY_ABSORBING);
     }
     for (int b = s->bodies; b < s->bodies + s->rigids; b++)
         freely = freely && dot(s->body[b].force, s->body[b].force, s->dim) == 0;

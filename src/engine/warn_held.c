@@ -12,9 +12,7 @@ static void warn_of_held(const struct scene *s, const struct load *l, const stru
 {
     const struct boundary *b = l->boundary;
     const unsigned all = (1u << s->dim) - 1;
-    const bool rests = !b->rotates && dot(b->value, b->value, s->dim) == 0;
-    if (b->kind != BOUNDARY_VELOCITY || l->n < p->n || p->n < p->n_body || (b->components & all) != all || !rests)
-        return;
+    if (!boundary_holds(b, s->dim) || l->n < p->n || p->n < p->n_body || (b->components & all) != all) return;
     warnings_add(to, "boundary %s holds all %lld particles: nothing can move; check the units of its region (mm?)",
                  b->name, (long long)l->n);
 }

@@ -1,5 +1,4 @@
 /* Warns of frames that a run never writes: their times or their interval lie beyond the duration. */
-#include <math.h>
 
 #include "engine_internal.h"
 

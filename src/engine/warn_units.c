@@ -84,7 +84,7 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
         units_judge(s, RULE_DENSITY, subject, a->density, "", to);
         if (isfinite(a->energy_release_rate)) units_judge(s, RULE_ENERGY, subject, a->energy_release_rate, "", to);
-        const real yield = a->law.given ? a->law.yield : a->yield_stress;
+        const real yield = material_first_yield(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
         if (material_yields(a)) units_judge(s, RULE_YIELD, subject, yield / a->young, note, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
@@ -251,14 +251,13 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
         units_judge(s, RULE_STEPS, "time", (real)clock->steps, note, to);
 }
 
-/* Returns true if the bounding box of a crack overlaps the box low..high, extended by one spacing on every side. */
-static bool crack_meets_box(const struct crack *c, const real *low, const real *high, const struct scene *s)
+bool crack_meets_box(const struct crack *c, const real *low, const real *high, int dim, real reach)
 {
     bool meets = true;
-    for (int d = 0; d < s->dim; d++) {
+    for (int d = 0; d < dim; d++) {
         real from = INFINITY, to = -INFINITY;
         for (int k = 0; k < c->n; k++) from = real_min(from, c->corner[k][d]), to = real_max(to, c->corner[k][d]);
-        meets = meets && from <= high[d] + s->spacing && to >= low[d] - s->spacing;
+        meets = meets && from <= high[d] + reach && to >= low[d] - reach;
     }
     return meets;
 }
@@ -299,7 +298,7 @@ static void units_of_particles(const struct scene *s, const struct particles *p,
                 low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
             }
         for (int k = 0; k < s->cracks && high[0] >= low[0]; k++)
-            cracked = cracked || crack_meets_box(&s->crack[k], low, high, s);
+            cracked = cracked || crack_meets_box(&s->crack[k], low, high, s->dim, s->spacing);
         if (cracked) units_of_body(s, s->body[b].name, low, high, to);
     }
 }

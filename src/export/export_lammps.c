@@ -106,9 +106,8 @@ static void readme_write(FILE *to, const struct exported *x)
               to);
     if (x->bond_style)
         fputs("\nbond_style bpm/peri was written by its documentation (LAMMPS of 2 September 2026) and has not been "
-              "run by "
-              "Cleave's\ntests. Compare with check.csv before you rely on it. There is no contact: see the comment at "
-              "pair_style.\n",
+              "run by Cleave's\ntests. Compare with check.csv before you rely on it. There is no contact: see the "
+              "comment at pair_style.\n",
               to);
     else if (x->s->contact_between != CONTACT_NONE)
         fputs("\nPieces that meet push each other, by the same rule in both programs.\n", to);

@@ -58,8 +58,7 @@ static const struct foreign {
      "particles.horizon"},
     {"erosion|element_deletion|deletion|kill", "material.critical_stretch",
      "=Cleave does not do deletion of particles: bonds break (energy_release_rate, toughness or critical_stretch), "
-     "mass "
-     "stays"},
+     "mass stays"},
     /* yielding */
     {"yield|yielding|yield_strength|yield_point|sigma_y|sigy|plastic|plasticity|von_mises|mises|ductile|j2",
      "material.yield_stress material.yield_tangent material.yield_hardening",
@@ -71,8 +70,7 @@ static const struct foreign {
      "material.johnson_cook",
      "=the yield stress depends on rate and temperature by `johnson_cook`, in material points (`method: mpm`)"},
     {"friction_angle|cohesion|dilation_angle|dilatancy|drucker_prager|mohr_coulomb|cap|pressure_dependence|concrete|"
-     "soil|"
-     "sand",
+     "soil|sand",
      "material.yield_stress contact.friction",
      "=Cleave does not do yielding that depends on pressure (Mohr-Coulomb, Drucker-Prager); nearest: yield_stress (von "
      "Mises), and contact.friction between faces"},
@@ -130,13 +128,11 @@ static const struct foreign {
      NULL},
     /* discretisation */
     {"dx|h|mesh_size|cellsize|element_size|cell_size|grid_size|resolution|lattice_constant|particle_spacing|n_"
-     "particles|"
-     "num_nodes|discretisation|discretization|node_spacing",
+     "particles|num_nodes|discretisation|discretization|node_spacing",
      "particles.spacing", NULL},
     {"lattice|packing|hexagonal|hex|fcc|bcc", "particles.spacing particles.irregularity",
      "=Cleave fills bodies by a square or cubic lattice of particles.spacing; particles.irregularity moves particles "
-     "off "
-     "it"},
+     "off it"},
     {"delta|horizon_size|horizon_ratio|m_ratio|cutoff|family|neighbour_radius|neighbor_radius", "particles.horizon",
      "in spacings"},
     {"influence_function|weight_function|kernel", "pd.influence", NULL},
@@ -149,11 +145,9 @@ static const struct foreign {
      "particles.spacing"},
     {"nset|elset|node_set|node_sets|set|sets|group|groups|region", "regions boundary.region",
      "=regions are solids with names (the key regions), or a box, ball, ... where they are used: boundary: [{fixed: "
-     "all, "
-     "region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}]"},
+     "all, region: {box: {from: [0, 0], to: [1 mm, 10 mm]}}}]"},
     {"verlet|velocity_verlet|leap_frog|central_differences|integrator|time_integration|explicit|dynamic|dynamics|"
-     "static|"
-     "statics|quasi_static|quasistatic|run_style",
+     "static|statics|quasi_static|quasistatic|run_style",
      "solver", "as explicit (in time), static (load steps) or relaxation (one equilibrium)"},
     {"ppc|ptspercell|points_per_cell|particles_per_cell|matlpts", "mpm.cell",
      "the edge of a cell in spacings: 2 is 4 points in the plane, 8 in space"},
@@ -178,10 +172,8 @@ static const struct foreign {
     {"wall_time|walltime|time_limit", "time.wall", NULL},
     /* loads, supports, initial states */
     {"bc|bcs|fix|roller|rollers|disbc|loadbc|velocity_bc|displacement_bc|boundary_condition|boundary_conditions|"
-     "boundaries|constraint|"
-     "constraints|support|supports|dirichlet|"
-     "encastre|"
-     "clamp|clamped|pinned|prescribed_displacement",
+     "boundaries|constraint|constraints|support|supports|dirichlet|encastre|clamp|clamped|pinned|prescribed_"
+     "displacement",
      "boundary boundary.fixed boundary.displacement boundary.velocity",
      "a list of {fixed, displacement, velocity, traction, pressure ...}"},
     {"loads|load|cload|dload|dsload|forces|point_force|point_load|neumann|surface_traction|applied_stress",
@@ -236,12 +228,10 @@ static const struct {
     {"mpm", "kernel|basis|interpolation|gimp|cpdi|shape_functions", "here it is `shape`"},
     {"probes", "strain|stress|velocity|displacement|acceleration|damage|sensor|gauge|node|position",
      "{point: {at: [0, 0]}} records the motion at a point and {line: ...} a profile; fields are in every frame, more "
-     "of "
-     "them by output.fields"},
+     "of them by output.fields"},
     {"boundary", "encastre|clamp|clamped|pinned|support|constraint|held|hold|rigid|xsymm|ysymm|zsymm",
      "a support is {fixed: all, face: x-}, or [x], [y], [z] for some components; a plane of symmetry is {mirror: "
-     "{axis: "
-     "x, at: 0}}"},
+     "{axis: x, at: 0}}"},
     {"boundary", "type|kind|value|values|u|ux|uy|uz|disp|displ|dirichlet|neumann|dof|coordinate",
      "the kind is the key, with its value: {displacement: [1 mm, free], face: x+}; also fixed, velocity, traction, "
      "pressure, body_force, mirror, absorbing"},

@@ -9,6 +9,7 @@
 #include "data/expression.h"
 #include "scene/scene.h"
 #include "scene/units.h"
+#include "scene/words.h"
 
 /* A named region that is being read, and the region that refers to it. Following `outer` shows whether a region
  * contains itself. */
@@ -335,9 +336,6 @@ const char *shown_text(struct reader *r, const char *text);
 
 /* Returns the words a|b|c of a choice as `a, b or c`, in the arena. */
 const char *word_list(struct reader *r, const char *words);
-
-/* Returns the index of `text` in a|b|c, or -1. */
-int word_index(const char *words, const char *text);
 
 /* REFUSED for keys of `map` that are unknown in `group` or given twice. */
 status check_keys(struct reader *r, const struct node *map, const char *group);

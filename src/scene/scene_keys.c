@@ -299,8 +299,7 @@ const struct key keys[] = {
         .words = "auto|slit|bonds"),
     KEY("conversion.reversion", KEY_FLAG, UNIT_NONE, AT(scene, conversion.reverts), ANY, "false",
         "peridynamic particles become material points again where no bond within two horizons was ever broken and the "
-        "stress "
-        "stays low (coupling partial stress or handshake, elastic materials)"),
+        "stress stays low (coupling partial stress or handshake, elastic materials)"),
     KEY("conversion.hold_time", KEY_REAL, UNIT_NONE, AT(scene, conversion.hold_time), BETWEEN(1, 1e6), "5",
         "reversion: how long the stress must have been low, in horizon over wave speed; longer: fewer reversions"),
     KEY("conversion.low_stress", KEY_REAL, UNIT_NONE, AT(scene, conversion.low_stress), INSIDE(0, 0.9), "0.5",
@@ -415,8 +414,7 @@ const struct key keys[] = {
         "lines of history.csv after the one at t = 0"),
     KEY("output.checkpoint", KEY_REAL, UNIT_TIME, AT(scene, checkpoint_interval), FROM(0), "auto",
         "wall clock between checkpoints; 0: after every step; auto: 60 s, longer if checkpoints would take more than 3 "
-        "% "
-        "of the time of the run",
+        "% of the time of the run",
         .words = "auto", .word_value = NAN),
     KEY("output.compress", KEY_FLAG, UNIT_NONE, AT(scene, compress), ANY, "false", "gzip the frames (slow)"),
 

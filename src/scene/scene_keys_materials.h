@@ -53,8 +53,7 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "gamma; 0: linear (Prager), else Armstrong and Frederick's law, whose back stress saturates at modulus/recall"),
     KEY("material.johnson_cook", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "Johnson and Cook's yield stress, in place of yield_stress: (A + B a^n)(1 + C log max(rate/eps0, 1))(1 - "
-        "T*^m), "
-        "T* = (T - T_room)/(T_melt - T_room); material points of the current frame, explicit steps"),
+        "T*^m), T* = (T - T_room)/(T_melt - T_room); material points of the current frame, explicit steps"),
     KEY("material.johnson_cook.A", KEY_REAL, UNIT_PRESSURE, AT(law, johnson_cook.A), ABOVE(0), REQUIRED,
         "yield stress at rest"),
     KEY("material.johnson_cook.B", KEY_REAL, UNIT_PRESSURE, AT(law, johnson_cook.B), FROM(0), REQUIRED,

@@ -13,8 +13,7 @@ static real speed_limit(const struct scene *s)
     for (int m = 0; m < s->materials; m++) {
         const struct material *own = &s->material[m];
         real strain = s->method == METHOD_MPM ? INFINITY : own->critical_stretch;
-        const real yield = own->law.given ? own->law.yield : own->yield_stress;
-        if (material_yields(own)) strain = real_min(strain, yield / own->young);
+        if (material_yields(own)) strain = real_min(strain, material_first_yield(own) / own->young);
         least = real_min(least, strain * own->wave_speed);
     }
     return least;
