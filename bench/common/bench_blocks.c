@@ -45,7 +45,8 @@ static int64_t edge_of_block(const struct bench_block *b, double particles)
 }
 
 /* Writes the scene. Every particle moves, because particles at rest may be skipped; displacements stay small: 1 m/s at
- * the farthest corner. */
+ * the farthest corner. Cells of the reference frame have two spacings everywhere: with levels of coarse cells, a run
+ * ends only at steps at which all levels have one time, and parts of it could not be timed. */
 static void block_text(FILE *to, const struct bench_block *b, double particles, int64_t steps, int frames)
 {
     const double spacing = 1e-3, step = 5e-8, edge = spacing * (double)edge_of_block(b, particles), rate = 1 / edge;
@@ -53,7 +54,8 @@ static void block_text(FILE *to, const struct bench_block *b, double particles, 
             b->dim == 2 ? "thickness: 1 mm\n" : "");
     fprintf(to, "method: %s\nduration: %.9g\ntime: {step: %.9g}\n", b->method, (double)steps * step, step);
     fprintf(to, "material: {young: 72e9, density: 2440, critical_stretch: 0.1}\nparticles: {spacing: %.9g}\n", spacing);
-    fprintf(to, "mpm: {frame: %s}\noutput: {frames: %d, samples: 1}\n", b->frame, frames);
+    fprintf(to, "mpm: {frame: %s%s}\noutput: {frames: %d, samples: 1}\n", b->frame,
+            strcmp(b->frame, "reference") == 0 ? ", levels: 0" : "", frames);
     if (b->dim == 2)
         fprintf(
             to,
