@@ -20,11 +20,14 @@ enum output_mode { OUTPUT_FIRST, OUTPUT_RESUME, OUTPUT_OVERWRITE }; /* treatment
 
 enum { SERIES_MOST = 16 }; /* number of regions with frames of their own, in addition to the frames of the whole body */
 
+/* Mark of a frame that is lost (output_frames_check), beside the fields of struct frame_entry. */
+#define FRAME_LOST (1u << 31)
+
 /* A frame that has been written. */
 struct frame_entry {
-    real time;         /* [s]; NAN: the frame is lost (output_frames_check) */
+    real time;         /* [s] */
     int64_t rows;      /* particles and material points of coarse cells */
-    uint32_t fields;   /* bit set of the fields in this frame (output_fields.c) */
+    uint32_t fields;   /* bit set of the fields in this frame (output_fields.c), and FRAME_LOST */
     int32_t particles; /* number in the name of the particles file that the frame links to (particles_file.h) */
 };
 
@@ -110,8 +113,9 @@ bool scene_text_is_echo(const char *text);
  * then renamed, so that the file under its final name is complete. Returns FAILED if the file cannot be written. */
 status output_write_text(const struct output *o, const char *name, const char *text, size_t length);
 
-/* Removes frames that are missing or incomplete from the index files of all series. Call it after a restart. lost:
- * receives the number of these frames. text: receives a message about the first of them and holds `room` bytes.
+/* Writes the index files of all series anew, without frames that are missing or incomplete; a frame that was lost at an
+ * earlier restart and is there again is listed again. Call it after a restart. lost: receives the number of lost
+ * frames. text: receives a message about the first of them and holds `room` bytes.
  * Returns FAILED if an index file cannot be written. */
 status output_frames_check(struct output *o, int *lost, char *text, size_t room);
 

@@ -356,7 +356,7 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
 {
     real time = NAN;
     int64_t content = 0;
-    const char *fault = isnan(e->time) ? "is missing" : file_certain_damage(path);
+    const char *fault = file_certain_damage(path);
     if (fault) return snprintf(text, room, "%s", fault) > 0;
     if (!path_is_file(path)) return false;
     if (particles->fault) return snprintf(text, room, "links to %s, which %s", particles->name, particles->fault) > 0;
@@ -367,27 +367,25 @@ static bool frame_is_lost(const char *path, const struct frame_entry *e, const s
 }
 
 /* Marks the lost frames of a series, adds their number to *lost and writes the first of all to `text`, capacity `room`
- * [byte]. A particles file that is lost is not used for further frames. Returns the number of frames lost in this
- * series. */
-static int series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
+ * [byte]. Frames marked at an earlier restart that are there again lose their mark. A particles file that is lost is
+ * not used for further frames. */
+static void series_check(const struct output *o, struct frame_series *s, int *lost, char *text, size_t room)
 {
     struct particles_seen seen = {.number = -1};
-    int own = 0;
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], fault[PATH_NAME_ROOM + 100];
         frame_name(s, name, sizeof name, k);
         particles_file_look(&seen, o->folder, s, s->entry[k].particles);
         const struct path path = path_join(o->folder, name);
+        s->entry[k].fields &= ~FRAME_LOST;
         if (!frame_is_lost(path.text, &s->entry[k], &seen, fault, sizeof fault)) continue;
         if ((*lost)++ == 0) snprintf(text, room, "%s %s", name, fault);
-        s->entry[k].time = NAN;
-        own++;
+        s->entry[k].fields |= FRAME_LOST;
     }
     if (seen.fault) s->particles.number = -1;
-    return own;
 }
 
-/* Composes and writes both index files of a series again, after frames were lost. */
+/* Composes and writes both index files of a series again. */
 static status series_index(const struct output *o, struct frame_series *series)
 {
     struct frame_indices index = {0};
@@ -400,8 +398,11 @@ static status series_index(const struct output *o, struct frame_series *series)
 status output_frames_check(struct output *o, int *lost, char *text, size_t room)
 {
     *lost = 0;
-    for (int k = 0; k <= o->n_series; k++)
-        if (series_check(o, &o->series[k], lost, text, room) > 0) TRY(series_index(o, &o->series[k]));
+    for (int k = 0; k <= o->n_series; k++) {
+        if (o->series[k].frames == 0) continue;
+        series_check(o, &o->series[k], lost, text, room);
+        TRY(series_index(o, &o->series[k]));
+    }
     if (*lost == 0) return OK;
     const size_t used = strlen(text);
     if (*lost > 1) snprintf(text + used, room - used, ", and %d frames more are lost", *lost - 1);

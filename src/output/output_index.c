@@ -3,7 +3,6 @@
 #include "output_index.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,7 +27,7 @@ static void series_print(FILE *out, const struct frame_series *s)
     fprintf(out, "{\"file-series-version\":\"1.0\",\"files\":[");
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM];
-        if (isnan(s->entry[k].time)) continue; /* lost (output_frames_check) */
+        if (s->entry[k].fields & FRAME_LOST) continue;
         frame_name(s, name, sizeof name, k);
         fprintf(out, "%s\n{\"name\":\"%s\",\"time\":%.17g}", between, name, s->entry[k].time);
         between = ",";
@@ -82,7 +81,7 @@ static void xdmf_print(FILE *out, const struct frame_series *s)
     fprintf(out, "<Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n");
     for (int k = 0; k < s->frames; k++) {
         char name[PATH_NAME_ROOM], particles[PATH_NAME_ROOM];
-        if (isnan(s->entry[k].time)) continue;
+        if (s->entry[k].fields & FRAME_LOST) continue;
         frame_name(s, name, sizeof name, k);
         particles_file_name(s, particles, sizeof particles, s->entry[k].particles);
         xdmf_grid(out, name, particles, &s->entry[k]);

@@ -8,7 +8,6 @@
 #include "output_fields.h"
 #include "output_index.h"
 
-#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -39,7 +38,7 @@ static void frames_look(struct temporal *a, const struct frame_series *series)
     for (int k = 0; k < series->frames; k++) {
         const struct frame_entry *e = &series->entry[k];
         frame_name(series, a->frame[a->n], sizeof a->frame[a->n], k);
-        if (isnan(e->time) || !path_is_file(path_join(a->folder, a->frame[a->n]).text)) continue;
+        if (e->fields & FRAME_LOST || !path_is_file(path_join(a->folder, a->frame[a->n]).text)) continue;
         particles_file_name(series, a->particles[a->n], sizeof a->particles[a->n], e->particles);
         a->time[a->n] = e->time, a->has[a->n] = e->fields, a->source[a->n].rows = e->rows;
         a->start[a->n] = a->n > 0 ? a->start[a->n - 1] + a->source[a->n - 1].rows : 0;

@@ -211,7 +211,6 @@ static void foreign_file_is_left(void **state)
         strstr(text, "frames/000000.hdf links to frames/particles_000000.h5, which is of another run, and 1"));
     assert_int_equal(unlink("left/frames/particles_000000.h5"), 0);
     assert_int_equal(link("left/frames/000000.hdf", "left/frames/particles_000000.h5"), 0);
-    for (int k = 0; k < 2; k++) o.series[0].entry[k].time = k;
     o.series[0].particles.number = 0;
     assert_int_equal(output_frames_check(&o, &lost, text, sizeof text), OK);
     assert_int_equal(lost, 2);
@@ -219,6 +218,45 @@ static void foreign_file_is_left(void **state)
     assert_true(path_is_file("left/frames/particles_000002.h5"));
     assert_int_equal(frame_read(&f, "left/frames/000002.hdf"), OK);
     frame_free(&f);
+    particles_free(&p);
+    output_close(&o);
+}
+
+/* Asserts that frames.xdmf of the folder `back` lists n frames, and that a restart reports `lost` frames as lost. */
+static void assert_listed(struct output *o, int n, int lost)
+{
+    char message[1000], *text;
+    size_t length;
+    int found = -1, listed = 0;
+    assert_int_equal(output_frames_check(o, &found, message, sizeof message), OK);
+    assert_int_equal(found, lost);
+    assert_int_equal(file_read_whole("back/frames.xdmf", &text, &length), OK);
+    for (const char *at = text; (at = strstr(at, "<Time ")); at++) listed++;
+    assert_int_equal(listed, n);
+    memory_free(text);
+}
+
+/* Frames whose particles file was away at one restart and is back at the next are listed again, also if the index was
+ * written without them by a process whose state is lost. */
+static void file_comes_back(void **state)
+{
+    (void)state;
+    struct output o;
+    struct particles p;
+    static const char file[] = "back/frames/particles_000000.h5";
+    open_fresh(&o, "back");
+    make_particles(&p, 2, 500);
+    for (int k = 0; k < 2; k++) assert_int_equal(output_write_frame(&o, &p, k, k, scene_text), OK);
+    assert_listed(&o, 2, 0);
+    assert_int_equal(rename(file, "away.h5"), 0);
+    output_particles_changed(&o);
+    assert_listed(&o, 0, 2);
+    assert_int_equal(output_write_frame(&o, &p, 2, 2, scene_text), OK);
+    assert_listed(&o, 1, 2);
+    assert_int_equal(rename("away.h5", file), 0);
+    assert_listed(&o, 3, 0);
+    assert_int_equal(file_write_whole("back/frames.xdmf", "", 0), OK);
+    assert_listed(&o, 3, 0);
     particles_free(&p);
     output_close(&o);
 }
@@ -310,6 +348,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(one_file_while_particles_are_the_same),
         cmocka_unit_test(frames_alone_are_refused),
         cmocka_unit_test(foreign_file_is_left),
+        cmocka_unit_test(file_comes_back),
         cmocka_unit_test(complete_frames_are_read),
         cmocka_unit_test(contact_where_it_is),
     };
