@@ -92,7 +92,7 @@ static status efficiency_run_once(struct result *x, int variant, int repetition)
     TRY(make(&e, &s, x, variant));
     struct run_times *r = &x->run[variant];
     status ran = bench_engine_run(&e, e.clock.steps, NULL);
-    r->seconds[repetition] = e.report->loop_seconds;
+    r->seconds[repetition] = report_seconds(e.report, &e.timers).loop;
     parts_keep(r, e.timers.spent, repetition);
     x->particles = e.part.n, x->steps = e.clock.steps;
     if (ran == OK) crack_ends_keep(&r->ends, &e);

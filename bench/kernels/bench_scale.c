@@ -99,9 +99,8 @@ static status time_size(struct size_result *r, const struct bench_block *block, 
     r->particles = (double)e.part.n, r->bonds = (double)e.bonds.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double spent = e.report->loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        r->step = fmin(r->step, (e.report->loop_seconds - spent) / (double)steps);
+        r->step = fmin(r->step, report_seconds(e.report, &e.timers).loop / (double)steps);
     }
     r->bytes = ((double)memory_peak() - before) / r->particles;
     r->frame = NAN;

@@ -50,9 +50,8 @@ static status time_block(struct threads_bench *b, int which, int scaling, int t,
     b->particles[which][scaling][t] = (double)e.part.n;
     status ran = bench_engine_run(&e, STEPS_WARM, NULL);
     for (int k = 1; k <= PIECES && ran == OK; k++) {
-        const double before = e.report->loop_seconds;
         ran = bench_engine_run(&e, STEPS_WARM + k * steps, NULL);
-        *best = fmin(*best, (e.report->loop_seconds - before) / (double)steps);
+        *best = fmin(*best, report_seconds(e.report, &e.timers).loop / (double)steps);
     }
     bench_engine_free(&e, &s);
     return ran;

@@ -28,6 +28,13 @@ struct error_bar {
 };
 enum { ERROR_BARS_MOST = 128 };
 
+/* Wall-clock times of a run; what is neither set-up nor loop is the writing of files [s]. */
+struct run_seconds {
+    double wall;  /* of all, from the scene as read */
+    double setup; /* before the first step, without files */
+    double loop;  /* of the steps, without files */
+};
+
 /* State of the reports of a run. */
 struct run_report {
     struct output *out; /* kept by reference; NULL for a run without files (tests, benches) */
@@ -40,12 +47,10 @@ struct run_report {
     struct {
         real inactive;
         int64_t step;
-    } sampled;             /* inactive and step at the last sample */
-    double setup_seconds;  /* wall-clock time before the first step, without files [s] */
-    double output_seconds; /* wall-clock time of files before and after the loop [s]; in the loop: TIMER_OUTPUT */
-    double loop_seconds;   /* time in the loop without output [s] */
-    double loop_before;    /* loop_seconds of processes before a restart [s] */
-    double began, started; /* wall-clock times of the start of the process, and of its first step [s] */
+    } sampled;                 /* inactive and step at the last sample */
+    struct run_seconds before; /* of the processes before a restart, up to the checkpoint */
+    double setup_seconds;      /* wall-clock time before the first step in this process, without files [s] */
+    double began, started;     /* wall-clock times at which the scene was read, and of the first step [s] */
     double last_progress, last_checkpoint; /* wall-clock times of the last progress line and checkpoint [s] */
     double checkpoint_seconds;             /* longest time that a checkpoint took, waiting for a frame included [s] */
     double checkpoints_spent;              /* time of the checkpoints after that of step 0, in this process [s] */
@@ -66,6 +71,10 @@ int64_t report_count_frames(const struct scene *s, const struct run_clock *clock
 /* Returns the number of the time step after which frame number `frame` of the whole body is written; frame 0 is written
  * at t = 0. clock: time step and number of steps of the run. */
 int64_t report_frame_step(const struct scene *s, const struct run_clock *clock, int64_t frame);
+
+/* Returns the wall-clock times of the run so far, in this process and those before a restart. timers: sections of the
+ * loop in this process. */
+struct run_seconds report_seconds(const struct run_report *r, const struct timers *timers);
 
 /* Returns the set of frame series that must be written after `step` time steps or load steps, one bit per series: bit
  * 0 is the whole body, bit k >= 1 is region k of the scene. Returns 0 if out is NULL (a run without files). A run that

@@ -101,7 +101,8 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
     TRY(engine_make(e, s, out)); /* before the folder is opened, so that a refused scene leaves none */
     const double made = wall_clock();
     TRY(open_folder(out, s, a));
-    e->report->output_seconds = wall_clock() - made;
+    const double opened = wall_clock();
+    e->report->began = start;
     e->report->quiet = a->quiet;
     engine_warn_of_input(e);
     const struct levels_choice levels = frame_levels_choice(e->frame, &e->part, s, e->clock.dt_critical);
@@ -118,19 +119,19 @@ static status run_engine(struct run *e, const struct scene *s, struct output *ou
         fprintf(stderr, "%s holds the finished run: no step is left, and its summary is written again\n",
                 printable_name(out->folder).text);
     output_temporal_remove(out);
-    e->report->setup_seconds = wall_clock() - start - e->report->output_seconds;
+    e->report->setup_seconds = wall_clock() - opened + made - start;
     status ran = engine_run(e);
+    const double run = wall_clock();
     if (ran == OK) ran = engine_run_baseline(e);
+    e->report->setup_seconds += wall_clock() - run;
     if (ran == OK || ran == INTERRUPTED) {
-        const double listed = wall_clock();
         const status temporal = output_write_temporal(out, s->text);
         if (temporal != OK) ran = temporal;
-        e->report->output_seconds += wall_clock() - listed;
     }
     struct error_bar bar[ERROR_BARS_MOST];
     e->report->bar = bar;
     e->report->bars = error_bars_read(bar, ERROR_BARS_MOST, s, out->folder);
-    status written = ran == REFUSED ? OK : summary_write(e, ran, threads, wall_clock() - start);
+    status written = ran == REFUSED ? OK : summary_write(e, ran, threads);
     if (ran != OK) return ran;
     TRY(written);
     if (!a->quiet) print_summary(e, out->folder, wall_clock() - start);

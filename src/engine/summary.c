@@ -98,19 +98,18 @@ static status fragments_write(const struct particles *part, const struct run_rep
 
 /* ---- figures of the machine -------------------------------------------------------------------------------------- */
 
-/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run; output_seconds: of
- * files within the loop. */
-static void put_machine(struct json *j, const struct run_report *r, int64_t steps, double output_seconds, int threads,
-                        double wall_seconds)
+/* Writes figures that depend on the machine: threads, kernels, times, memory. steps: of the run; spent: its times. */
+static void put_machine(struct json *j, const struct run_report *r, int64_t steps, int threads,
+                        const struct run_seconds *spent)
 {
-    real updates = 0, ns = 1e9 * r->loop_seconds;
+    real updates = 0, ns = 1e9 * spent->loop;
     for (int k = 0; k < KINDS; k++) updates += (real)r->particle_steps[k];
     json_count(j, "threads", threads);
     json_text(j, "kernels", simd_current_kernels()->name);
-    json_number(j, "wall_seconds", wall_seconds, JSON_TIMING);
-    json_number(j, "setup_seconds", r->setup_seconds, JSON_TIMING);
-    json_number(j, "loop_seconds", r->loop_seconds, JSON_TIMING);
-    json_number(j, "output_seconds", r->output_seconds + output_seconds, JSON_TIMING);
+    json_number(j, "wall_seconds", spent->wall, JSON_TIMING);
+    json_number(j, "setup_seconds", spent->setup, JSON_TIMING);
+    json_number(j, "loop_seconds", spent->loop, JSON_TIMING);
+    json_number(j, "output_seconds", spent->wall - spent->setup - spent->loop, JSON_TIMING);
     json_count(j, "memory_peak_bytes", memory_peak());
     json_number(j, "ns_per_particle_step", ns / updates, JSON_TIMING);
     json_number(j, "ns_per_bond_step", ns / (real)r->bond_visits, JSON_TIMING);
@@ -125,9 +124,9 @@ static void put_timers(struct json *j, const struct timers *timers)
     json_close(j, '}');
 }
 
-/* Prints summary.json. s, message: result of the run; threads, wall_seconds: for the figures of the machine. */
+/* Prints summary.json. s, message: result of the run; threads: for the figures of the machine. */
 static void summary_print(FILE *file, const struct run *e, const struct fragments *fragments, status s,
-                          const char *message, int threads, double wall_seconds)
+                          const char *message, int threads)
 {
     struct json j = {.file = file, .depth = 1};
     fputc('{', file);
@@ -136,12 +135,13 @@ static void summary_print(FILE *file, const struct run *e, const struct fragment
     for (const struct part *const *p = e->parts; *p; p++)
         if ((*p)->summary) (*p)->summary(e, &j);
     if (has_fragments(e->scene, e->diagnostics)) put_fragments(&j, fragments);
-    put_machine(&j, e->report, e->clock.step, e->timers.spent[TIMER_OUTPUT], threads, wall_seconds);
+    const struct run_seconds spent = report_seconds(e->report, &e->timers);
+    put_machine(&j, e->report, e->clock.step, threads, &spent);
     put_timers(&j, &e->timers);
     fputs("\n}\n", file);
 }
 
-status summary_write(const struct run *e, status s, int threads, double wall_seconds)
+status summary_write(const struct run *e, status s, int threads)
 {
     char message[1024], *text = NULL;
     size_t length = 0;
@@ -154,7 +154,7 @@ status summary_write(const struct run *e, status s, int threads, double wall_sec
     }
     FILE *file = memory_stream_open(&text, &length);
     if (!file) return status_set(FAILED, "cannot write summary.json: out of memory");
-    summary_print(file, e, &fragments, s, message, threads, wall_seconds);
+    summary_print(file, e, &fragments, s, message, threads);
     fragments_free(&fragments);
     const bool whole = fclose(file) == 0;
     status written = whole ? output_write_text(e->report->out, "summary.json", text, length)

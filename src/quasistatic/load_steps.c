@@ -369,7 +369,9 @@ status engine_run_load_steps(struct run *e)
     while (e->clock.step < e->clock.steps) {
         e->clock.load_step = e->statics->record.step = e->clock.step + 1;
         bool apart;
-        TRY(load_step(e));
+        const status solved = load_step(e);
+        timer_add_elapsed(&e->timers, TIMER_BONDS);
+        TRY(solved);
         TRY(check_constrained(e, &apart));
         plastic_state_save(e);
         e->clock.step++;

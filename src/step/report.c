@@ -88,6 +88,16 @@ static status frame_sound(const struct run_clock *clock, const struct particles 
                       (long long)clock->step, clock->t, (int)p->id[first]);
 }
 
+struct run_seconds report_seconds(const struct run_report *r, const struct timers *timers)
+{
+    struct run_seconds s = r->before;
+    s.wall += wall_clock() - r->began;
+    s.setup += r->setup_seconds;
+    for (int k = 0; k < TIMERS; k++)
+        if (k != TIMER_OUTPUT) s.loop += timers->spent[k];
+    return s;
+}
+
 /* Returns true if frame number `frames` of the body is due after `step` steps. */
 static bool body_frame_due(const struct scene *s, const struct run_clock *clock, int frames, int64_t step)
 {
@@ -203,11 +213,11 @@ status report_start(struct run *e)
     struct run_report *r = e->report;
     r->started = r->last_progress = r->last_checkpoint = wall_clock();
     r->step_started = e->clock.step;
-    r->loop_before = r->loop_seconds;
     /* the checkpoint of step 0 counts frame 0 */
     const bool resumed = r->out && r->out->series[0].frames > 0;
     status s = sample_start(e, resumed);
     if (s == OK && r->out) contact_allocate_forces(e->contact, &e->part);
+    r->setup_seconds += wall_clock() - r->started;
     if (s == OK && r->out && resumed) s = say_lost(r->out, &e->probing->probes, &e->warnings);
     if (s == OK && r->out && !resumed) {
         profiles_remove(&e->probing->probes, r->out);
@@ -216,7 +226,6 @@ status report_start(struct run *e)
         if (s == OK) s = write_checkpoint(e);
         r->checkpoints_spent = 0;
     }
-    r->output_seconds += wall_clock() - r->started;
     return s;
 }
 
@@ -297,19 +306,15 @@ status report_step(struct run *e)
     }
     progress(e, false);
     timer_add_elapsed(&e->timers, TIMER_OUTPUT);
-    r->loop_seconds = r->loop_before - e->timers.spent[TIMER_OUTPUT];
-    for (int k = 0; k < TIMERS; k++) r->loop_seconds += e->timers.spent[k];
     return OK;
 }
 
 status report_end(struct run *e)
 {
     struct run_report *r = e->report;
-    const double ended = wall_clock();
     progress(e, true);
     if (!r->out) return OK;
     TRY(output_wait(r->out));
     if (e->clock.step > r->step_started) TRY(write_checkpoint(e));
-    r->output_seconds += wall_clock() - ended;
     return OK;
 }

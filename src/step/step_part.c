@@ -82,7 +82,9 @@ static status report_state(struct run *e, struct archive *a)
     ARCHIVE_VALUE(a, "engine/bond_visits", r->bond_visits);
     ARCHIVE_VALUE(a, "engine/inactive", r->inactive);
     ARCHIVE_VALUE(a, "engine/sampled", r->sampled);
-    ARCHIVE_VALUE(a, "engine/loop_seconds", r->loop_seconds);
+    struct run_seconds seconds = a->saving ? report_seconds(r, &e->timers) : (struct run_seconds){0};
+    ARCHIVE_VALUE(a, "engine/seconds", seconds);
+    if (!a->saving) r->before = seconds;
     return output_archive(r->out, a);
 }
 

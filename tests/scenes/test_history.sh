@@ -39,7 +39,22 @@ none "$work/rub" absorbed plastic fracture external_work mpm_share
 is "all particles are peridynamic" "$(least "$work/rub" particles_pd) $(least "$work/rub" pd_share)" "140 1"
 between "balance" "$(column "$work/rub" balance_error 1)" -0.01 0.01
 seconds=$(compute "$(figure "$work/rub" setup_seconds) + $(figure "$work/rub" loop_seconds) + $(figure "$work/rub" output_seconds)")
-between "set-up, loop and output [s]" "$seconds" 1e-4 "$(compute "$(figure "$work/rub" wall_seconds) + 1e-6")"
+near "set-up, loop and output [s]" "$seconds" "$(figure "$work/rub" wall_seconds)" 0.02
+
+# Of a run that is stopped twice, the times are sums over its processes.
+"$cleave" run "$work/rub.yaml" -t 1 -o "$work/halt" -s duration=0.4s -s time.wall=0.3 >"$work/said" 2>&1
+is "stopped" $? 130
+for figure in setup loop output wall; do eval "first_$figure=$(figure "$work/halt" ${figure}_seconds)"; done
+seconds=$(compute "$first_setup + $first_loop + $first_output")
+near "set-up, loop and output of a stopped run [s]" "$seconds" "$first_wall" 0.02
+"$cleave" run "$work/rub.yaml" -t 1 -o "$work/halt" -s duration=0.4s -s time.wall=0.3 --resume >"$work/said" 2>&1
+is "stopped again" $? 130
+for figure in setup loop wall; do
+    eval "first=\$first_$figure"
+    between "$figure of both processes [s]" "$(figure "$work/halt" ${figure}_seconds)" "$(compute "1.2 * $first")" 100
+done
+seconds=$(compute "$(figure "$work/halt" setup_seconds) + $(figure "$work/halt" loop_seconds) + $(figure "$work/halt" output_seconds)")
+near "set-up, loop and output of both processes [s]" "$seconds" "$(figure "$work/halt" wall_seconds)" 0.02
 
 # The share at rest while a wave enters a bar: each sample has that of the steps since the last one; the mean over all is in the summary.
 cat >"$work/rest.yaml" <<'END'

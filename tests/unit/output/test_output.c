@@ -434,8 +434,9 @@ static void summary_has_the_figures(void **state)
     size_t length;
     open_fresh(&o, "summary", false);
     run_parts_make(e);
-    e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->report->loop_seconds = 1e-3;
-    e->report->setup_seconds = 0.5, e->report->output_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
+    e->scene = &s, e->report->out = &o, e->clock.step = 7, e->clock.t = 0.1, e->timers.spent[TIMER_BONDS] = 7e-4;
+    e->report->began = wall_clock(), e->report->before = (struct run_seconds){3, 0.25, 3e-4};
+    e->report->setup_seconds = 0.25, e->timers.spent[TIMER_OUTPUT] = 2;
     e->part.n = e->part.n_body = 4, e->part.dim = 2, e->part.n_of[KIND_PD] = 3;
     e->report->particle_steps[KIND_PD] = 1000;
     e->diagnostics->break_time = NAN;
@@ -448,7 +449,7 @@ static void summary_has_the_figures(void **state)
                                             .arrest_time = 0.08,
                                             .first_time = 0.05,
                                             .particles = 2};
-    assert_int_equal(summary_write(e, OK, 2, 1.5), OK);
+    assert_int_equal(summary_write(e, OK, 2), OK);
     assert_int_equal(file_read_whole("summary/summary.json", &text, &length), OK);
     static const char *const part[] = {"\"name\": \"a \\\"b\\\"\\u000a\"",
                                        "\"status\": \"done\"",
@@ -461,7 +462,9 @@ static void summary_has_the_figures(void **state)
                                        "\"ns_per_particle_step\": 1000",
                                        "\"threads\": 2",
                                        "\"setup_seconds\": 0.5",
-                                       "\"output_seconds\": 2.25",
+                                       "\"loop_seconds\": 0.001,",
+                                       "\"wall_seconds\": 3.0",
+                                       "\"output_seconds\": 2.",
                                        "\"angle_deg\": 90"};
     for (size_t k = 0; k < COUNT_OF(part); k++)
         if (!strstr(text, part[k])) fail_msg("%s lacks %s", text, part[k]);
@@ -470,9 +473,9 @@ static void summary_has_the_figures(void **state)
     assert_null(strstr(text, "message"));
     memory_free(text);
     remove_tree("summary"); /* if it cannot be written, the fault of the run is kept */
-    assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2, 1.5), FAILED);
+    assert_int_equal(summary_write(e, status_set(FAILED, "the run's own fault"), 2), FAILED);
     assert_string_equal(status_message(), "the run's own fault");
-    assert_int_equal(summary_write(e, OK, 2, 1.5), FAILED);
+    assert_int_equal(summary_write(e, OK, 2), FAILED);
     assert_message("summary was moved, removed or replaced");
     run_parts_free(e);
     memory_free(e);
