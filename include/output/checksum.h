@@ -13,6 +13,10 @@ enum { FOOTER_BYTES = 24 };
  * the file to disk. Returns FAILED if the file cannot be written; PATH.cleave.tmp is removed then. */
 status file_append_footer(const char *path);
 
+/* Returns true if the regular file `path` ends with a footer, whether or not its bytes are those that were written:
+ * Cleave wrote the file. Returns false also if the file cannot be read. */
+bool file_has_footer(const char *path);
+
 /* Checks the footer of the file `path`. Returns NULL if the file is whole, else a phrase that completes "PATH ..." in
  * a message, for example "is cut short" (a static text). A file that cannot be read counts as faulty. */
 const char *file_damage(const char *path);

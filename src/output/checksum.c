@@ -112,6 +112,19 @@ static const char footer_magic[8] = {'C', 'L', 'E', 'A', 'V', 'E', 'O', 'K'};
 
 static const char unread[] = "cannot be read";
 
+bool file_has_footer(const char *path)
+{
+    struct stat s;
+    struct footer end;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return false;
+    const bool has = fstat(fd, &s) == 0 && S_ISREG(s.st_mode) && s.st_size > (off_t)sizeof end &&
+                     pread(fd, &end, sizeof end, s.st_size - (off_t)sizeof end) == (ssize_t)sizeof end &&
+                     memcmp(end.magic, footer_magic, sizeof end.magic) == 0;
+    close(fd);
+    return has;
+}
+
 /* Checks the footer of an open file. Returns NULL if the file is whole, else a phrase for a message. */
 static const char *open_fault(int fd)
 {

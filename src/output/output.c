@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "output/checksum.h"
 #include "output/folder_guard.h"
 #include "output/output_files.h"
 #include "output/picture_file.h"
@@ -299,12 +300,22 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* Checks the tables that a run will write. REFUSED if one of them is an existing file that Cleave did not write. */
-static status tables_guard(const char *folder)
+/* Checks a file that a run would remove. REFUSED if it has the name of a frame or of a particles file, and Cleave did
+ * not write it. */
+static status frame_guard(const char *path)
+{
+    if (!is_frame(strrchr(path, '/') + 1, "") || file_has_footer(path)) return OK;
+    return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
+}
+
+/* Checks the tables, frames and particles files that a run would write or remove. REFUSED if one of them is an existing
+ * file that Cleave did not write. */
+static status files_guard(const char *folder)
 {
     for (size_t k = 0; k < COUNT_OF(made); k++)
         if (made[k].begin) TRY(file_check_beginning(path_join(folder, made[k].name).text, &made[k].begin, 1));
-    return OK;
+    TRY(files_visit(path_join(folder, "frames").text, is_frame, "", frame_guard));
+    return regions_each(folder, "", frame_guard);
 }
 
 static status folder_prepare(const char *folder, const char *scene_text, enum output_mode mode)
@@ -313,7 +324,7 @@ static status folder_prepare(const char *folder, const char *scene_text, enum ou
     TRY(folder_check(folder, scene_text, mode));
     TRY(mode_check(folder, mode));
     TRY(run_each(folder, file_check_replaceable));
-    if (mode != OUTPUT_RESUME) TRY(tables_guard(folder));
+    if (mode != OUTPUT_RESUME) TRY(files_guard(folder));
     if (!file_has_contents(scene.text, scene_text, strlen(scene_text))) TRY(file_check_replaceable(scene.text));
     TRY(folder_make(frames.text));
     temporary_remove(folder);
