@@ -36,7 +36,8 @@ static const struct promise promises[] = {
     {"Every changed, lost or added byte of a checkpoint, a frame or the file that frames share is found; the older "
      "checkpoint takes over, a lost frame is named.",
      "test_checkpoint.c test_particles_file.c test_faults.c test_guards.sh"},
-    {"One run at a time has a folder; older runs, other people's files and what links lead to stay as they are.",
+    {"One run at a time has a folder; older runs, other people's files and what links within the folder lead to "
+     "stay as they are; -o itself may be a symbolic link to a folder.",
      "test_guards.sh"},
     {"A run that turns unstable, folds its cells or gains energy stops, says where and why, and exits with 1; 5 % of "
      "energy, or of the angular momentum of bodies that nothing holds, lost or gained is said; no frame or "

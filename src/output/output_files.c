@@ -262,14 +262,18 @@ status file_write_whole(const char *path, const void *bytes, size_t length)
 
 /* ---- folders ----------------------------------------------------------------------------------------------------- */
 
-/* Creates one folder unless it exists. REFUSED if a file has this name. */
+/* Creates one folder unless it exists or is a symbolic link to one. REFUSED if a file, or a link to anything else, has
+ * this name. */
 static status folder_make_one(const char *path)
 {
     if (mkdir(path, 0777) == 0) return file_sync_folder(path);
-    if (errno == EEXIST && path_is_folder(path)) return OK;
-    if (errno == EEXIST || errno == ENOTDIR)
+    const int cause = errno;
+    if (cause == EEXIST && path_is_folder(path)) return OK;
+    if (cause == EEXIST && path_is_link(path))
+        return status_set(REFUSED, "%s: is a symbolic link, but not to a folder; choose another -o", path);
+    if (cause == EEXIST || cause == ENOTDIR)
         return status_set(REFUSED, "%s: is a file, not a folder; choose another -o", path);
-    return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(errno));
+    return status_set(FAILED, "cannot make the folder %s: %s; choose another -o", path, strerror(cause));
 }
 
 status folder_make(const char *path)

@@ -183,6 +183,7 @@ calm "$work/part" $small -s output.frames=6 --resume
 holds "a picture half drawn" test -e "$work/part/pictures/damage.png.cleave.tmp"
 # A replaced run loses its pictures, finished or not; pictures of others stay.
 touch "$work/part/pictures/mine.png" "$work/part/pictures/damage_mine.png"
+rm "$work/part/frames/000003.hdf"
 calm "$work/part" $small --overwrite
 is "pictures of the run before" "$(cd "$work/part/pictures" && echo *)" "damage_mine.png mine.png"
 # Profiles of probes: lost ones are reported, and those of a longer run are removed with it.
@@ -314,6 +315,36 @@ mkdir "$work/album" "$work/album/frames"
 for name in frames/holiday.jpg scene.yaml history.csv summary.json; do echo "$name of mine" >"$work/album/$name"; done
 declined "an album with frames" "holds files" run -q "$work/strip.yaml" -o "$work/album" --overwrite
 is "an album: files of others" "$(cat "$work/album/history.csv")" "history.csv of mine"
+
+# -o itself may be a link to a folder: the run is written there, and what the folder holds is guarded as without a link.
+mkdir "$work/disk"
+ln -s disk "$work/short"
+"$cleave" run -q "$work/strip.yaml" -o "$work/short" 2>"$work/err"
+is "a folder by a link: $(cat "$work/err")" $? 0
+holds "the run is where the link leads" test -s "$work/disk/summary.json" -a -L "$work/short"
+"$cleave" run -q "$work/strip.yaml" -o "$work/short/" --overwrite -s duration=0.9us 2>"$work/err"
+is "replaced by a link: $(cat "$work/err")" $? 0
+declined "a second run by the folder's name" "holds the run of another scene" run -q "$work/strip.yaml" -o "$work/disk"
+rm -rf "$work/disk"
+cp -r "$work/papers" "$work/disk"
+declined "files of others behind a link" "holds files" run -q "$work/strip.yaml" -o "$work/short" --overwrite
+kept "files of others behind a link" "$work/disk"
+rm -rf "$work/disk"
+declined "a link to nothing" "is a symbolic link, but not to a folder" run -q "$work/strip.yaml" -o "$work/short"
+rm "$work/short"
+
+# Others' files by the names of frames and of particles files are refused, not removed, also in frames of a region.
+"$cleave" run -q "$work/strip.yaml" -o "$work/mixed" 2>"$work/err"
+is "a run" $? 0
+for name in particles_000003.h5 000009.hdf; do
+    echo "measured by others, in a file longer than a footer" >"$work/mixed/frames/$name"
+    declined "$name of others" "frames/$name was not written by cleave" run -q "$work/strip.yaml" -o "$work/mixed" --overwrite
+    is "$name of others" "$(cat "$work/mixed/frames/$name")" "measured by others, in a file longer than a footer"
+    holds "$name of others: the older run stays" test -s "$work/mixed/summary.json" -a -s "$work/mixed/frames/000001.hdf"
+    rm "$work/mixed/frames/$name"
+done
+"$cleave" run -q "$work/strip.yaml" -o "$work/mixed" --overwrite 2>"$work/err"
+is "without them" $? 0
 
 # An export: once, again only with --overwrite, never over the scene that it reads.
 "$cleave" export lammps "$work/strip.yaml" -o "$work/there" --allow-different >"$work/out" 2>&1
