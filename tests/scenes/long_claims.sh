@@ -15,6 +15,11 @@ for bench in $(awk -F, 'NR > 1 && $4 == "long" && $5 ~ /^cleave bench / && !seen
     (cd "$work/tree" && "$cleave" bench "$bench" --readme) >"$work/log" 2>&1 || fail "bench $bench: $(tail -n 1 "$work/log")"
 done
 [ "${lammps:-}" != missing ] || cp bench/results/peers.txt "$work/tree/bench/results"
+
+# Scripts whose measurements documents state.
+for script in $(awk -F, 'NR > 1 && $4 == "long" && $6 ~ /^test_[a-z_]+: / { sub(/:.*/, "", $6); if (!seen[$6]++) print $6 }' "$claims"); do
+    FIGURES=$work/tree/bench/results/$script.txt sh tests/*/"$script.sh" >"$work/log" 2>&1 || fail "$script: $(tail -n 1 "$work/log")"
+done
 said=$(compare "$work/tree/bench/results" 1) || fail "$said"
 holds "benches are compared" [ "${said%% *}" -gt 100 ]
 finish

@@ -5,12 +5,21 @@
 #   tables   documents whose tables must be in claims.csv number by number, between blanks: DOCUMENT, or DOCUMENT=SECTION with _ for blanks
 #
 # A row: figure, value, tolerance, when, command, source, document, place. No field holds a comma.
-#   when     quick: measured by test_claims.sh; long: by long_claims.sh; kept: compared with the kept results alone
-#   source   of `cleave run`: a path in summary.json, and a formula that follows it after a blank; of `cleave bench`: a regular expression
-#            for one line of what the bench prints, with single blanks; `FILE.txt: ` before it names another of the kept results; `-`: not
-#            compared
+#   tolerance  a number; or <: what is measured is at most the value; or >: at least
+#   when     quick: measured by test_claims.sh; long: by long_claims.sh; kept: compared with files alone
+#   source   where the figure comes from, one of
+#            PATH, PATH FORMULA or a formula with {PATH}: of `cleave run`: paths in summary.json (value_of in claims.sh has more)
+#            EXPRESSION: of `cleave bench`: for one line of what the bench prints, with single blanks
+#            test_NAME: EXPRESSION: for one line of what this script of tests/ measures (between, apart and near in summary.sh)
+#            FILE: EXPRESSION: for one line of a file, by its path in the checkout, or by its name in bench/results/: a printout, a table,
+#            the bound of a test, a key of a scene, a constant of a source; ` times FACTOR` and ` plus NUMBER` behind it change the unit;
+#            `count WITHIN: ` before it counts the lines whose number is at most WITHIN
+#            paper: AUTHORS YEAR: a figure of a publication, which inputs/references.md lists
+#            formula: FORMULA: theory: a closed form without inputs of a run
+#            -: none; their number may only fall (unsourced)
 #   place    a regular expression for the text of the document, its lines joined by blanks; `SECTION > ` before it looks below one heading
-# In both expressions # stands for the number and @ for any number.
+# In expressions # stands for the number and @ for any number.
+#   unsourced  the largest number of rows that may have no source
 BEGIN { FS = ","; number = "[-+]?[0-9]+([.][0-9]+)?([eE][-+]?[0-9]+)?" }
 
 function bad(text) { print text; failures++ }
@@ -68,29 +77,75 @@ function half_digit(value,    digits, exponent)
 
 function apart(a, b) { return a - b > 0 ? a - b : b - a }
 
-# The line of a bench's printed results that `source` matches; benches with = in their name have files with _.
-function printed(command, source,    name, words, line, found, value)
+# The file that `source` names before its expression: "" if none.
+function file_of(source)
 {
-    split(command, words, " ")
-    name = words[3]
-    sub(/=/, "_", name)
-    name = name ~ /^accuracy_/ ? results "/../accuracy/cost_accuracy.csv" : results "/" name ".txt"
-    if (match(source, /^[a-z_]+[.]txt: /)) {
-        name = results "/" substr(source, 1, RLENGTH - 2)
+    if (match(source, /^test_[a-z_]+: /)) return fresh ? substr(source, 1, RLENGTH - 2) ".txt" : ""
+    return match(source, /^[A-Za-z0-9_.\/]+[.][a-z]+: /) ? substr(source, 1, RLENGTH - 2) : ""
+}
+
+# The number in the line of a file, or of a bench's printed results, that `source` matches; benches with = in their name have files with _.
+function printed(command, source,    name, words, line, found, value, factor, offset, within)
+{
+    name = file_of(source)
+    if (name != "") {
+        sub(/^[^:]*: /, "", source)
+        if (name !~ /\//) name = results "/" name
+    } else {
+        split(command, words, " ")
+        name = words[3]
+        sub(/=/, "_", name)
+        name = name ~ /^accuracy_/ ? results "/../accuracy/cost_accuracy.csv" : results "/" name ".txt"
+    }
+    factor = 1
+    within = ""
+    if (match(source, /^count [0-9.]+: /)) {
+        within = substr(source, 7, RLENGTH - 8)
         source = substr(source, RLENGTH + 1)
+    }
+    offset = 0
+    if (match(source, / plus [-0-9.e]+$/)) {
+        offset = substr(source, RSTART + 6)
+        source = substr(source, 1, RSTART - 1)
+    }
+    if (match(source, / times [-0-9.e]+$/)) {
+        factor = substr(source, RSTART + 7)
+        source = substr(source, 1, RSTART - 1)
     }
     found = ""
     while ((getline line <name) > 0) {
-        if (line ~ /^#/) continue
+        if (line ~ /^#/ && name ~ /[.]txt$/) continue
         gsub(/ +/, " ", line)
         value = find(line, source)
         if (value == "") continue
+        if (within != "") { found += apart(value, 0) <= within; continue }
         if (found != "" && found != value) { close(name); fault = "more than one line matches: " source; return "" }
         found = value
     }
     close(name)
     fault = found == "" ? name " has no such line: " source : ""
-    return found
+    return found == "" ? "" : found * factor + offset
+}
+
+# Whether `got` agrees with a row's value: within its tolerance, or on the side that < and > tell.
+function agrees(got, value, tolerance)
+{
+    if (tolerance == "<") return got <= value + half_digit(value)
+    if (tolerance == ">") return got >= value - half_digit(value)
+    return apart(got, value) <= tolerance
+}
+
+# Whether inputs/references.md lists the publication that a source names: all of its words stand in one line.
+function listed(what,    words, n, k, line, all)
+{
+    n = split(what, words, " ")
+    while ((getline line <"inputs/references.md") > 0) {
+        all = 1
+        for (k = 1; k <= n; k++) all = all && index(line, words[k])
+        if (all) break
+    }
+    close("inputs/references.md")
+    return all
 }
 
 # A place in a document, with its section if one is named.
@@ -107,13 +162,23 @@ function stated(name, place,    title, at)
 FNR == 1 { next }
 NF != 8 { bad("line " FNR ": " NF " fields, 8 are expected"); next }
 $4 !~ /^(quick|long|kept)$/ { bad("line " FNR ": quick, long or kept is expected in place of " $4); next }
+$3 !~ /^([<>]|[0-9.]+(e-?[0-9]+)?)$/ { bad("line " FNR ": a number, < or > is expected in place of " $3); next }
+$6 == "-" { without[$7]++; unsourced_now++ }
 fresh && $4 != "long" { next }
-$5 ~ /^cleave bench / && $6 != "-" {
+$6 ~ /^paper: / {
+    if (!listed(substr($6, 8))) bad($1 ": inputs/references.md has no " substr($6, 8))
+    count++
+}
+file_of($6) != "" || ($5 ~ /^cleave bench / && $6 != "-" && $6 !~ /^(paper|formula): /) {
     value = printed($5, $6)
     if (fault != "") bad($1 ": " fault)
-    else if (apart(value, $2) > (fresh ? $3 : half_digit($2)))
+    else if (!agrees(value, $2, fresh || $3 ~ /[<>]/ || file_of($6) ~ /\// ? $3 : half_digit($2)))
         bad($1 ": " $2 ", but " (fresh ? "measured now: " : "kept results have ") value " (" $5 ")")
     count++
+}
+file_of($6) == "" && $6 !~ /^(-$|paper: |formula: )/ && $5 !~ /^cleave bench / {
+    if ($4 == "kept") bad($1 ": nothing measures a source of " $5 " that is kept")
+    else if ($5 !~ /^cleave run / && $6 !~ /^test_[a-z_]+: /) bad($1 ": a source of no kind: " $6)
 }
 !fresh && $7 != "-" {
     value = stated($7, $8)
@@ -133,7 +198,7 @@ function cells(name, only,    k, n, cell, head, heads, j, rest, value)
         if (!heads) { heads = n; for (j = 1; j <= n; j++) head[j] = cell[j]; continue }
         if (cell[2] ~ /^ ?-+ ?$/ || (only != "" && title_of[name, k] != only)) continue
         for (j = 3; j < n; j++) {
-            if (head[j] ~ /limit|expected|theory|source|command|minutes|across|contents|answer|Zeng/ || head[j] ~ /^ *(reference|layers|ν) *$/) continue
+            if (head[j] ~ /limit|spacings|expected|theory|source|command|minutes|across|contents|answer|Zeng/ || head[j] ~ /^ *(reference|layers|ν) *$/) continue
             rest = cell[j]
             gsub(/\([A-Z][^)]*[12][0-9][0-9][0-9]\)/, "", rest)
             while (match(rest, /[0-9]-[0-9]/)) rest = substr(rest, 1, RSTART) " " substr(rest, RSTART + 2)
@@ -156,6 +221,10 @@ END {
         sub(/^[^=]*=?/, "", only)
         gsub(/_/, " ", only)
         cells(name, only)
+    }
+    if (unsourced != "" && unsourced_now > unsourced) {
+        for (d in without) print d ": " without[d] " rows of bench/claims.csv have no source"
+        bad("bench/claims.csv has " unsourced_now " rows without a source, " unsourced " are allowed")
     }
     print count + 0 " comparisons"
     exit failures > 0

@@ -1,7 +1,7 @@
 # What test_claims.sh and long_claims.sh share: figures of bench/claims.csv that runs of scenes and benches give now.
 # Sourced after summary.sh, whose functions it uses.
 claims=$root/bench/claims.csv
-compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -f "$root/tests/support/claims.awk" "$claims"; }
+compare() { awk -v results="$1" -v fresh="$2" -v tables="${3:-}" -v unsourced="${unsourced:-}" -f "$root/tests/support/claims.awk" "$claims"; }
 
 # scene_of NAME: the scene that a command names. A name without a folder is that of a scene printed in README.md below a line with `NAME`,
 # or in a page of the manual below `# NAME`: it is written to a file of its own.
@@ -18,8 +18,47 @@ scene_of()
     echo "$work/$1"
 }
 
-# value_of RUN SOURCE: the figure that a source gives of a run: a path in its summary, with a formula behind it after a blank; or a formula
-# with paths in braces.
+# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first` or `last` value of a formula over the lines of history.csv, with names of its
+# columns in brackets; ` if CONDITION` behind it selects lines. A name alone needs no brackets.
+over()
+{
+    awk -F, -v formula="$3" '
+        NR == 1 {
+            if (formula !~ /\[/) formula = "[" formula "]"
+            for (k = 1; k <= NF; k++) {
+                sub(/ \[.*/, "", $k)
+                while ((at = index(formula, "[" $k "]"))) formula = substr(formula, 1, at - 1) "$" k substr(formula, at + length($k) + 2)
+            }
+            condition = 1
+            if ((at = index(formula, " if "))) { condition = substr(formula, at + 4); formula = substr(formula, 1, at - 1) }
+            print "NR > 1 && (" condition ") { print " formula " }"
+            exit
+        }' "$1/history.csv" >"$work/over.awk"
+    awk -F, -v OFMT=%.12g -f "$work/over.awk" "$1/history.csv" | awk -v what="$2" '
+        value == "" || what == "last" || (what == "largest" && $1 - value > 0) || (what == "smallest" && $1 - value < 0) { value = $1 }
+        END { print value }'
+}
+
+# value_at RUN PATH: a figure of the run RUN1: its path in summary.json; `column NAME TIME`: a column of history.csv at the last sample not
+# after a time [s]; `passes NAME VALUE`: the first time at which a column is at least a value; `largest FORMULA` and others: as in over();
+# `file NAME EXPRESSION`: the number for # in one line of a file that the run leaves. N|PATH: of the N-th run of a command.
+value_at()
+{
+    case $2 in
+        [1-9]"|"*) folder=$1${2%%"|"*} path=${2#*"|"} ;;
+        *) folder=${1}1 path=$2 ;;
+    esac
+    case $path in
+        "column "* | "passes "*)
+            set -- $path
+            "$1" "$folder" "$2" "$3" ;;
+        "largest "* | "smallest "* | "first "* | "last "*) over "$folder" "${path%% *}" "${path#* }" ;;
+        *) figure "$folder" "$path" ;;
+    esac
+}
+
+# value_of RUN SOURCE: the figure that a source gives of a run: a path, with a formula behind it after a blank; or a formula with paths in
+# braces.
 value_of()
 {
     formula=$2
@@ -32,27 +71,55 @@ value_of()
         case $formula in *"{"*) ;; *) break ;; esac
         path=${formula#*"{"}
         path=${path%%"}"*}
-        found=$(figure "$1" "$path")
+        found=$(value_at "$1" "$path")
         formula="${formula%%"{"*}(${found:-missing})${formula#*"}"}"
     done
     case $formula in *missing* | *null*) ;; *) compute "$formula" ;; esac
 }
 
-# measure WHEN: runs each scene of the rows of this kind once, and compares what its summary has with value and tolerance.
+# runs TO COMMAND: runs its scenes, `cleave run SCENE [OPTION...]` with && between them, and leaves them in folders TO1, TO2, ...
+runs()
+{
+    part=0
+    rest="$2 && "
+    while [ -n "$rest" ]; do
+        part=$((part + 1))
+        one=${rest%%" && "*}
+        rest=${rest#*" && "}
+        to=$1$part
+        eval "set -- '$1' x $one"
+        base=$1
+        scene=$(scene_of "$5")
+        shift 5
+        "$cleave" run "$scene" "$@" -o "$to" -q >"$work/log" 2>&1 </dev/null || fail "$command: $(tail -n 1 "$work/log")"
+        set -- "$base"
+    done
+}
+
+# formulas: compares rows whose source is a formula with it.
+formulas()
+{
+    awk -F, '$6 ~ /^formula: / { print $2 "," $3 "," substr($6, 10) "," $1 }' "$claims" >"$work/rows"
+    while IFS=, read -r value tolerance formula figure; do apart "$figure" "$(compute "$formula")" "$value" "$tolerance"; done <"$work/rows"
+}
+
+# measure WHEN: runs each command of the rows of this kind once, and compares what its runs give with value and tolerance.
 measure()
 {
-    awk -F, -v when="$1" 'NR > 1 && $4 == when && $5 ~ /^cleave run / && !($5 in seen) { seen[$5] = 1; print $5 }' "$claims" >"$work/commands"
-    run=0
+    awk -F, -v when="$1" 'NR > 1 && $4 == when && $5 ~ /^cleave run / && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/ && !($5 in seen) {
+        seen[$5] = 1; print $5 }' "$claims" >"$work/commands"
     while read -r command; do
-        run=$((run + 1))
-        eval "set -- $command"
-        scene=$(scene_of "$3")
-        shift 3
-        "$cleave" run "$scene" "$@" -o "$work/claim$run" -q >"$work/log" 2>&1 </dev/null || fail "$command: $(tail -n 1 "$work/log")"
-        awk -F, -v command="$command" 'NR > 1 && $5 == command && $6 != "-" { print $2 "," $3 "," $6 "," $1 }' "$claims" | sort -u >"$work/rows"
+        runs "$work/claim" "$command"
+        awk -F, -v when="$1" -v command="$command" 'NR > 1 && $4 == when && $5 == command && $6 !~ /^([A-Za-z0-9_.\/]+[.][a-z]+: |paper: |formula: |-$)/ {
+            print $2 "," $3 "," $6 "," $1 }' "$claims" | sort -u >"$work/rows"
         while IFS=, read -r value tolerance source figure; do
-            apart "$figure ($command)" "$(value_of "$work/claim$run" "$source")" "$value" "$tolerance"
+            measured=$(value_of "$work/claim" "$source")
+            case $tolerance in
+                "<") between "$figure ($command)" "$measured" -1e99 "$value" ;;
+                ">") between "$figure ($command)" "$measured" "$value" 1e99 ;;
+                *) apart "$figure ($command)" "$measured" "$value" "$tolerance" ;;
+            esac
         done <"$work/rows"
-        rm -rf "$work/claim$run"
+        rm -rf "$work"/claim[1-9]
     done <"$work/commands"
 }

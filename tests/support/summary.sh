@@ -84,9 +84,13 @@ passes()
 # compute FORMULA: prints its value, evaluated by awk.
 compute() { awk "BEGIN { printf \"%.9g\", $1 }" </dev/null; }
 
+# record WHAT VALUE TEXT: writes what is measured to the file that FIGURES names, if it does: long_claims.sh compares it with documents.
+record() { [ -z "${FIGURES:-}" ] || echo "$1 is ${2:-missing} $3" >>"$FIGURES"; }
+
 # between WHAT VALUE LOW HIGH: checks that VALUE is a number with LOW <= VALUE <= HIGH.
 between()
 {
+    record "$1" "$2" "within $3 $4"
     if awk -v v="$2" -v low="$3" -v high="$4" 'BEGIN {
         exit !(v ~ /^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$/ && v + 0 >= low + 0 && v + 0 <= high + 0) }'; then pass
     else fail "$1: ${2:-missing}, not within $3 and $4"; fi
@@ -95,13 +99,18 @@ between()
 # apart WHAT A B MOST: checks that two numbers differ by at most MOST.
 apart()
 {
+    record "$1" "$2" "beside $3"
     if awk -v a="$2" -v b="$3" -v most="$4" 'BEGIN { n = "^[-+]?[0-9.]+([eE][-+]?[0-9]+)?$"
         d = a - b; exit !(a ~ n && b ~ n && d <= most + 0 && -d <= most + 0) }'; then pass
     else fail "$1: ${2:-missing} and ${3:-missing} are more than $4 apart"; fi
 }
 
 # near WHAT VALUE WANTED SHARE: checks that the relative difference is at most SHARE.
-near() { apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"; }
+near()
+{
+    [ -z "${FIGURES:-}" ] || record "$1 over $3" "$(compute "(${2:-nan}) / ($3)")" ""
+    apart "$1" "$2" "$3" "$(compute "$4 * ($3 < 0 ? -($3) : $3)")"
+}
 
 # absent WHAT VALUE: checks that the run has no such figure.
 absent() { if [ -z "$2" ]; then pass; else fail "$1: $2, where there should be none"; fi; }
