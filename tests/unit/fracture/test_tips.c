@@ -246,6 +246,26 @@ static void tip_joins_a_crack_ahead(void **state)
     notched_free(&b, &t);
 }
 
+/* A crack that only joins others after its first spacing has no mean speed: 0, and neither -0 nor round-off. */
+static void tip_that_only_joins(void **state)
+{
+    (void)state;
+    for (int wait = 1; wait < 9; wait++) {
+        struct body b;
+        struct tips t;
+        notched_make(&b, &t, 3);
+        for (int k = 0; k <= wait + 1; k++) {
+            if (k == 0) hurt(&b, 10.5, 10.5, 0), hurt(&b, 11.5, 10.5, 0);
+            for (int m = 0; k == 0 && m < 4; m++) hurt(&b, 13.5 + m, 10.5, 0);
+            if (k == wait + 1) hurt(&b, 12.5, 10.5, 0);
+            tips_update(&t, &b.p, &b.c, 0.1 * (k + 1));
+        }
+        assert_near(t.tip[0].growth, 6.5, ROUND_OFF);
+        if (t.tip[0].speed_mean != 0 || signbit(t.tip[0].speed_mean)) fail_msg("%g, %d", t.tip[0].speed_mean, wait);
+        notched_free(&b, &t);
+    }
+}
+
 /* In 3D the whole edge inside the body is one front, wherever along it the crack grows. */
 static void tip_of_a_front(void **state)
 {
@@ -371,6 +391,7 @@ int main(void)
         cmocka_unit_test(places_of_groups),
         cmocka_unit_test(tip_growth_leaves_out),
         cmocka_unit_test(tip_joins_a_crack_ahead),
+        cmocka_unit_test(tip_that_only_joins),
         cmocka_unit_test(tip_of_a_front),
         cmocka_unit_test(tips_area_in_the_plane),
         cmocka_unit_test(tips_area_of_a_front),
