@@ -10,9 +10,34 @@
 
 /* ---- unlikely values that are intended --------------------------------------------------------------------------- */
 
-/* Words of the key `accept`, one bit each: plausibility rules (src/engine/warn_units.c) that the scene breaks on
- * purpose. */
-#define ACCEPT_WORDS "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy"
+/* Words of the key `accept`, in the order of enum accept. */
+#define ACCEPT_WORDS                                                                                                   \
+    "waves|stretch|stress|strain|steps|reach|particles|density|yield|passages|thickness|energy|growth|contact|"        \
+    "coupling|cell|speed|shock|rayleigh"
+
+/* Warnings that a scene can silence by the key `accept`, one bit each: those up to ACCEPT_GROWTH are about figures that
+ * look like mistakes of units (src/engine/warn_units.c). */
+enum accept {
+    ACCEPT_WAVES,
+    ACCEPT_STRETCH,
+    ACCEPT_STRESS,
+    ACCEPT_STRAIN,
+    ACCEPT_STEPS,
+    ACCEPT_REACH,
+    ACCEPT_PARTICLES,
+    ACCEPT_DENSITY,
+    ACCEPT_YIELD,
+    ACCEPT_PASSAGES,
+    ACCEPT_THICKNESS,
+    ACCEPT_ENERGY,
+    ACCEPT_GROWTH,
+    ACCEPT_CONTACT,  /* bodies or faces of cracks pass through each other */
+    ACCEPT_COUPLING, /* a coupling that has no potential energy */
+    ACCEPT_CELL,     /* one material point in a cell */
+    ACCEPT_SPEED,    /* a boundary that breaks the bonds beside it by its speed */
+    ACCEPT_SHOCK,    /* bonds that break behind the oscillating front of a collision */
+    ACCEPT_RAYLEIGH  /* a crack tip faster than Rayleigh waves */
+};
 
 /* ---- contact ----------------------------------------------------------------------------------------------------- */
 

@@ -210,7 +210,7 @@ struct scene {
     bool compress;            /* frames are compressed with gzip */
     real speed_window;        /* time over which the crack-tip speed is averaged [s] */
 
-    unsigned accept;   /* bits of ACCEPT_WORDS: unlikely values that are intended */
+    unsigned accept;   /* bits of enum accept: warnings that the scene silences */
     bool has_accept;   /* the scene has the key `accept` */
     char renamed[400]; /* keys that the scene gives by an earlier name; "": none */
     char *text;        /* the scene as run, in YAML: every key with its value or default */
@@ -268,6 +268,9 @@ static inline bool scene_watches_bonds(const struct scene *s)
     return any;
 }
 
+/* Returns true if the scene silences a warning by its key `accept`. */
+static inline bool scene_accepts(const struct scene *s, enum accept which) { return s->accept >> which & 1; }
+
 /* Returns true if new surfaces can form: by pre-cracks, growing cracks, or bonds that break. */
 static inline bool scene_cracks(const struct scene *s)
 {
@@ -307,6 +310,10 @@ const char *scene_frame_unsupported(const struct scene *s, int body);
 /* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
  * static. */
 const char *scene_frame_not_default(const struct scene *s, int body);
+
+/* Returns the reason why `mpm.frame: reference` is no remedy for a body on the grid of the current frame: that of
+ * scene_frame_not_default for the first body that has one, NULL if no body has. The text is static. */
+const char *scene_frame_obstacle(const struct scene *s);
 
 /* Prints the table of keys of scenes to `out`: all keys (key NULL), the keys below a prefix, or one key. Returns
  * REFUSED for an unknown key, with the most similar key in the message. */

@@ -110,6 +110,13 @@ real report_inactive_share(const struct bonds *b, const struct mesh *mesh, const
  * if bonds broke in a collision that is too fast for the particle spacing. */
 void warn_of_imbalance(struct run *e);
 
+struct tips;
+
+/* Warns of the fastest crack tip of t whose largest speed is above the Rayleigh speed of every material of the scene:
+ * the energy release rate of an opening crack is 0 there (Freund 1990, section 5.3). Call it at the end of the run. The
+ * warning is added to *to and printed. */
+void warn_of_fast_tips(const struct tips *t, const struct scene *s, struct warnings *to);
+
 /* Warns, at the first call after a bond of b has yielded, how the yielding of bonds differs from von Mises' law. The
  * warning is added to *to and printed; *r stores that it has been given, so that later calls do nothing. */
 void warn_of_bond_yielding(struct run_report *r, const struct bonds *b, const struct scene *s, struct warnings *to);

@@ -36,7 +36,7 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
     warnings_add(
         to,
         "%s %s in the reference frame (mpm.frame), where material points meet no other body and pass through it; with "
-        "mpm.frame: current bodies meet",
+        "mpm.frame: current bodies meet; if this is meant: accept: [contact]",
         names.text, names.all > 1 ? "are" : "is");
 }
 
@@ -46,12 +46,12 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
 {
     bool current = false;
     for (int b = 0; b < s->bodies; b++) current |= !reference->choice[b].reference;
-    if (!scene_bodies_meet(s) || approaches) return;
+    if (!scene_bodies_meet(s) || approaches || scene_accepts(s, ACCEPT_CONTACT)) return;
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to,
                      "contact.between: none: peridynamic bodies pass through each other%s; with contact.between: "
-                     "bodies, or all, they meet",
+                     "bodies, or all, they meet; if this is meant: accept: [contact]",
                      s->rigids > 0 ? " (they do meet rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
@@ -59,7 +59,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
         warnings_add(to,
                      "particles that become peridynamic pass through the material points of other bodies; contact with "
                      "them requires contact.between: bodies or all, contact.convert: true and coupling: partial stress "
-                     "or handshake; here %s",
+                     "or handshake; here %s; if this is meant: accept: [contact]",
                      s->contact_between == CONTACT_NONE ? "contact.between is none"
                      : !s->contact_convert              ? "contact.convert is false"
                                                         : "the coupling is another one");

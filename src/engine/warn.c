@@ -44,10 +44,10 @@ static void warn_of_coupling(const struct scene *s, enum coupling kind, struct w
     if ((kind == COUPLING_PM || kind == COUPLING_PMG) && s->shape != SHAPE_LINEAR)
         warnings_add(to,
                      "coupling pm and pmg are defined with mpm.shape linear; with other shapes they are pg and pgg");
-    if (coupling_moves_by_grid(kind))
+    if (coupling_moves_by_grid(kind) && !scene_accepts(s, ACCEPT_COUPLING))
         warnings_add(to,
                      "coupling %s, as published, has no potential energy, and a long run may gain energy: watch "
-                     "energy.balance_error, or use coupling: partial stress",
+                     "energy.balance_error, or use coupling: partial stress; if this is meant: accept: [coupling]",
                      coupling_name[kind]);
 }
 
@@ -62,10 +62,10 @@ static void warn_of_cells(const struct scene *s, bool on_grid, struct warnings *
                      "mpm.shape: %s beside fixed and driven particles: stress is up to a third too large there, "
                      "displacements 2 to 3 %%: use a boundary `mirror` to hold the face, or mpm.shape: linear or gimp",
                      s->shape == SHAPE_CUBIC ? "cubic" : "quadratic");
-    if (s->method != METHOD_PD && s->cell < 1.5)
+    if (s->method != METHOD_PD && s->cell < 1.5 && !scene_accepts(s, ACCEPT_CELL))
         warnings_add(to,
                      "mpm.cell: %.3g puts one point in a cell, and a wave that crosses a coupling interface leaves an "
-                     "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2",
+                     "oscillation of 0.8 %% of its amplitude behind; use mpm.cell: 2; if this is meant: accept: [cell]",
                      s->cell);
 }
 

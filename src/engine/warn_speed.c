@@ -89,7 +89,7 @@ static void warn_of_change(const struct driver *d, const struct scene *s, const 
         warnings_add(to,
                      "boundary %s: its velocity changes by up to %.3g m/s within the %.3g s that a wave takes across "
                      "its body; bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a "
-                     "slower change, unless an impact is meant",
+                     "slower change; if an impact is meant: accept: [speed]",
                      d->load->boundary->name, change, within, d->limit);
 }
 
@@ -99,6 +99,7 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
                           struct warnings *to)
 {
     real limit = INFINITY;
+    if (scene_accepts(s, ACCEPT_SPEED)) return;
     bool *body = NEW("warn.bodies", s->bodies, bool);
     for (int m = 0; m < s->materials; m++)
         limit = real_min(limit, s->material[m].critical_stretch * s->material[m].wave_speed);
@@ -112,16 +113,18 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
         if (isfinite(speed) && moves_freely(&driver, s, loads, p))
             warn_of_change(&driver, s, p, to);
         else if (speed > limit)
-            warnings_add(to,
-                         "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
-                         "the critical stretch times the wave speed: use a longer time, unless an impact is meant",
-                         s->boundary[b].name, speed, limit);
+            warnings_add(
+                to,
+                "boundary %s: its displacement grows by up to %.3g m/s; bonds beside it break at %.3g m/s, "
+                "the critical stretch times the wave speed: use a longer time; if an impact is meant: accept: [speed]",
+                s->boundary[b].name, speed, limit);
         else
-            warnings_add(to,
-                         "boundary %s: its velocity is up to %.3g m/s different from that of its particles at t = 0; "
-                         "bonds beside it break at %.3g m/s, the critical stretch times the wave speed: use a lower "
-                         "velocity, unless an impact is meant",
-                         s->boundary[b].name, jump, limit);
+            warnings_add(
+                to,
+                "boundary %s: it moves its particles up to %.3g m/s faster than they are at t = 0; bonds beside "
+                "it break at %.3g m/s, the critical stretch times the wave speed: use a lower "
+                "velocity; if an impact is meant: accept: [speed]",
+                s->boundary[b].name, jump, limit);
     }
     memory_free(body);
 }

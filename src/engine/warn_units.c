@@ -9,62 +9,54 @@
 enum { MOMENTS_OF_LOADS = 64, PLACES_OF_LOADS = 16 }; /* at which loads are evaluated                             */
 #define STIFF 1e9 /* [Pa] Young's modulus from which on the largest critical stretch holds; rubber lies below */
 
-/* Quantities that are compared with limits, in the order of ACCEPT_WORDS. */
-enum rule {
-    RULE_WAVES,
-    RULE_STRETCH,
-    RULE_STRESS,
-    RULE_STRAIN,
-    RULE_STEPS,
-    RULE_REACH,
-    RULE_PARTICLES,
-    RULE_DENSITY,
-    RULE_YIELD,
-    RULE_PASSAGES,
-    RULE_THICKNESS,
-    RULE_ENERGY,
-    RULES
-};
+enum { RULES = ACCEPT_GROWTH + 1 };
 
 /* Smallest and largest plausible value of each quantity, its name and unit, and the input to be checked otherwise.
  * Waves: 18 km/s in diamond, 20 m/s in gels of 1 MPa. Stretch: a tenth of Young's modulus is the strength of crystals
  * without flaws. Stress, over the strength E s_c: cracks raise it tenfold. Strain: a load over Young's modulus. Reach:
  * of waves in the duration [spacings]. Density: aerogels have 1 kg/m^3 and more, osmium 22,600. Yield: over Young's
  * modulus, 2e-4 in annealed aluminium, 0.1 in polymers. Passages: of waves across all bodies in the duration. Energy:
- * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. */
+ * twice the surface energy of waxes is 0.04 J/m^2, tough steels have 0.2 MJ/m^2. Growth: the energy release rate of a
+ * crack as long as the body, over that of the material (units_of_growth). */
 static const struct {
     real least, most;
     const char *what, *unit, *look;
 } rule[RULES] = {
-    [RULE_WAVES] = {10, 20e3, "the speed of its waves is", " m/s", "young (GPa?) and density (kg/m^3)"},
-    [RULE_STRETCH] = {1e-6, 0.05, "its bonds break at a stretch of", "",
-                      "critical_stretch (%?), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
-    [RULE_STRESS] = {1e-2, 1e3,
-                     "the largest stress that loads, speeds and displacements can make, over the strength, is", "",
-                     "loads (Pa), speeds (m/s), displacements (m) and what says when bonds break"},
-    [RULE_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
-    [RULE_STEPS] = {5, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
-    [RULE_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
-                    "duration, lengths (mm?) and young (GPa?)"},
-    [RULE_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
-                        "spacing and lengths (mm?)"},
-    [RULE_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
-    [RULE_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "", "yield_stress (MPa?) and young (GPa?)"},
-    [RULE_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
-                       "duration (ms for us?), lengths (mm?) and young (GPa?)"},
-    [RULE_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
-                        "thickness and lengths (mm?)"},
-    [RULE_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
+    [ACCEPT_WAVES] = {10, 20e3, "the speed of its waves is", " m/s", "young (GPa?) and density (kg/m^3)"},
+    [ACCEPT_STRETCH] =
+        {1e-6, 0.05, "its bonds break at a stretch of", "",
+         "critical_stretch (%?), energy_release_rate (J/m^2) or toughness (MPa m^0.5), young and spacing"},
+    [ACCEPT_STRESS] = {1e-2, 1e3,
+                       "the largest stress that loads, speeds and displacements can make, over the strength, is", "",
+                       "loads (Pa), speeds (m/s), displacements (m) and what says when bonds break"},
+    [ACCEPT_STRAIN] = {0, 0.05, "its load over Young's modulus is", "", "the load and young (MPa? GPa?)"},
+    [ACCEPT_STEPS] = {20, 1e8, "the number of time steps is", "", "duration, spacing (mm?), young and density"},
+    [ACCEPT_REACH] = {1, INFINITY, "in the duration waves travel", " spacings",
+                      "duration, lengths (mm?) and young (GPa?)"},
+    [ACCEPT_PARTICLES] = {8, INFINITY, "it has a crack, and its least number of particles across is", "",
+                          "spacing and lengths (mm?)"},
+    [ACCEPT_DENSITY] = {0.5, 3e4, "its density is", " kg/m^3", "density (kg/m^3; g/cm^3?)"},
+    [ACCEPT_YIELD] = {2e-5, 0.3, "its yield stress over Young's modulus is", "",
+                      "yield_stress (MPa?) and young (GPa?)"},
+    [ACCEPT_PASSAGES] = {0, 2000, "the number of times that waves cross the bodies in the duration is", "",
+                         "duration (ms for us?), lengths (mm?) and young (GPa?)"},
+    [ACCEPT_THICKNESS] = {0, 10, "in plane stress its thickness over the longest edge of its bodies is", "",
+                          "thickness and lengths (mm?)"},
+    [ACCEPT_ENERGY] = {0.03, 1e6, "its energy release rate is", " J/m^2", "energy_release_rate (J/m^2)"},
+    [ACCEPT_GROWTH] =
+        {0.1, INFINITY,
+         "no crack can grow: what one as long as the body could release, over the energy release rate, is", "",
+         "energy_release_rate (J/m^2; kJ?), loads (Pa), lengths (mm?) and young (GPa?)"},
 };
 
 /* Warns if `value` is beyond the limits of quantity k, unless the scene accepts it. subject: the part of the scene that
  * has this value; note: text with the numbers from which it is computed, or "". */
-static void units_judge(const struct scene *s, enum rule k, const char *subject, real value, const char *note,
+static void units_judge(const struct scene *s, enum accept k, const char *subject, real value, const char *note,
                         struct warnings *to)
 {
     const char *word = ACCEPT_WORDS;
     const bool low = (value < rule[k].least), high = (value > rule[k].most);
-    if ((!low && !high) || s->accept & 1u << k) return;
+    if ((!low && !high) || scene_accepts(s, k)) return;
     for (int n = 0; n < (int)k; n++) word += strcspn(word, "|") + 1;
     warnings_add(to, "%s: %s %.3g%s%s, %s %.3g: check the units of %s; if this is meant: accept: [%.*s]", subject,
                  rule[k].what, value, rule[k].unit, note, low ? "below" : "above", low ? rule[k].least : rule[k].most,
@@ -81,15 +73,15 @@ static void units_of_materials(const struct scene *s, struct warnings *to)
         const struct material *a = &s->material[m];
         const real stretch = a->critical_stretch;
         snprintf(subject, sizeof subject, "material %s", a->name);
-        units_judge(s, RULE_WAVES, subject, a->wave_speed, "", to);
-        units_judge(s, RULE_DENSITY, subject, a->density, "", to);
-        if (isfinite(a->energy_release_rate)) units_judge(s, RULE_ENERGY, subject, a->energy_release_rate, "", to);
+        units_judge(s, ACCEPT_WAVES, subject, a->wave_speed, "", to);
+        units_judge(s, ACCEPT_DENSITY, subject, a->density, "", to);
+        if (isfinite(a->energy_release_rate)) units_judge(s, ACCEPT_ENERGY, subject, a->energy_release_rate, "", to);
         const real yield = material_first_yield(a);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", yield, a->young);
-        if (material_yields(a)) units_judge(s, RULE_YIELD, subject, yield / a->young, note, to);
+        if (material_yields(a)) units_judge(s, ACCEPT_YIELD, subject, yield / a->young, note, to);
         snprintf(note, sizeof note, ", at %.3g Pa", stretch * a->young);
-        if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[RULE_STRETCH].least))
-            units_judge(s, RULE_STRETCH, subject, stretch, note, to);
+        if (isfinite(stretch) && s->method != METHOD_MPM && (a->young >= STIFF || stretch < rule[ACCEPT_STRETCH].least))
+            units_judge(s, ACCEPT_STRETCH, subject, stretch, note, to);
     }
 }
 
@@ -179,6 +171,28 @@ static real least_strength(const struct scene *s)
     return least;
 }
 
+/* Warns if the largest stress of the run cannot make a crack grow in the material of the smallest energy release rate:
+ * a crack as long as the body, in Griffith's plate (1921), G = pi sigma^2 a/E with a the longest edge, releases too
+ * little. The stress is raised by the slenderness of the body, whose bending it does not know. stress: that of loads
+ * [Pa]. */
+static void units_of_growth(const struct scene *s, const struct particles *p, real stress, struct warnings *to)
+{
+    real rate = INFINITY, young = INFINITY, longest = 0, least = INFINITY, low, high;
+    char note[120];
+    for (int m = 0; m < s->materials; m++) {
+        rate = real_min(rate, s->material[m].energy_release_rate);
+        young = real_min(young, s->material[m].young);
+    }
+    if (!isfinite(rate) || s->interfaces > 0) return;
+    for (int d = 0; d < s->dim; d++) {
+        particles_extent(p, p->n, d, &low, &high);
+        longest = real_max(longest, high - low + s->spacing), least = real_min(least, high - low + s->spacing);
+    }
+    const real most = M_PI * square(stress * longest / least) * longest / young;
+    snprintf(note, sizeof note, " (%.3g J/m^2 over %.3g J/m^2)", most, rate);
+    units_judge(s, ACCEPT_GROWTH, "loads", most / rate, note, to);
+}
+
 /* Warns if the largest stress of the run cannot break any material, or is far above the strength. It is estimated from
  * tractions, from rho c v of speeds and from E u/L of displacements. In a body in motion displacements may grow after
  * the first bonds have broken, so they do not count as too large a stress. */
@@ -200,11 +214,12 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
         particles_extent(p, p->n, d, &low, &high);
         stretched = real_max(stretched, young * (f.most[d] - f.least[d]) / (high - low + s->spacing));
     }
-    const real enough = rule[RULE_STRESS].least * strength;
+    const real enough = rule[ACCEPT_STRESS].least * strength;
     real stress = real_max(f.stress, units_stress_at_start(p));
     stress = real_max(stress, impedance * real_max(f.speed, scene_moves(s) ? units_speed_at_start(s, p) : 0));
+    const real largest = real_max(stress, stretched);
     stress = real_max(stress, scene_moves(s) ? real_min(stretched, enough) : stretched);
-    if (stress == 0 && !(s->accept & 1u << RULE_STRESS)) {
+    if (stress == 0 && !scene_accepts(s, ACCEPT_STRESS)) {
         warnings_add(to,
                      "loads: nothing loads the body: no load, speed or displacement differs from 0 up to %.3g s; check "
                      "their values and times (us?); if this is meant: accept: [stress]",
@@ -212,7 +227,8 @@ static void units_of_loads(const struct scene *s, const struct particles *p, con
         return;
     }
     snprintf(note, sizeof note, " (%.3g Pa; E s_c is %.3g Pa)", stress, strength);
-    units_judge(s, RULE_STRESS, "loads", stress / strength, note, to);
+    units_judge(s, ACCEPT_STRESS, "loads", stress / strength, note, to);
+    if (stress >= enough) units_of_growth(s, p, largest, to);
 }
 
 /* Warns of tractions and pressures that are implausible relative to the smallest Young's modulus. */
@@ -227,7 +243,7 @@ static void units_of_tractions(const struct scene *s, struct warnings *to)
         const real most = a->kind == BOUNDARY_PRESSURE ? fabs(a->value[0]) : sqrt(dot(a->value, a->value, s->dim));
         snprintf(subject, sizeof subject, "boundary %s", a->name);
         snprintf(note, sizeof note, " (%.3g Pa over %.3g Pa)", most, young);
-        units_judge(s, RULE_STRAIN, subject, most / young, note, to);
+        units_judge(s, ACCEPT_STRAIN, subject, most / young, note, to);
     }
 }
 
@@ -242,13 +258,13 @@ static void units_of_time(const struct scene *s, const struct run_clock *clock, 
     char note[80];
     if (!scene_moves(s)) return;
     snprintf(note, sizeof note, " (%.3g s, %.3g m at %.3g m/s)", s->duration, longest, wave_speed);
-    units_judge(s, RULE_PASSAGES, "time", wave_speed * s->duration / longest, note, to);
+    units_judge(s, ACCEPT_PASSAGES, "time", wave_speed * s->duration / longest, note, to);
     snprintf(note, sizeof note, " of %.3g s", clock->dt);
     const real reach = wave_speed * s->duration / s->spacing;
-    if (reach < rule[RULE_REACH].least)
-        units_judge(s, RULE_REACH, "time", reach, "", to);
+    if (reach < rule[ACCEPT_REACH].least)
+        units_judge(s, ACCEPT_REACH, "time", reach, "", to);
     else
-        units_judge(s, RULE_STEPS, "time", (real)clock->steps, note, to);
+        units_judge(s, ACCEPT_STEPS, "time", (real)clock->steps, note, to);
 }
 
 bool crack_meets_box(const struct crack *c, const real *low, const real *high, int dim, real reach)
@@ -283,7 +299,7 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
         if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
     }
     snprintf(subject, sizeof subject, "body %s", name);
-    units_judge(s, RULE_PARTICLES, subject, least, note, to);
+    units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
 /* Warns of bodies with a pre-crack that have few particles across (units_of_body). Joined bodies count as one. */
@@ -310,7 +326,7 @@ static void units_of_thickness(const struct scene *s, real longest, struct warni
     char note[80];
     if (s->space != SPACE_PLANE_STRESS || s->bodies == 0) return;
     snprintf(note, sizeof note, " (%.3g m over %.3g m)", s->thickness, longest);
-    units_judge(s, RULE_THICKNESS, "space", s->thickness / longest, note, to);
+    units_judge(s, ACCEPT_THICKNESS, "space", s->thickness / longest, note, to);
 }
 
 void engine_warn_of_units(const struct scene *s, const struct particles *p, const struct loads *l,

@@ -33,9 +33,9 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
         if (dot(s->body[b].velocity, s->body[b].velocity, s->dim) > 0)
             warnings_add(to, "a static equilibrium has no velocities: the velocity of body %s is ignored",
                          s->body[b].name);
-    if (s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM))
+    if ((s->bodies > 1 || (s->cracks > 0 && s->method != METHOD_MPM)) && !scene_accepts(s, ACCEPT_CONTACT))
         warnings_add(to, "bodies and faces of cracks do not meet in a static equilibrium: they pass through each other "
-                         "where they close");
+                         "where they close; if they do not close: accept: [contact]");
     if (e->solver->applied == 0 && solver_largest_component(&e->solver->driven, s->dim, e->part.n) == 0)
         warnings_add(to,
                      "nothing loads the body at t = %.4g s, the end of the duration, whose loads this solver applies "

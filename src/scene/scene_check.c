@@ -292,6 +292,13 @@ const char *scene_frame_not_default(const struct scene *s, int body)
     return NULL;
 }
 
+const char *scene_frame_obstacle(const struct scene *s)
+{
+    const char *why = NULL;
+    for (int b = 0; b < s->bodies && !why; b++) why = scene_frame_not_default(s, b);
+    return why;
+}
+
 /* Returns the reason, for a message, why a key of the scene requires the current frame; NULL if no key does. */
 static const char *current_frame_key(const struct scene *s)
 {

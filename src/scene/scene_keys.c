@@ -111,10 +111,14 @@ const struct key keys[] = {
     KEY("steps.within", KEY_REAL, UNIT_NONE, AT(scene, steps.within), BETWEEN(0, 1), "2 %",
         "of these bonds only those whose ratio of stretch to critical stretch is within this share of the largest"),
     KEY("accept", KEY_SET, UNIT_NONE, AT(scene, accept), ANY, "none",
-        "figures of this scene that look like mistakes of units and are meant, a list: speed of waves, critical "
+        "warnings that this scene means, a list; figures that look like mistakes of units: speed of waves, critical "
         "stretch, stress of loads over strength, load over Young's modulus, number of time steps, spacings that waves "
         "travel, particles across a body with a crack, density, yield stress over Young's modulus, number of times "
-        "that waves cross the body, thickness over width in plane stress, energy release rate",
+        "that waves cross the body, thickness over width in plane stress, energy release rate, energy that a crack can "
+        "release; and what a run warns of: bodies that pass through each other, a coupling without energy, one point "
+        "in a cell, a face driven so fast that bonds beside it break, bonds that break behind the front of a "
+        "collision, "
+        "a crack faster than Rayleigh waves",
         .words = ACCEPT_WORDS, .has = FLAG(scene, has_accept)),
     KEY("accuracy", KEY_HAND, UNIT_NONE, NOWHERE, ANY, "(1 % with method auto)",
         "method auto: largest error of a figure, which pilot runs estimate",

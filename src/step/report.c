@@ -293,6 +293,7 @@ status report_step(struct run *e)
     TRY(r->history_status);
     TRY(energy_check(e));
     if (last) warn_of_imbalance(e);
+    if (last) warn_of_fast_tips(&e->fracture->tips, e->scene, &e->warnings);
     if (last || in_steps) warn_of_bond_yielding(r, &e->bonds, e->scene, &e->warnings);
     if (r->out) {
         const unsigned due = report_frames_due(r->out, e->scene, &e->clock, e->clock.step);

@@ -1,16 +1,18 @@
-/* Warnings at the end of a run: energy or angular momentum that is not conserved. */
+/* Warnings at the end of a run: energy or angular momentum that is not conserved, cracks faster than waves. */
 #include <math.h>
 #include <stdio.h>
 
 #include "probes/diagnostics.h"
 #include "coupling/coupling_part.h"
+#include "fracture/tips.h"
 #include "step/report.h"
 #include "step/shock.h"
 #include "run/say.h"
 #include "step/checks.h"
 
 #define ENERGY_DOUBTFUL                                                                                                \
-    0.05 /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
+    0.05           /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
+#define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
 #define DAMPED_DOUBTFUL                                                                                                \
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
 
@@ -68,13 +70,37 @@ static void say_damped(real share, struct warnings *to)
 static bool shock_text(const struct scene *s, const struct diagnostics *w, char *text, size_t room)
 {
     const struct shock shock = fastest_collision_expected(s);
-    if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM) return false;
+    if (!(shock.share > 0) || isnan(w->break_time) || s->method == METHOD_MPM || scene_accepts(s, ACCEPT_SHOCK))
+        return false;
     snprintf(text, room,
              "the first bond broke at %.4g s, in a collision at %.3g m/s, %.2g times the speed at which the front of "
              "the wave breaks or yields the bodies; stress oscillates by 10 to 30 %% behind the front, so that bonds "
-             "can break too early: %s",
+             "can break too early: %s; if this is meant: accept: [shock]",
              w->break_time, shock.speed, shock.share, shock.remedy);
     return true;
+}
+
+void warn_of_fast_tips(const struct tips *t, const struct scene *s, struct warnings *to)
+{
+    const struct tip *fastest = NULL;
+    char text[500];
+    real limit = 0;
+    for (int m = 0; m < s->materials; m++) limit = real_max(limit, s->material[m].rayleigh_speed);
+    if (limit == 0 || !scene_moves(s) || scene_accepts(s, ACCEPT_RAYLEIGH)) return;
+    for (int k = 0; k < t->n; k++) {
+        const struct tip *tip = &t->tip[k];
+        if (tip->growth < FAST_TIP * t->spacing || !(tip->speed_max > limit + t->spacing / t->window)) continue;
+        if (!fastest || tip->speed_max > fastest->speed_max) fastest = tip;
+    }
+    if (!fastest) return;
+    snprintf(text, sizeof text,
+             "the tip of a crack, from (%.4g, %.4g) to (%.4g, %.4g) m, moves at up to %.4g m/s within %.3g s "
+             "(crack.speed_window), faster than Rayleigh waves, %.4g m/s, which a crack that opens does not pass: what "
+             "moves is rather the edge of a zone that breaks at once, as beside a face under load; look at damage in "
+             "the frames; if this is meant: accept: [rayleigh]",
+             fastest->origin[0], fastest->origin[1], fastest->place[0], fastest->place[1], fastest->speed_max,
+             t->window, limit);
+    warnings_add_and_print(to, text);
 }
 
 void warn_of_imbalance(struct run *e)
@@ -95,7 +121,9 @@ void warn_of_imbalance(struct run *e)
         "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust later results",
         100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
         error < 0 && apic
-            ? ": APIC damps what its grid does not resolve, mpm.transfer flip and mpm.frame reference keep it"
+            ? scene_frame_obstacle(e->scene)
+                  ? ": APIC damps what its grid does not resolve, mpm.transfer: flip keeps it"
+                  : ": APIC damps what its grid does not resolve, mpm.transfer: flip and mpm.frame: reference keep it"
             : "");
     warnings_add_and_print(&e->warnings, text);
 }

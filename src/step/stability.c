@@ -172,7 +172,10 @@ static void say_others(const struct scene *s, const struct reference_frame *refe
     const char *other[8];
     int n = 0;
     if (s->method == METHOD_ADAPTIVE) other[n++] = "method: pd";
-    if (s->method != METHOD_PD) other[n++] = reference->mesh.points > 0 ? "mpm.frame: current" : "mpm.frame: reference";
+    if (s->method != METHOD_PD && reference->mesh.points > 0)
+        other[n++] = "mpm.frame: current";
+    else if (!scene_frame_obstacle(s))
+        other[n++] = "mpm.frame: reference";
     if (coupling != COUPLING_PARTIAL_STRESS && s->method == METHOD_ADAPTIVE) other[n++] = "coupling: partial stress";
     if (s->method != METHOD_PD && reference->mesh.points == 0 && s->transfer == TRANSFER_FLIP)
         other[n++] = "mpm.transfer: apic";
@@ -371,27 +374,37 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
  * strains above 0.09 with every shape function and transfer (tests/scenes/test_frame.sh). */
 #define STRETCH_MOST 0.08
 
-/* Warns of the first point on the grid with a strain above STRETCH_MOST; returns true if there is one. t: present
- * time [s]. */
-static bool say_stretched(const struct particles *p, const struct material *material, real t, struct warnings *to)
+/* Warns that the point at x [m] on the grid has a strain beyond STRETCH_MOST at time t [s], with a remedy that the
+ * scene allows. */
+static void warn_of_stretched(const struct scene *s, real strain, real t, real x, struct warnings *to)
+{
+    char text[560], remedy[200] = "use mpm.frame: reference";
+    const char *why = scene_frame_obstacle(s);
+    if (why)
+        snprintf(remedy, sizeof remedy, "use method: pd or lower loads and speeds (mpm.frame: reference: %s)", why);
+    snprintf(text, sizeof text,
+             "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond some 10 %% "
+             "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; %s; if this is meant: "
+             "accept: [strain]",
+             100 * strain, t, x, remedy);
+    warnings_add_and_print(to, text);
+}
+
+/* Warns of the first point on the grid with a strain above STRETCH_MOST, unless the scene accepts it; returns true if
+ * there is one. t: present time [s]. */
+static bool say_stretched(const struct particles *p, const struct scene *s, real t, struct warnings *to)
 {
     const int n = symmetric_count(p->dim);
-    for (int64_t i = 0; i < p->n && p->n_free > 0; i++) {
-        const struct material *m = &material[p->material[i]];
+    for (int64_t i = 0; i < p->n && p->n_free > 0 && !scene_accepts(s, ACCEPT_STRAIN); i++) {
+        const struct material *m = &s->material[p->material[i]];
         real stress[SYM_MAX], sum = 0;
-        char text[360];
         if (p->kind[i] != KIND_MPM || p->flag[i] & FLAG_MESHED || material_yields(m)) continue;
         for (int c = 0; c < n; c++) stress[c] = p->stress[c][i], sum += square(stress[c]);
         /* cheap bound: the sum is at least half the squared principal stress */
         if (2 * sum < square(STRETCH_MOST * m->young)) continue;
         const real strain = stress_principal(stress, p->dim) / m->young;
         if (!(strain > STRETCH_MOST)) continue;
-        snprintf(
-            text, sizeof text,
-            "points in mpm.frame current are stretched by %.0f %% at t = %.3g s, near x = %.4g m: beyond some 10 %% "
-            "they separate (mpm.transfer: apic) or gain energy (flip), with any mpm.shape; use mpm.frame: reference",
-            100 * strain, t, p->x[0][i]);
-        warnings_add_and_print(to, text);
+        warn_of_stretched(s, strain, t, p->x[0][i], to);
         return true;
     }
     return false;
@@ -413,8 +426,7 @@ status energy_check(struct run *e)
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
     growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
-    if (!e->stability->stretched)
-        e->stability->stretched = say_stretched(&e->part, e->scene->material, e->clock.t, &e->warnings);
+    if (!e->stability->stretched) e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings);
     if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);
