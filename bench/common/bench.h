@@ -285,6 +285,9 @@ status bench_pilot(bool quick);
 /* Compares cracks with experiments and other codes (bench_experiments.c). */
 status bench_experiments(bool quick);
 
+/* Compares laws of materials with closed forms and published values (bench_laws.c). quick: single elements only. */
+status bench_laws(bool quick);
+
 /* Compares load steps with linear elastic fracture mechanics (bench_slow.c). */
 status bench_slow(bool quick);
 

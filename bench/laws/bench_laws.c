@@ -1,0 +1,118 @@
+/* `cleave bench laws`: laws of materials beside closed forms and published values. */
+#include <math.h>
+#include <stdio.h>
+
+#include "laws_bench.h"
+#include "base/team.h"
+
+#define SUM "strain = sigma/E + a"
+#define WILKINS "Wilkins & Guinan 1973; Kamoulakos 1990, Zhu & Cescotto 1995"
+#define MPM3D "MPM3D-F90, linear shapes, November 2026"
+#define ARMSTRONG "k + C/gamma (1 - exp(-gamma a)); stable: k + C/gamma tanh(gamma da/2)"
+#define PRANDTL "equations of Prandtl & Reuss"
+#define HILL "Hill 1950"
+#define HEATING "T* = 1 - exp(-beta R W/(rho c (T_melt - T_room)))"
+#define NUMERIC "integration of the law in steps of 1e-6"
+
+/* clang-format off */
+const struct laws_case laws_cases[] = {
+    {"bar, Voce 200 + 150 (1 - exp(-20 a)) MPa", SUM, laws_voce, false, {0},
+     {{"stress at 0.01", "MPa", 224.403, 6e-4}, {"stress at 0.05", "MPa", 293.176, 6e-4},
+      {"plastic work", "MJ/m^3", 12.3281, 1e-4}}},
+    {"bar, table 200, 260, 320 MPa", "the lines 200 + 6000 a, 245 + 1500 a, 320", laws_table, false, {0},
+     {{"stress at 0.008", "MPa", 248 / 1.03, 1e-10}, {"stress at 0.04", "MPa", 305 / 1.0075, 1e-10},
+      {"stress at 0.2", "MPa", 320, 1e-10}}},
+    {"plane strain tension, 250 MPa", PRANDTL, laws_plane_strain, false, {0, 0.005},
+     {{"stress", "MPa", 288.665, 0.01}, {"stress across", "MPa", 142.289, 0.2}, {"plastic strain", "1e-3", 4.209, 0.02},
+      {"elastic up to", "MPa", 281.272 - 1.1, 1.2}}},
+    {"plane strain tension, H 1000 MPa", PRANDTL, laws_plane_strain, false, {1000, 0.02},
+     {{"stress", "MPa", 313.376, 0.02}, {"stress across", "MPa", 156.376, 0.02}}},
+    {"Prager, C 10 GPa, strains +-0.01", "sigma = 200 + C (0.01 - sigma/E)", laws_prager, false, {0},
+     {{"first", "MPa", 285.714, 6e-4}, {"second", "MPa", -285.714, 6e-4}, {"third", "MPa", 285.714, 6e-4},
+      {"fourth", "MPa", -285.714, 6e-4}}},
+    {"Armstrong-Frederick, C 40 GPa, gamma 300", ARMSTRONG, laws_armstrong_frederick, false, {0},
+     {{"first at 0.01", "MPa", 322.56, 0.03}, {"sixth", "MPa", 331.56, 0.03},
+      {"ratchet +300/-200", "1e-3", 2.75560, 2.8e-3}}},
+    {"Johnson-Cook copper, 1000/s, m 1, a 0.2", HEATING, laws_johnson_cook, false, {0, 1, 0.2},
+     {{"stress", "MPa", 309.393, 0.02}, {"temperature", "K", 307.771, 0.01}}},
+    {"Johnson-Cook copper, 1000/s, m 1, a 0.5", HEATING, laws_johnson_cook, false, {0, 1, 0.5},
+     {{"stress", "MPa", 367.131, 0.02}, {"temperature", "K", 334.689, 0.01}}},
+    {"Johnson-Cook copper, 1000/s, m 1, a 1", HEATING, laws_johnson_cook, false, {0, 1, 1},
+     {{"stress", "MPa", 409.161, 0.02}, {"temperature", "K", 386.002, 0.01}}},
+    {"Johnson-Cook copper, m 1.09, a 1", NUMERIC, laws_johnson_cook, false, {0, 1.09, 1},
+     {{"stress", "MPa", 416.478, 0.02}, {"temperature", "K", 386.955, 0.01}}},
+    {"Johnson-Cook 4340 steel, a 0.5", NUMERIC, laws_johnson_cook, false, {1, 1.03, 0.5},
+     {{"stress", "MPa", 1217.20, 0.02}, {"temperature", "K", 436.69, 0.01}}},
+    {"500 random strains, energy", "work = elastic energy + plastic work", laws_energy, false, {0},
+     {{"Voce, space", "1", 0, 1e-14}, {"kinematic, plane stress", "1", 0, 1e-14},
+      {"Johnson-Cook, plane strain", "1", 0, 1e-14}}},
+    {"torsion, R 10 mm, 250 MPa, first yield", "pi R^3/2 k", laws_torsion, true, {1},
+     {{"moment", "N m", 226.725, 2.3}}},
+    {"torsion, twice that angle", "2 pi R^3/3 k (1 - 1/32)", laws_torsion, true, {2},
+     {{"moment", "N m", 0.96875 * 302.300, 3}}},
+    {"torsion, 20 times", "2 pi R^3/3 k", laws_torsion, true, {20}, {{"moment", "N m", 302.300, 3}}},
+    {"beam, plane stress, 2 times first yield", "3/2 (1 - 1/12)", laws_beam, true, {0, 2},
+     {{"moment", "M_y", 1.375, 0.01}}},
+    {"beam, plane stress, 4 times", "3/2 (1 - 1/48)", laws_beam, true, {0, 4}, {{"moment", "M_y", 1.46875, 0.01}}},
+    {"beam, plane strain, 4 times", "1.026 times plane stress", laws_beam, true, {1, 4},
+     {{"moment", "M_y", 1.507, 0.015}}},
+    {"hollow sphere, b/a 2, front at 1.5 a", HILL, laws_sphere, true, {0},
+     {{"front", "a", 1.5, 0.03}, {"outer displacement", "um", 7.3828, 0.37}, {"collapse", "sigma_y", 1.38629, 0.04}}},
+    {"thick cylinder, b/a 2, front at 1.2 a", HILL, laws_cylinder, true, {1.2}, {{"front", "a", 1.2, 0.03}}},
+    {"thick cylinder, front at 1.5 a", HILL, laws_cylinder, true, {1.5}, {{"front", "a", 1.5, 0.03}}},
+    {"thick cylinder, front at 1.8 a", HILL, laws_cylinder, true, {1.8}, {{"front", "a", 1.8, 0.03}}},
+    {"copper bar, 400 + 100 a MPa, 227 m/s, gimp", WILKINS, laws_bar_wilkins, true, {0},
+     {{"length", "mm", 21.4, 0.1}, {"foot", "mm", 7.0, 0.1}, {"energy balance", "%", 0, 0.3}}},
+    {"copper bar, 227 m/s, linear", WILKINS, laws_bar_wilkins, true, {1},
+     {{"length", "mm", 21.4, 0.1}, {"foot", "mm", 7.0, 0.1}, {"energy balance", "%", 0, 0.3}}},
+    {"copper bar, 157 + 425 a MPa, 190 m/s, gimp", MPM3D, laws_bar_copper, true, {0},
+     {{"height", "mm", 16.24, 0.25}, {"radius", "mm", 6.56, 0.1}, {"plastic strain", "1", 1.60, 0.05},
+      {"energy balance", "%", 0, 0.3}}},
+    {"copper bar, 190 m/s, linear", MPM3D, laws_bar_copper, true, {1},
+     {{"height", "mm", 16.24, 0.16}, {"radius", "mm", 6.56, 0.1}, {"plastic strain", "1", 1.60, 0.05},
+      {"energy balance", "%", 0, 0.3}}},
+    {"Johnson-Cook copper bar, 190 m/s, gimp", MPM3D, laws_bar_johnson_cook, true, {0},
+     {{"height", "mm", 17.09, 0.16}, {"radius", "mm", 7.03, 0.1}, {"temperature", "K", 546, 10},
+      {"energy balance", "%", 0, 0.3}}},
+};
+/* clang-format on */
+const int laws_cases_count = COUNT_OF(laws_cases);
+
+bool laws_figure_holds(const struct laws_figure *asked, double found)
+{
+    return fabs(found - asked->expected) <= asked->tolerance;
+}
+
+/* Prints the figures of a case beside the expected values, and adds them to the table. */
+static void laws_rows(const struct laws_case *c, const double *found, struct bench_table *rows)
+{
+    for (int k = 0; k < LAWS_FIGURES && c->asked[k].what; k++) {
+        const struct laws_figure *f = &c->asked[k];
+        const char *const verdict = laws_figure_holds(f, found[k]) ? "holds" : "MISSED";
+        printf("  %-43s %-27s %9.6g %9.6g %9.2g %-7s %s\n", c->name, f->what, f->expected, found[k], f->tolerance,
+               f->unit, verdict);
+        bench_text(rows, c->name), bench_text(rows, f->what), bench_text(rows, f->unit);
+        bench_number(rows, f->expected), bench_number(rows, found[k]), bench_number(rows, f->tolerance);
+        bench_text(rows, verdict), bench_text(rows, c->source);
+    }
+    fflush(stdout);
+}
+
+status bench_laws(bool quick)
+{
+    struct bench_table rows;
+    printf("laws: metals beside closed forms and published values\n");
+    bench_print_machine(team_set_threads(0));
+    printf("  %-43s %-27s %9s %9s %9s\n", "", "", "expected", "found", "tolerance");
+    bench_table_make(&rows, "", "case,figure,unit,expected,found,tolerance,verdict,source");
+    for (int k = 0; k < laws_cases_count; k++) {
+        const struct laws_case *c = &laws_cases[k];
+        double found[LAWS_FIGURES] = {NAN, NAN, NAN, NAN, NAN, NAN};
+        if (quick && c->body) continue;
+        if (c->measure(c, found) != OK) printf("  %s\n", status_message());
+        laws_rows(c, found, &rows);
+    }
+    const status s = bench_write("laws", &rows, 1);
+    bench_table_free(&rows);
+    return s;
+}

@@ -1,0 +1,77 @@
+/* `cleave bench laws`: declarations shared by its files. Laws of materials beside closed forms and published values. */
+#ifndef CLEAVE_LAWS_BENCH
+#define CLEAVE_LAWS_BENCH
+
+#include "bench/common/bench.h"
+#include "kernels/laws/law_update.h"
+
+#define MPA 1e6
+
+enum { LAWS_FIGURES = 6 };
+
+/* A quantity of a case with its expected value; a found value may differ by `tolerance`. All in `unit`. */
+struct laws_figure {
+    const char *what, *unit;
+    double expected, tolerance;
+};
+
+/* A case. measure: stores the found values, in the order of `asked`. given: parameters. body: a run of a body, which
+ * takes seconds; else a single element, in milliseconds. source: where the expected values come from. */
+struct laws_case {
+    const char *name, *source;
+    status (*measure)(const struct laws_case *c, double *found);
+    bool body;
+    double given[3];
+    struct laws_figure asked[LAWS_FIGURES]; /* a quantity without a name ends the list */
+};
+
+/* Table of the cases. */
+extern const struct laws_case laws_cases[];
+
+/* Number of cases. */
+extern const int laws_cases_count;
+
+/* Returns true if a found value meets its tolerance. */
+bool laws_figure_holds(const struct laws_figure *asked, double found);
+
+/* ---- laws_elements.c: single elements ---------------------------------------------------------------------------- */
+
+/* Returns a law with its derived constants. young, poisson, yield [Pa] [1] [Pa]: of the material; density [kg/m^3]. */
+struct law laws_material(struct law law, real young, real poisson, real yield, real density);
+
+/* Returns steel (200 GPa, 0.3, 200 MPa) with one of the flow laws. */
+struct law laws_steel(enum flow flow);
+
+/* Returns eight equal points without stress, at 294 K and a rate of 1/s. */
+struct law_points laws_points_at_rest(void);
+
+/* Stores the trial stress of a strain increment in all points of p. strain: tensor components [1]; normal ones out of a
+ * plane or across a bar are not used where the space leaves them free. */
+void laws_load(const struct law *m, struct law_points *p, const real *strain, enum space space);
+
+/* Strains an element by 500 random increments of up to 0.2 %, with a law update after each. Returns the work of the
+ * strains less elastic energy and plastic work, over the sum of the absolute values of the work of all increments [1].
+ * NAN if the element has hardly yielded. */
+double laws_cycled_energy(const struct law *m, enum space space, enum law_mode mode);
+
+/* Cases: an element in tension, cycled, or heated, in explicit steps. */
+status laws_voce(const struct laws_case *c, double *found);
+status laws_table(const struct laws_case *c, double *found);
+status laws_prager(const struct laws_case *c, double *found);
+status laws_armstrong_frederick(const struct laws_case *c, double *found);
+status laws_plane_strain(const struct laws_case *c, double *found); /* given: hardening [MPa], strain */
+status laws_johnson_cook(const struct laws_case *c, double *found); /* given: 0 copper or 1 steel, m, plastic strain */
+status laws_energy(const struct laws_case *c, double *found);
+
+/* ---- laws_bodies.c: bodies --------------------------------------------------------------------------------------- */
+
+/* Cases: bars that hit a wall (given: 0 gimp, 1 linear shapes), and bodies under static loads. */
+status laws_bar_wilkins(const struct laws_case *c, double *found);
+status laws_bar_copper(const struct laws_case *c, double *found);
+status laws_bar_johnson_cook(const struct laws_case *c, double *found);
+status laws_torsion(const struct laws_case *c, double *found); /* given: angle over that of first yield */
+status laws_beam(const struct laws_case *c, double *found); /* given: 1 in plane strain, curvature over first yield */
+status laws_sphere(const struct laws_case *c, double *found);
+status laws_cylinder(const struct laws_case *c, double *found); /* given: radius of the front over the inner radius */
+
+#endif

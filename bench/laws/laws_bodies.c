@@ -1,0 +1,206 @@
+/* Bodies of metal: bars that hit a wall, and bodies under static loads beyond the elastic limit. */
+#include <math.h>
+#include <stdio.h>
+
+#include "laws_bench.h"
+#include "probes/diagnostics.h"
+#include "step/step.h"
+
+/* ---- bars that hit a wall ---------------------------------------------------------------------------------------- */
+
+/* Bar at rest: mean height of its uppermost layer and largest radius of its particles [m], largest plastic strain [1]
+ * and temperature [K], error of the energy balance [1]. */
+struct bar_rest {
+    double top, radius, strain, temperature, balance;
+};
+
+/* Runs the shipped scene `path` of a bar with the overrides o and linear or gimp shapes, and stores its state at the
+ * end in *r. */
+static status bar_strike(struct bar_rest *r, const char *path, bool linear, struct bench_overrides *o)
+{
+    struct run e;
+    struct scene s;
+    bench_override(o, "mpm.shape", linear ? "linear" : "gimp");
+    bench_override(o, "output.frames", "0");
+    TRY(bench_engine_make(&e, &s, path, NULL, bench_overrides_ready(o), o->n));
+    const status ran = engine_run(&e);
+    const struct particles *p = &e.part;
+    double length = 0, sum = 0, count = 0;
+    *r = (struct bar_rest){.balance = e.diagnostics->now.balance_error};
+    for (int64_t i = 0; i < p->n; i++) {
+        length = fmax(length, p->X[2][i]);
+        r->radius = fmax(r->radius, hypot(p->x[0][i], p->x[1][i]));
+        r->strain = fmax(r->strain, p->plastic_strain[i]);
+        if (p->temperature) r->temperature = fmax(r->temperature, p->temperature[i]);
+    }
+    for (int64_t i = 0; i < p->n; i++)
+        if (p->X[2][i] > length - 0.5 * s.spacing) sum += p->x[2][i], count++;
+    r->top = sum / count;
+    bench_engine_free(&e, &s);
+    return ran;
+}
+
+status laws_bar_wilkins(const struct laws_case *c, double *found)
+{
+    struct bench_overrides o = {0};
+    struct bar_rest r;
+    TRY(bar_strike(&r, "inputs/taylor_bar.yaml", c->given[0] == 1, &o));
+    found[0] = 1e3 * r.top + 0.2 /* half a spacing */, found[1] = 1e3 * r.radius, found[2] = 100 * r.balance;
+    return OK;
+}
+
+status laws_bar_copper(const struct laws_case *c, double *found)
+{
+    struct bench_overrides o = {0};
+    struct bar_rest r;
+    bench_override(&o, "material",
+                   "{young: 117 GPa, poisson: 0.35, density: 8930, yield_stress: 157 MPa, "
+                   "hardening: {linear: {modulus: 425 MPa}}}");
+    TRY(bar_strike(&r, "inputs/taylor_bar_jc.yaml", c->given[0] == 1, &o));
+    found[0] = 1e3 * r.top, found[1] = 1e3 * r.radius, found[2] = r.strain, found[3] = 100 * r.balance;
+    return OK;
+}
+
+status laws_bar_johnson_cook(const struct laws_case *c, double *found)
+{
+    struct bench_overrides o = {0};
+    struct bar_rest r;
+    bench_override(&o, "material.density", "8930");
+    bench_override(&o, "material.taylor_quinney", "1");
+    TRY(bar_strike(&r, "inputs/taylor_bar_jc.yaml", c->given[0] == 1, &o));
+    found[0] = 1e3 * r.top, found[1] = 1e3 * r.radius, found[2] = r.temperature, found[3] = 100 * r.balance;
+    return OK;
+}
+
+/* ---- bodies under static loads ----------------------------------------------------------------------------------- */
+
+#define YIELD 250e6
+#define YOUNG 200e9
+#define POISSON 0.3
+
+/* Runs load steps of a body of ideally plastic steel in the reference frame to the full load, and brings the stresses
+ * of its particles up to date. text: the keys of the scene besides method, material and output. Release e and s with
+ * bench_engine_free if the result is OK. */
+static status body_run(struct run *e, struct scene *s, const char *text)
+{
+    char whole[2048];
+    snprintf(whole, sizeof whole,
+             "name: body\nduration: 1 s\nmethod: mpm\nsolver: static\noutput: {frames: 0}\n"
+             "material: {young: %g, poisson: %g, density: 7850, yield_stress: %g}\n%s",
+             YOUNG, POISSON, YIELD, text);
+    TRY(bench_engine_make(e, s, "body", whole, NULL, 0));
+    const status ran = engine_run(e);
+    if (ran != OK) return bench_engine_free(e, s), ran;
+    run_update_particles(e);
+    return OK;
+}
+
+status laws_torsion(const struct laws_case *c, double *found)
+{
+    struct run e;
+    struct scene s;
+    char text[1024];
+    const double R = 10e-3, length = 2e-3, shear = YOUNG / (2 * (1 + POISSON));
+    const double twist = c->given[0] * YIELD / sqrt(3) / shear / R; /* angle per length [1/m] */
+    snprintf(
+        text, sizeof text,
+        "space: solid\nsteps: {number: 8}\nbody: {cylinder: {from: [0, 0, 0], to: [0, 0, %g], radius: %g}}\n"
+        "particles: {spacing: 0.5 mm}\nboundary:\n"
+        "  - {name: twist, displacement: [\"-y*%.12g\", \"x*%.12g\", free], face: z+, time: {ramp: {until: 1 s}}}\n"
+        "  - {name: hold, displacement: [0, 0, 0], face: z-}\n",
+        length, R, twist * length, twist * length);
+    TRY(body_run(&e, &s, text));
+    const struct particles *p = &e.part;
+    double moment = 0;
+    for (int64_t i = 0; i < p->n; i++)
+        moment += p->volume[i] * (p->X[0][i] * p->stress[4][i] - p->X[1][i] * p->stress[5][i]);
+    found[0] = moment / length;
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+status laws_beam(const struct laws_case *c, double *found)
+{
+    struct run e;
+    struct scene s;
+    char text[1024];
+    const bool strain = c->given[0] == 1;
+    const double half = 8e-3, length = 40e-3, nu = POISSON;
+    /* First yield of the edges: in plane strain sigma_zz = nu sigma_xx. */
+    const double first = strain ? YIELD / sqrt(1 - nu + nu * nu) : YIELD;
+    const double curvature = c->given[1] * first * (strain ? 1 - nu * nu : 1) / YOUNG / half;
+    snprintf(text, sizeof text,
+             "space: plane %s\nthickness: 1 mm\nsteps: {number: 20}\nparticles: {spacing: 0.5 mm}\n"
+             "body: {box: {from: [0, %g], to: [%g, %g]}}\nboundary:\n"
+             "  - {name: bend, displacement: [\"-%.12g*y\", free], face: x+, time: {ramp: {until: 1 s}}}\n"
+             "  - {name: left, mirror: {axis: x, at: 0}}\n"
+             "  - {name: pin, fixed: [y], region: {box: {from: [0, -0.4 mm], to: [0.5 mm, 0.4 mm]}}}\n",
+             strain ? "strain" : "stress", -half, length, half, curvature * length);
+    TRY(body_run(&e, &s, text));
+    const struct particles *p = &e.part;
+    double moment = 0;
+    for (int64_t i = 0; i < p->n; i++) moment -= p->volume[i] * p->X[1][i] * p->stress[0][i];
+    found[0] = moment / length / (first * 1e-3 * 2 * half * half / 3);
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+/* Runs a hollow sphere (an octant) or a hollow cylinder (a quarter, in plane strain) of radii 10 and 20 mm under inner
+ * pressure [Pa]. spacing: of the particles [m]. Stores the radius of the plastic zone over the inner radius in *front,
+ * computed from the volume of the zone [1], and the mean displacement of the outer layer in *outer [m]. */
+static status shell_run(bool sphere, double spacing, double pressure, double *front, double *outer)
+{
+    struct run e;
+    struct scene s;
+    char text[1024];
+    const double a = 10e-3, b = 20e-3, depth = 1e-3;
+    const char *const ends = sphere ? "0, 0, 0" : "0, 0", *const far = sphere ? "1, 1, 1" : "1, 1";
+    snprintf(text, sizeof text,
+             "space: %s\nsteps: {number: 12}\nparticles: {spacing: %g}\nbody:\n  - {%s: {centre: [%s], radius: %g}}\n"
+             "  - {subtract: {%s: {centre: [%s], radius: %g}}}\n  - {intersect: {box: {from: [%s], to: [%s]}}}\n"
+             "boundary:\n  - {name: inner, pressure: %.12g, region: {%s: {centre: [%s], radius: %g}}, "
+             "time: {ramp: {until: 1 s}}}\n  - {name: left, mirror: {axis: x, at: 0}}\n"
+             "  - {name: below, mirror: {axis: y, at: 0}}\n%s",
+             sphere ? "solid" : "plane strain\nthickness: 1 mm", spacing, sphere ? "ball" : "disc", ends, b,
+             sphere ? "ball" : "disc", ends, a, ends, far, pressure, sphere ? "ball" : "disc", ends, 1.5 * a,
+             sphere ? "  - {name: back, mirror: {axis: z, at: 0}}\n" : "");
+    TRY(body_run(&e, &s, text));
+    const struct particles *p = &e.part;
+    double yielded = 0, moved = 0, count = 0;
+    for (int64_t i = 0; i < p->n; i++) {
+        const double z = sphere ? p->X[2][i] : 0, r = sqrt(square(p->X[0][i]) + square(p->X[1][i]) + z * z);
+        const double w = sphere ? p->x[2][i] : 0, now = sqrt(square(p->x[0][i]) + square(p->x[1][i]) + w * w);
+        if (p->plastic_strain[i] > 0) yielded += p->volume[i];
+        if (r > b - spacing) moved += now - r, count++;
+    }
+    *front = sphere ? cbrt(1 + 6 / M_PI * yielded / (a * a * a)) : sqrt(1 + 4 / M_PI * yielded / (depth * a * a));
+    *outer = moved / count;
+    bench_engine_free(&e, &s);
+    return OK;
+}
+
+status laws_sphere(const struct laws_case *c, double *found)
+{
+    (void)c;
+    const double full = YIELD * (1 - POISSON) * 20e-3 / YOUNG; /* outer displacement when the front reaches it [m] */
+    double front, outer, low = 1.34, high = 1.46;
+    TRY(shell_run(true, 0.5e-3, 1.19635 * YIELD, &front, &outer));
+    found[0] = front, found[1] = 1e6 * outer;
+    while (high - low > 0.01) {
+        const double middle = 0.5 * (low + high);
+        TRY(shell_run(true, 0.5e-3, middle * YIELD, &front, &outer));
+        if (outer > 2 * full)
+            high = middle;
+        else
+            low = middle;
+    }
+    found[2] = 0.5 * (low + high);
+    return OK;
+}
+
+status laws_cylinder(const struct laws_case *c, double *found)
+{
+    const double s = 2 / sqrt(3), front = c->given[0];
+    double outer;
+    return shell_run(false, 0.25e-3, (0.5 * s * (1 - front * front / 4) + s * log(front)) * YIELD, &found[0], &outer);
+}
