@@ -100,7 +100,9 @@ static void laws_rows(const struct laws_case *c, const double *found, struct ben
 
 status bench_laws(bool quick)
 {
+    static const char *const needed[] = {"inputs/taylor_bar.yaml", "inputs/taylor_bar_jc.yaml"};
     struct bench_table rows;
+    if (!quick) TRY(bench_scenes_needed("laws", needed, COUNT_OF(needed)));
     printf("laws: metals beside closed forms and published values\n");
     bench_print_machine(team_set_threads(0));
     printf("  %-43s %-27s %9s %9s %9s\n", "", "", "expected", "found", "tolerance");

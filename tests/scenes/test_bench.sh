@@ -232,4 +232,7 @@ line slow_paths.csv 'inclined crack,0.001,45,' 6 0 3
 line slow_paths.csv 'notch beside middle,' 6 0 3
 [ "$(wc -l <slow_specimens.csv) $(wc -l <slow_paths.csv)" = "3 3" ] || fail "two specimens and two paths"
 [ -z "$(ls -d run-* 2>/dev/null)" ] || fail "slow leaves runs behind"
+cd ../..
+"$cleave" bench laws --quick >out 2>err || fail "laws failed: $(cat err)"
+[ "$(grep -c ' holds$' out)" -ge 30 ] && ! grep -q MISSED out || fail "laws: $(cat out)"
 echo "test_bench: ok"
