@@ -18,13 +18,13 @@ scene_of()
     echo "$work/$1"
 }
 
-# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first` or `last` value of a formula over the lines of history.csv, with names of its
-# columns in brackets; ` if CONDITION` behind it selects lines. A name alone needs no brackets.
-over()
+# each FILE FORMULA: prints a formula for every line of a table, with names of its columns in brackets; ` if CONDITION` behind it selects
+# lines. A name alone needs no brackets.
+each()
 {
-    awk -F, -v formula="$3" '
+    awk -F, -v formula="$2" '
         NR == 1 {
-            if (formula !~ /\[/) formula = "[" formula "]"
+            if (formula !~ /\[| if /) formula = "[" formula "]"
             for (k = 1; k <= NF; k++) {
                 sub(/ \[.*/, "", $k)
                 while ((at = index(formula, "[" $k "]"))) formula = substr(formula, 1, at - 1) "$" k substr(formula, at + length($k) + 2)
@@ -33,15 +33,24 @@ over()
             if ((at = index(formula, " if "))) { condition = substr(formula, at + 4); formula = substr(formula, 1, at - 1) }
             print "NR > 1 && (" condition ") { print " formula " }"
             exit
-        }' "$1/history.csv" >"$work/over.awk"
-    awk -F, -v OFMT=%.12g -f "$work/over.awk" "$1/history.csv" | awk -v what="$2" '
+        }' "$1" >"$work/each.awk"
+    awk -F, -v OFMT=%.12g -f "$work/each.awk" "$1"
+}
+
+# count FILE CONDITION: the number of lines of a table for which a condition holds.
+count() { each "$1" "1 if $2" | wc -l | tr -d ' '; }
+
+# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first` or `last` value of a formula over the lines of history.csv.
+over()
+{
+    each "$1/history.csv" "$3" | awk -v what="$2" '
         value == "" || what == "last" || (what == "largest" && $1 - value > 0) || (what == "smallest" && $1 - value < 0) { value = $1 }
         END { print value }'
 }
 
 # value_at RUN PATH: a figure of the run RUN1: its path in summary.json; `column NAME TIME`: a column of history.csv at the last sample not
 # after a time [s]; `passes NAME VALUE`: the first time at which a column is at least a value; `largest FORMULA` and others: as in over();
-# `file NAME EXPRESSION`: the number for # in one line of a file that the run leaves. N|PATH: of the N-th run of a command.
+# `fragments CONDITION`: lines of fragments.csv. N|PATH: of the N-th run of a command.
 value_at()
 {
     case $2 in
@@ -52,6 +61,7 @@ value_at()
         "column "* | "passes "*)
             set -- $path
             "$1" "$folder" "$2" "$3" ;;
+        "fragments "*) count "$folder/fragments.csv" "${path#* }" ;;
         "largest "* | "smallest "* | "first "* | "last "*) over "$folder" "${path%% *}" "${path#* }" ;;
         *) figure "$folder" "$path" ;;
     esac
