@@ -1,5 +1,6 @@
 /* SIF probe: a crack tip, fixed or moving, and the integration contours around it. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -156,30 +157,43 @@ static bool ring_leaves(const struct sif_tip *t, real radius, const struct obser
     return false;
 }
 
+/* Returns REFUSED for a ring that leaves the body at `position`, with an outer radius that fits: the largest number of
+ * tenths of the present one. */
+static status refuse_leaving(const struct sif_tracked *w, const char *name, const struct observed *o,
+                             const real position[2])
+{
+    char fits[80] = "a smaller probes.sif.outer or particles.spacing";
+    real beyond[2];
+    for (int tenths = 1; tenths < 10 && !ring_leaves(&w->tip, 0.1 * tenths * w->reach, o, beyond); tenths++)
+        snprintf(fits, sizeof fits, "sif: {outer: %.3g m}, or less,", 0.1 * tenths * w->reach);
+    return status_set(REFUSED,
+                      "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body at (%.6g, "
+                      "%.6g) m; %s is expected",
+                      name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1], fits);
+}
+
 /* Returns REFUSED for contours that are too narrow, leave the body, or contain another tip. */
 static status check_ring(const struct sif_tracked *w, const struct probe_request *r, const struct observed *o)
 {
-    real position[2];
+    real position[2], narrowest = INFINITY;
+    for (int k = 0; k < w->contours; k++) narrowest = real_min(narrowest, w->contour[k].outer - w->contour[k].inner);
     for (int k = 0; k < w->contours; k++) {
         const struct contour *c = &w->contour[k];
         if (c->outer - c->inner < NARROWEST * o->spacing * (1 - 1e-9))
             return status_set(REFUSED,
                               "probe \"%s\": the ring from %.6g to %.6g m is narrower than %.0f spacings; "
-                              "choose a larger outer radius",
-                              r->name, c->inner, c->outer, NARROWEST);
+                              "sif: {outer: %.3g m}, or more, is expected",
+                              r->name, c->inner, c->outer, NARROWEST, w->reach * NARROWEST * o->spacing / narrowest);
     }
-    if (ring_leaves(&w->tip, w->reach, o, position))
-        return status_set(REFUSED,
-                          "probe \"%s\": the ring of radius %.6g m round the tip (%.6g, %.6g) m leaves the body "
-                          "at (%.6g, %.6g) m; choose a smaller outer radius",
-                          r->name, w->reach, w->tip.place[0], w->tip.place[1], position[0], position[1]);
+    if (ring_leaves(&w->tip, w->reach, o, position)) return refuse_leaving(w, r->name, o, position);
     for (int k = 0; o->tips && k < o->tips->n; k++) {
         const real *other = o->tips->tip[k].origin;
-        if (k != w->follows && hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]) < w->reach)
+        const real distance = hypot(other[0] - w->tip.place[0], other[1] - w->tip.place[1]);
+        if (k != w->follows && distance < w->reach)
             return status_set(REFUSED,
-                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; use a "
-                              "smaller outer radius",
-                              r->name, other[0], other[1], w->reach);
+                              "probe \"%s\": another crack's tip at (%.6g, %.6g) m is within its radius %.6g m; sif: "
+                              "{outer: %.3g m}, or less, is expected",
+                              r->name, other[0], other[1], w->reach, 0.99 * distance);
     }
     return OK;
 }
@@ -196,12 +210,13 @@ static status find_medium(struct sif_tracked *w, const struct probe_request *r, 
     w->tip.body = p->body[ahead];
     w->tip.medium = crack_medium_of(&o->material[p->material[ahead]], o->space);
     for (int64_t i = 0; i < p->n; i++) {
-        if (hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]) > w->reach) continue;
+        const real distance = hypot(p->X[0][i] - at[0], p->X[1][i] - at[1]);
+        if (distance > w->reach) continue;
         if (p->material[i] != p->material[ahead] || p->body[i] != w->tip.body)
             return status_set(REFUSED,
                               "probe \"%s\": another material or body is within its radius %.6g m, at (%.6g, %.6g) m; "
-                              "use a smaller outer radius",
-                              r->name, w->reach, p->X[0][i], p->X[1][i]);
+                              "sif: {outer: %.3g m}, or less, is expected",
+                              r->name, w->reach, p->X[0][i], p->X[1][i], 0.99 * distance);
     }
     return OK;
 }
