@@ -6,6 +6,7 @@
 
 #include "bonds/bonds.h"
 #include "data/grid.h"
+#include "data/law.h"
 #include "kernels/simd/kernel.h"
 #include "data/mesh.h"
 #include "data/particles.h"
@@ -32,7 +33,11 @@ struct elastic {
     real poisson;          /* Poisson's ratio in plane strain, where the material yields [1] */
     enum space space;
     const struct law *law; /* flow law of the material, which then replaces yield and hardening; NULL: none */
+    enum law_mode mode;    /* how the flow law is solved */
 };
+
+/* Returns true if the material yields, by linear hardening or by a flow law. */
+static inline bool elastic_yields(const struct elastic *m) { return m->yield > 0 || m->law; }
 
 /* Returns the largest principal stress at which material point i, of material m, is marked for conversion to a
  * peridynamic particle [Pa]: m->trigger, or, where strength is random, m->trigger_mean times the strength of the
@@ -284,9 +289,10 @@ KERNEL(void, mesh_clear, (struct mesh *mesh));
 
 /* Adds the internal forces of the active cells (active_set.h) of the mesh to its nodes, and marks in `stressed` where a
  * point may exceed its conversion stress. p: read for the bond reactions on bonded points (particles.end_*); if p has
- * plastic_correction, points beyond the yield stress flow, and their plastic state is updated (mesh_flow.h). m: elastic
- * constants by material. finite: true for Biot strain in axes that rotate with the cell, false for the symmetric
- * displacement gradient (mesh_law.h). */
+ * plastic_correction, points beyond the yield stress flow, and their plastic state is updated (mesh_flow.h), except by
+ * flow laws of mode LAW_EXPLICIT, whose points keep the state of the last mesh_points_flow. m: elastic constants by
+ * material. finite: true for Biot strain in axes that rotate with the cell, false for the symmetric displacement
+ * gradient (mesh_law.h). */
 KERNEL(void, mesh_force, (struct mesh *mesh, const struct particles *p, const struct elastic *m, bool finite));
 
 /* Integrates the motion of the active nodes of the mesh: v += dt_velocity f/m, u += dt v, with u rounded to multiples
@@ -311,6 +317,11 @@ KERNEL(void, mesh_exposed_force, (struct mesh *mesh, const struct particles *p))
 /* Computes Cauchy stress and volume of all material points of the mesh into p. m: elastic constants by material;
  * finite: strain measure as in mesh_force. */
 KERNEL(void, mesh_points_stress, (const struct mesh *mesh, struct particles *p, const struct elastic *m, bool finite));
+/* Updates the plastic state of all material points of the mesh whose flow law has mode LAW_EXPLICIT, for a step of dt
+ * [s] that has ended with the present displacements. p->mesh_stress holds their stresses at the start of the step,
+ * which are replaced by those at its end. m, finite: as in mesh_force. */
+KERNEL(void, mesh_points_flow, (const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt,
+                                bool finite));
 /* Computes the displacement gradient du_a/dX_b of every material point i of the mesh into to[a dim + b][i] [1]. */
 KERNEL(void, mesh_points_gradient, (const struct mesh *mesh, real *const *to));
 /* Sets FLAG_STRESSED on material points whose largest principal stress exceeds their conversion stress, in the cells

@@ -49,10 +49,13 @@ struct law_points laws_points_at_rest(void);
  * plane or across a bar are not used where the space leaves them free. */
 void laws_load(const struct law *m, struct law_points *p, const real *strain, enum space space);
 
-/* Strains an element by 500 random increments of up to 0.2 %, with a law update after each. Returns the work of the
- * strains less elastic energy and plastic work, over the sum of the absolute values of the work of all increments [1].
- * NAN if the element has hardly yielded. */
-double laws_cycled_energy(const struct law *m, enum space space, enum law_mode mode);
+/* Returns the elastic energy density of the first of the points [J/m^3]. */
+real laws_elastic_energy(const struct law *m, const struct law_points *p);
+
+/* Strains an element by 500 random increments of up to 0.2 %, with an explicit law update after each. Returns the work
+ * of the strains less elastic energy and plastic work, over the sum of the absolute values of the work of all
+ * increments [1]. NAN if the element has hardly yielded. */
+double laws_cycled_energy(const struct law *m, enum space space);
 
 /* Cases: an element in tension, cycled, or heated, in explicit steps. */
 status laws_voce(const struct laws_case *c, double *found);

@@ -12,6 +12,11 @@
 #define FLOW_NAME(upper, lower) FLOW_##upper,
 enum flow { FLOWS(FLOW_NAME) FLOW_LAWS };
 
+/* How the nonlinear equation for the plastic strain of a step is solved. LAW_EXPLICIT: one evaluation, linearised at
+ * the start of the step, for steps with small strain increments; the yield stress of the next step is exact again, so
+ * that errors do not add up. LAW_LOAD_STEP: to round-off, for increments of any size. */
+enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
+
 /* Most points of a hardening curve. */
 enum { FLOW_POINTS = 16 };
 

@@ -66,6 +66,9 @@ struct particles {
     real *plastic_work;         /* per reference volume, of points with a law (law.h); only with WITH_LAW [J/m^3] */
     real *back_stress[SYM_MAX]; /* deviatoric, of kinematic hardening; only with WITH_BACK_STRESS [Pa] */
     real *temperature;          /* only with WITH_TEMPERATURE [K] */
+    /* points of a mesh with a flow law: stress at the end of the last step, in the axes of their cell; only with
+     * WITH_MESH_STRESS [Pa] */
+    real *mesh_stress[SYM_MAX];
     /* bonded material points (with state-based bonds): contribution of their cell to the mean strain S of their family
      * [1] */
     real *end_strain;
@@ -151,7 +154,8 @@ enum {
     WITH_LAW = 512,
     WITH_BACK_STRESS = 1024,
     WITH_TEMPERATURE = 2048,
-    WITH_EVERYTHING = 4095
+    WITH_MESH_STRESS = 4096,
+    WITH_EVERYTHING = 8191
 };
 
 /* Description of one array of struct particles, or of one array per component. Loops over a table of these descriptions

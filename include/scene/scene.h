@@ -307,6 +307,9 @@ void scene_free(struct scene *s);
  * scene; NULL if it can. The text is static. */
 const char *scene_frame_unsupported(const struct scene *s, int body);
 
+/* Returns true if the material of a body in the reference frame yields and the run makes explicit steps. */
+bool scene_yields_on_mesh(const struct scene *s);
+
 /* Returns the reason why `mpm.frame: auto` does not choose the reference frame for a body; NULL if it does. The text is
  * static. */
 const char *scene_frame_not_default(const struct scene *s, int body);

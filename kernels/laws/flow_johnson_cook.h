@@ -25,10 +25,11 @@ static ALWAYS_INLINE lanes flow_johnson_cook(const struct law *m, lanes a, lanes
     return (m->johnson_cook.A + power) * factor;
 }
 
-static ALWAYS_INLINE lanes work_johnson_cook(const struct law *m, lanes a)
+static ALWAYS_INLINE lanes work_johnson_cook(const struct law *m, lanes a, lanes rate, lanes T)
 {
     const real n = m->johnson_cook.n;
-    return m->johnson_cook.A * a + m->johnson_cook.B / (n + 1) * lanes_power(a, n + 1);
+    const lanes cold = m->johnson_cook.A * a + m->johnson_cook.B / (n + 1) * lanes_power(a, n + 1);
+    return cold * johnson_cook_factor(m, rate, T);
 }
 
 static ALWAYS_INLINE lanes reach_johnson_cook(const struct law *m, lanes q, lanes rate, lanes T)

@@ -1,8 +1,7 @@
 /* Flow law with linear isotropic hardening. The functions of every flow law NAME, for eight points at once:
  *     flow_NAME   returns the yield stress [Pa] at plastic strain a [1], total deviatoric strain rate `rate` [1/s] and
  *                 temperature T [K], and stores its derivative by a in *slope [Pa]
- *     work_NAME   returns the integral of the yield stress from 0 to a [J/m^3], at the reference rate and room
- *                 temperature
+ *     work_NAME   returns the integral of the yield stress from 0 to a [J/m^3]
  *     reach_NAME  returns the plastic strain at which the yield stress is q [Pa], or an upper bound of it; INFINITY if
  *                 there is none
  * The yield stress is a concave function of a. */
@@ -19,7 +18,11 @@ static ALWAYS_INLINE lanes flow_linear(const struct law *m, lanes a, lanes rate,
     return m->yield + m->hardening * a;
 }
 
-static ALWAYS_INLINE lanes work_linear(const struct law *m, lanes a) { return (m->yield + 0.5 * m->hardening * a) * a; }
+static ALWAYS_INLINE lanes work_linear(const struct law *m, lanes a, lanes rate, lanes T)
+{
+    (void)rate, (void)T;
+    return (m->yield + 0.5 * m->hardening * a) * a;
+}
 
 static ALWAYS_INLINE lanes reach_linear(const struct law *m, lanes q, lanes rate, lanes T)
 {

@@ -20,8 +20,9 @@ static ALWAYS_INLINE lanes flow_power(const struct law *m, lanes a, lanes rate, 
     return m->yield + power_of_strain(m->power.coefficient, m->power.exponent, a, slope);
 }
 
-static ALWAYS_INLINE lanes work_power(const struct law *m, lanes a)
+static ALWAYS_INLINE lanes work_power(const struct law *m, lanes a, lanes rate, lanes T)
 {
+    (void)rate, (void)T;
     const real n = m->power.exponent;
     return m->yield * a + m->power.coefficient / (n + 1) * lanes_power(a, n + 1);
 }

@@ -20,8 +20,9 @@ static ALWAYS_INLINE lanes flow_table(const struct law *m, lanes a, lanes rate, 
     return least;
 }
 
-static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a)
+static ALWAYS_INLINE lanes work_table(const struct law *m, lanes a, lanes rate, lanes T)
 {
+    (void)rate, (void)T;
     lanes work = lanes_of(0);
     for (int k = 0; k < m->table.points; k++) {
         const bool last = k + 1 == m->table.points;

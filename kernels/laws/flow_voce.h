@@ -13,8 +13,9 @@ static ALWAYS_INLINE lanes flow_voce(const struct law *m, lanes a, lanes rate, l
     return m->yield + (m->voce.saturation - left);
 }
 
-static ALWAYS_INLINE lanes work_voce(const struct law *m, lanes a)
+static ALWAYS_INLINE lanes work_voce(const struct law *m, lanes a, lanes rate, lanes T)
 {
+    (void)rate, (void)T;
     return (m->yield + m->voce.saturation) * a -
            m->voce.saturation / m->voce.rate * (1.0 - lanes_exp(-m->voce.rate * a));
 }

@@ -36,10 +36,10 @@ static ALWAYS_INLINE lanes flow_reach(const struct law *m, lanes q, lanes rate, 
 #undef FLOW_CALL
 }
 
-/* Returns the integral of the yield stress from 0 to a at the reference rate and room temperature [J/m^3]. */
-static ALWAYS_INLINE lanes flow_work(const struct law *m, lanes a)
+/* Returns the integral of the yield stress from 0 to a [J/m^3]. */
+static ALWAYS_INLINE lanes flow_work(const struct law *m, lanes a, lanes rate, lanes T)
 {
-#define FLOW_CALL(name) work_##name(m, a)
+#define FLOW_CALL(name) work_##name(m, a, rate, T)
     switch (m->flow) {
         FLOWS(FLOW_CASE)
     default:

@@ -195,11 +195,33 @@ static ALWAYS_INLINE lanes trapezoid(const struct law_points *p, const lanes *st
     return work;
 }
 
+/* Returns the plastic work of a load step per reference volume [J/m^3]: the integrals of yield stress and back stress
+ * along the path on which the trial stress grows in proportion, at constant rate, temperature and direction of flow.
+ * The back stress on this path is (X + (2/3) C N a)/(1 + gamma a) at the increment a with d eps_p = N da, and its
+ * integral X:N log(1 + gamma a)/gamma + (C/gamma) (a - log(1 + gamma a)/gamma),   gamma = 0: X:N a + C a^2/2 back: X at
+ * the start of the step [Pa]; more: increment of a [1]; strain: increment of plastic strain [1]. */
+static ALWAYS_INLINE lanes path_work(const struct law *law, const struct law_points *p, const lanes *back, lanes more,
+                                     const lanes *strain, const enum space space)
+{
+    const real C = law->kinematic.modulus, recall = law->kinematic.recall;
+    const lanes work =
+        flow_work(law, p->a, p->rate, p->temperature) - flow_work(law, p->a - more, p->rate, p->temperature);
+    lanes along = lanes_of(0);
+    if (!(C > 0)) return work;
+    for (int c = 0; c < tensor_components(space); c++) along += (c < 3 ? 1.0 : 2.0) * back[c] * strain[c];
+    if (space == SPACE_LINE) along *= 1.5; /* the components across */
+    if (!(recall > 0)) return work + along + 0.5 * C * more * more;
+    const lanes part = lanes_log(1.0 + recall * more) / recall;
+    const lanes ratio =
+        lanes_choose(lanes_less(lanes_of(0), more), part / lanes_max(more, lanes_of(1e-300)), lanes_of(1));
+    return work + along * ratio + C / recall * (more - part);
+}
+
 /* Updates eight points in one space, by one mode of solution. */
 static ALWAYS_INLINE void points_return(const struct law *law, struct law_points *p, const enum space space,
                                         const enum law_mode mode)
 {
-    lanes xi[SYM_MAX], strain[SYM_MAX], slope, fall, left;
+    lanes xi[SYM_MAX], strain[SYM_MAX], back[SYM_MAX], slope, fall, left;
     struct flow_equation e = equation_at(law, p, lanes_of(1), lanes_of(law->kinematic.modulus), xi, space);
     const lanes stress = flow_stress(law, p->a, p->rate, p->temperature, &slope);
     const lanes bound = lanes_max(stress, lanes_of(LEAST_YIELD * law->young));
@@ -215,9 +237,12 @@ static ALWAYS_INLINE void points_return(const struct law *law, struct law_points
     const bool first_differs = space == SPACE_PLANE_STRESS || space == SPACE_LINE;
     const lanes u = first_differs ? 1.0 / (1.0 + e.A * t) : lanes_of(1), v = 1.0 / (1.0 + e.B * t);
     for (int c = 0; c < components(space); c++) xi[c] *= c == 0 && first_differs ? u : v;
-    p->a += t * equation_stress(&e, t, &fall, space);
+    const lanes more = t * equation_stress(&e, t, &fall, space);
+    p->a += more;
+    for (int c = 0; c < SYM_MAX; c++) back[c] = p->back[c];
     flow_apply(law, p, xi, t, left, strain, space);
-    const lanes work = trapezoid(p, strain, space);
+    const lanes work =
+        mode == LAW_EXPLICIT ? trapezoid(p, strain, space) : path_work(law, p, back, more, strain, space);
     p->work += work;
     p->temperature += law->heating * work;
 }

@@ -24,15 +24,15 @@ struct law_points {
     lanes_mask active;           /* lanes whose points have this law; the others are left as they are */
 };
 
-/* How the nonlinear equation for the plastic strain of a step is solved. LAW_EXPLICIT: one evaluation, linearised at
- * the start of the step, for steps with small strain increments; the yield stress of the next step is exact again, so
- * that errors do not add up. LAW_LOAD_STEP: to round-off, for increments of any size. */
-enum law_mode { LAW_EXPLICIT, LAW_LOAD_STEP };
+/* Index of component c of particles.stress among the components of struct law_points, which has all six. */
+static const int law_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
 
-/* Maps the trial stresses of the active points back to the yield surface and updates their state. The plastic work of
- * the step is that of the mean of the stresses at its start and end, each times its volume: with the elastic energy
- * 1/2 s : C^-1 : s the energy balance of leap-frog steps then closes to round-off. law: must be given. In plane stress
- * the return is within sigma_zz = 0, in 1D within uniaxial stress. */
+/* Maps the trial stresses of the active points back to the yield surface and updates their state. law: must be given.
+ * In plane stress the return is within sigma_zz = 0, in 1D within uniaxial stress. The plastic work of an explicit step
+ * is that of the mean of the stresses at its start and end, each times its volume: with the elastic energy 1/2 s : C^-1
+ * : s the energy balance of leap-frog steps then closes to round-off. That of a load step is the integral along the
+ * path on which the trial stress grows in proportion, without recall a potential of the state; `before` and the volumes
+ * are not read. */
 KERNEL(void, law_update, (const struct law *law, struct law_points *p, enum space space, enum law_mode mode));
 
 #endif

@@ -1,23 +1,27 @@
-/* Forces and energy of cells whose points yield, by return mapping at each point (mpm/plastic.h), from one incremental
- * energy.
+/* Forces and energy of cells whose points yield, by return mapping at each point: of linear hardening in load steps
+ * (mpm/plastic.h), of flow laws in load steps and in explicit steps (mesh_laws.h).
+ *
+ * In load steps forces follow from one incremental energy. In explicit steps forces are those of the plastic state at
+ * the end of the last step.
  *
  * With the plastic state a, r of the last equilibrium, the strain e of a point has the energy per volume
  *
  *     w(e) = min over dp, da >= |dp|_eq of  1/2 s : C^-1 : s + (sigma_y + H a) da + H da^2/2,   s = C : (e - dp) - r
  *
- * (Ortiz & Stainier 1999, rate independent). Its derivative by e is the stress s at the end of the step, as left by
- * return mapping. r, the plastic stress correction, is the elastic stress C : e less the stress, in the axes of the
- * cell, where Biot's strain splits additively. Sums over points replace the closed forms of mesh_law.h; the moment of
- * the stresses is balanced as there. */
+ * (Ortiz & Stainier 1999, rate independent; flow laws have other integrals of the yield stress). Its derivative by e is
+ * the stress s at the end of the step, as left by return mapping. r, the plastic stress correction, is the elastic
+ * stress C : e less the stress, in the axes of the cell, where Biot's strain splits additively. Sums over points
+ * replace the closed forms of mesh_law.h; the moment of the stresses is balanced as there. */
 #ifndef CLEAVE_KERNELS_MESH_FLOW
 #define CLEAVE_KERNELS_MESH_FLOW
 
 #include "kernels/mpm/plastic.h"
 #include "mesh_law.h"
+#include "mesh_laws.h"
 #include "mesh_point.h"
 
-/* Returns true if material points of the mesh can yield in load steps, i.e. if p has arrays of the plastic stress
- * correction. p may be NULL: false. */
+/* Returns true if material points of the mesh can yield, i.e. if p has arrays of the plastic stress correction. p may
+ * be NULL: false. */
 static ALWAYS_INLINE bool mesh_flows(const struct particles *p) { return p && p->plastic_correction[0]; }
 
 /* Applies return mapping to the stress s of material point i: projects the trial stress C : e - r onto the yield
@@ -56,34 +60,37 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
     for (int k = 0; k < dim; k++) sum += s[k], squares += s[k] * s[k];
     for (int k = dim; k < symmetric_count(dim); k++) shears += s[k] * s[k];
     const real mean = m->c12 / (m->c11 + (dim - 1) * m->c12);
-    const real across = p->out_of_plane && m->yield > 0 ? p->out_of_plane[i] : 0;
+    const real across = p->out_of_plane && elastic_yields(m) ? p->out_of_plane[i] : 0;
     return 0.5 * (squares - mean * sum * sum) / (m->c11 - m->c12) + (dim > 1 ? 0.5 * shears / m->shear : 0) +
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
 /* Computes the stresses of the points number q of eight cells, one cell in each vector lane. cell: eight cell indices,
  * -1 for a lane without cell; s: strain of the cells; m: elastic constants of all materials; stress: receives symmetric
- * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping, updates the plastic state of
- * the points and returns 0. If it is false, returns the sum of the elastic energies per volume of the points
- * [J/m^3]. */
+ * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping (flow laws: in load steps),
+ * updates the plastic state of the points and returns 0. If it is false, returns the sum of the elastic energies per
+ * volume of the points [J/m^3]. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                        const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
                                        const int dim, const bool flows)
 {
     lanes e[3][3];
     real sum = 0;
+    unsigned with_law = 0;
     cells_strain_at(s, q, e, dim);
     for (int k = 0; k < symmetric_count(dim); k++) stress[k] = lanes_of(0);
     for (int l = 0; l < LANES; l++) {
-        const int64_t i = cell[l] < 0 ? -1 : mesh->point[((int64_t)cell[l] << dim) + q];
+        const int64_t i = place_point(mesh, cell[l], q, dim);
         real own[SYM_MAX], strain[DIM_MAX * DIM_MAX];
         if (i < 0) continue;
         for (int a = 0; a < dim; a++)
             for (int b = 0; b < dim; b++) strain[a * dim + b] = e[a][b][l];
         point_stress(p, &m[p->material[i]], i, strain, own, dim, flows);
         for (int k = 0; k < symmetric_count(dim); k++) stress[k][l] = own[k];
+        if (m[p->material[i]].law && m[p->material[i]].mode == LAW_LOAD_STEP) with_law |= 1u << l;
         if (!flows) sum += point_energy_of(p, &m[p->material[i]], i, own, dim);
     }
+    if (flows && with_law) place_laws(mesh, p, m, cell, q, with_law, 0, stress, dim);
     return sum;
 }
 

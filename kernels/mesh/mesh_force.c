@@ -110,7 +110,7 @@ static ALWAYS_INLINE void run_force(const struct mesh *mesh, const struct partic
                                                        int64_t band, const struct elastic *m)                          \
     {                                                                                                                  \
         for (int64_t r = mesh->band[band]; r < mesh->band[band + 1]; r++)                                              \
-            if (mesh_flows(p) && m[mesh->run[r].material].yield > 0)                                                   \
+            if (mesh_flows(p) && elastic_yields(&m[mesh->run[r].material]))                                            \
                 run_flow_##D##_##FINITE(mesh, p, &mesh->run[r], m);                                                    \
             else                                                                                                       \
                 run_force(mesh, p, &mesh->run[r], m, D, FINITE, false);                                                \

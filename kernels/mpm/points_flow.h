@@ -5,9 +5,6 @@
 #include "kernels/laws/law_update.h"
 #include "stress.h"
 
-/* Index of component c of particles.stress among the components of struct law_points, which has all six. */
-static const int law_place[DIM_MAX + 1][SYM_MAX] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-
 /* Returns a vector of eight lanes: the values of the listed points, repeated. */
 static ALWAYS_INLINE lanes lanes_of_points(row_of_points a, const int dim)
 {

@@ -19,6 +19,7 @@
     X(grid_constrain) X(grid_remapped) X(mesh_clear) X(mesh_force) X(mesh_move) X(mesh_points_move)                    \
     X(mesh_exposed_move) X(mesh_listed_move)                                                                           \
     X(mesh_exposed_force) X(mesh_points_stress) X(mesh_points_mark) X(mesh_kinetic) X(mesh_kick) X(mesh_strain)        \
+    X(mesh_points_flow)                                                                                                \
     X(mesh_ends_update) X(mesh_cells_mark) X(mesh_velocity) X(mesh_points_gradient) X(bond_row_plastic_work)           \
     X(bond_row_plastic_path)                                                                                           \
     X(microbench_lattice_make) X(microbench_lattice_run) X(microbench_lattice_free) X(microbench_triad_make)           \

@@ -29,6 +29,7 @@ static int if_plastic_correction(int dim, int optional)
 static int if_law(int dim, int optional) { return (void)dim, optional & WITH_LAW ? 1 : 0; }
 static int if_back_stress(int dim, int optional) { return optional & WITH_BACK_STRESS ? symmetric_count(dim) : 0; }
 static int if_temperature(int dim, int optional) { return (void)dim, optional & WITH_TEMPERATURE ? 1 : 0; }
+static int if_mesh_stress(int dim, int optional) { return optional & WITH_MESH_STRESS ? symmetric_count(dim) : 0; }
 static int if_return(int dim, int optional) { return (void)dim, optional & WITH_REVERSION ? 1 : 0; }
 
 /* `name`: name of the array in checkpoints. */
@@ -57,6 +58,7 @@ const struct particle_field particle_fields[] = {
     TRIAL(plastic_work, real, if_law, "J/m^3", "plastic work per reference volume"),
     TRIAL(back_stress, real, if_back_stress, "Pa", "back stress of kinematic hardening"),
     TRIAL(temperature, real, if_temperature, "K", "temperature"),
+    TRIAL(mesh_stress, real, if_mesh_stress, "Pa", "stress of points of a mesh in the axes of their cell"),
     FIELD(end_strain, real, if_ends, "1", "what cells add to the mean strain of a point at the end of bonds"),
     FIELD(end_rotation, real, if_rotates, "1", "rotation of a point at the end of bonds"),
     FIELD(end_pull, real, if_ends, "J", "derivative of its family's energy by that strain"),
@@ -74,9 +76,10 @@ const struct particle_field particle_fields[] = {
 const int particle_fields_count = COUNT_OF(particle_fields);
 
 /* 4 vectors, 3 scalars, 6 + 6 + 9 + 3 components of tensors and stretch, 2 of plasticity, 2 of return, strength,
- * damage, 4 indices, id; 2 scalars, a rotation and a moment of ends; work, back stress and temperature of laws. */
+ * damage, 4 indices, id; 2 scalars, a rotation and a moment of ends; work, back stress, temperature and stress of laws.
+ */
 _Static_assert(sizeof(struct particles) ==
-                   offsetof(struct particles, X) + (5 * DIM_MAX + 48 + ROTATION) * sizeof(void *),
+                   offsetof(struct particles, X) + (5 * DIM_MAX + 54 + ROTATION) * sizeof(void *),
                "an array of struct particles is missing in particle_fields");
 
 /* Returns the pointer to component k of an array of the table. It is copied byte by byte, since a `real *` must not be

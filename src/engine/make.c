@@ -101,6 +101,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .space = s->space,
                                               .poisson = given->poisson,
                                               .law = given->law.given ? &given->law : NULL,
+                                              .mode = scene_in_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given)};
         if (!material_yields(given) || given->law.given) continue;
@@ -317,9 +318,11 @@ static int law_arrays(const struct law *law)
 static int optional_arrays(const struct scene *s)
 {
     int optional = (s->transfer == TRANSFER_APIC ? WITH_GRADIENT : 0) | (s->shape == SHAPE_CPGIMP ? WITH_STRETCH : 0);
+    const int meshed = scene_in_steps(s)         ? WITH_PLASTIC_CORRECTION
+                       : scene_yields_on_mesh(s) ? WITH_PLASTIC_CORRECTION | WITH_MESH_STRESS
+                                                 : 0;
     for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
-        if (material_yields(&s->material[m]))
-            optional |= WITH_PLASTIC | (scene_in_steps(s) ? WITH_PLASTIC_CORRECTION : 0);
+        if (material_yields(&s->material[m])) optional |= WITH_PLASTIC | meshed;
     for (int m = 0; m < s->materials; m++) optional |= law_arrays(&s->material[m].law);
     if (optional & WITH_PLASTIC && s->space == SPACE_PLANE_STRAIN) optional |= WITH_OUT_OF_PLANE;
     if (s->method == METHOD_ADAPTIVE && s->conversion.reverts) optional |= WITH_REVERSION;

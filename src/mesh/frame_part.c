@@ -183,6 +183,7 @@ void frame_move_nodes(struct reference_frame *r, struct particles *p, struct loa
                    ? levels_move(&r->levels, clock->dt, dt_velocity, due, loads->impulse, &loads->constraint_work)
                    : mesh_move(&r->mesh, clock->dt, dt_velocity, loads->impulse, &loads->constraint_work);
     nodes_react(loads, r, dt_velocity, due);
+    if (p->mesh_stress[0]) mesh_points_flow(&r->mesh, p, r->elastic, clock->dt, r->finite);
     frame_update_exposed_points(r, p);
     if (r->active_set && r->levels.n == 0) active_nodes_update(&r->mesh, loads);
 }

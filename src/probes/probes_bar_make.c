@@ -178,7 +178,7 @@ static status find_load(struct probe *q, const struct observed *o)
     TRY(find_traction(q, o));
     if (q->request.form == EXACT_STEP_BAR) return OK;
     if (!material_yields(m)) return refuse(q, "the material does not yield; material.yield_stress is expected");
-    if (m->law.given)
+    if (m->law.given && (m->law.flow != FLOW_LINEAR || m->law.kinematic.modulus > 0))
         return refuse(q, "its closed form is that of yield_stress and yield_tangent; the material has another law");
     if (fabs(q->bar->exact.load) > m->yield_stress && !(m->yield_tangent > 0))
         return refuse(q, "no plastic front without hardening; material.yield_tangent is expected");

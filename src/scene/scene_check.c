@@ -264,6 +264,14 @@ static void resolve_defaults(struct reader *r, const struct node *root)
 
 /* ---- frame of the grid (mpm.frame) ------------------------------------------------------------------------------- */
 
+/* Returns true if a material of the body yields. */
+static bool body_yields(const struct scene *s, int body)
+{
+    for (int m = 0; m < s->materials; m++)
+        if (scene_body_has_material(&s->body[body], m) && material_yields(&s->material[m])) return true;
+    return false;
+}
+
 /* Returns the reason why a body cannot be in the reference frame; NULL if it can. */
 const char *scene_frame_unsupported(const struct scene *s, int body)
 {
@@ -274,12 +282,13 @@ const char *scene_frame_unsupported(const struct scene *s, int body)
     if (s->cell != 2) return "the reference frame needs mpm.cell: 2";
     if (s->irregularity > 0) return "it needs a regular lattice";
     if (s->body[body].list.mass) return "particles with masses of their own need the current frame";
-    for (int m = 0; m < s->materials; m++)
-        if (scene_body_has_material(&s->body[body], m) && material_yields(&s->material[m])) {
-            if (!scene_in_steps(s)) return "materials that yield need the current frame";
-            if (s->method != METHOD_MPM) return "its material yields, which load steps do with method: mpm or pd";
-            if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
-        }
+    if (!body_yields(s, body)) return NULL;
+    if (s->method != METHOD_MPM)
+        return scene_in_steps(s) ? "its material yields, which load steps do with method: mpm or pd"
+                                 : "materials that yield need method: mpm there";
+    if (s->lattice_constants) return "materials that yield need mpm.constants: isotropic there";
+    if (scene_moves(s) && s->levels != LEVELS_AUTO && s->levels > 0)
+        return "materials that yield need mpm.levels: 0 there, as they have one time step";
     return NULL;
 }
 
@@ -289,6 +298,7 @@ const char *scene_frame_not_default(const struct scene *s, int body)
     if (why) return why;
     if (s->bodies > 1) return "bodies meet on the grid of the current frame only";
     if (s->body[body].file) return "particles from a list need not be a lattice";
+    if (!scene_in_steps(s) && body_yields(s, body)) return "materials that yield may strain beyond the reference frame";
     return NULL;
 }
 
@@ -308,6 +318,27 @@ static const char *current_frame_key(const struct scene *s)
     return NULL;
 }
 
+bool scene_yields_on_mesh(const struct scene *s)
+{
+    bool any = false;
+    for (int b = 0; b < s->bodies; b++) any |= s->body[b].frame == FRAME_REFERENCE && body_yields(s, b);
+    return any && scene_moves(s) && s->method == METHOD_MPM;
+}
+
+/* Completes a scene whose bodies yield in the reference frame in explicit steps: cells have one time step, and linear
+ * hardening is a flow law, which books plastic work step by step. */
+static void resolve_yielding(struct scene *s)
+{
+    if (!scene_yields_on_mesh(s)) return;
+    if (s->levels == LEVELS_AUTO) s->levels = 0;
+    for (int m = 0; m < s->materials; m++) {
+        struct material *own = &s->material[m];
+        if (!material_yields(own) || own->law.given) continue;
+        own->law.given = true, own->law.flow = FLOW_LINEAR, own->law.hardening = own->yield_hardening;
+        material_compute_constants(own, s->space);
+    }
+}
+
 /* Changes bodies with frame auto to the current frame if the keys of the scene require it. If no body is left at
  * auto, keys with a meaning in the current frame only (mpm.shape, mpm.transfer, interface_damping) are marked as
  * given, so that scene_echo.c writes them. They must not be written while a body is at auto, since a scene that
@@ -325,6 +356,7 @@ void resolve_frames(struct scene *s)
         }
         open |= body->frame == FRAME_AUTO;
     }
+    resolve_yielding(s);
     if (open) return;
     s->has_shape = s->has_transfer = s->has_interface_damping = true;
     if (s->frame == FRAME_AUTO) s->frame = s->body[0].frame;

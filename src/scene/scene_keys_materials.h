@@ -26,8 +26,8 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         "H, increase of the yield stress over that of plastic strain; equivalent to yield_tangent = E H/(E + H)",
         .words = "number"),
     KEY("material.hardening", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
-        "how the yield stress grows with the plastic strain a, other than linearly: one of the laws below; material "
-        "points of the current frame, explicit steps"),
+        "how the yield stress grows with the plastic strain a, other than linearly: one of the laws below; method mpm, "
+        "explicit steps (frame current by default, reference by mpm.frame) and load steps"),
     KEY("material.hardening.linear", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE, "yield_stress + modulus a"),
     KEY("material.hardening.linear.modulus", KEY_REAL, UNIT_PRESSURE, AT(law, hardening), FROM(0), REQUIRED, "H"),
     KEY("material.hardening.voce", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
@@ -47,13 +47,13 @@ KEY("material", KEY_PART, UNIT_NONE, NOWHERE, ANY, "(required, or materials)", "
         .words = "list of pairs [plastic strain, stress]"),
     KEY("material.kinematic", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "the yield surface moves with plastic strain (Bauschinger's effect): dX = (2/3) modulus d eps_p - recall X da; "
-        "material points of the current frame, explicit steps"),
+        "method mpm, explicit steps and load steps"),
     KEY("material.kinematic.modulus", KEY_REAL, UNIT_PRESSURE, AT(law, kinematic.modulus), ABOVE(0), REQUIRED, "C"),
     KEY("material.kinematic.recall", KEY_REAL, UNIT_NONE, AT(law, kinematic.recall), FROM(0), "0",
         "gamma; 0: linear (Prager), else Armstrong and Frederick's law, whose back stress saturates at modulus/recall"),
     KEY("material.johnson_cook", KEY_PART, UNIT_NONE, NOWHERE, ANY, NONE,
         "Johnson and Cook's yield stress, in place of yield_stress: (A + B a^n)(1 + C log max(rate/eps0, 1))(1 - "
-        "T*^m), T* = (T - T_room)/(T_melt - T_room); material points of the current frame, explicit steps"),
+        "T*^m), T* = (T - T_room)/(T_melt - T_room); method mpm, explicit steps; load steps are slow (rate 0)"),
     KEY("material.johnson_cook.A", KEY_REAL, UNIT_PRESSURE, AT(law, johnson_cook.A), ABOVE(0), REQUIRED,
         "yield stress at rest"),
     KEY("material.johnson_cook.B", KEY_REAL, UNIT_PRESSURE, AT(law, johnson_cook.B), FROM(0), REQUIRED,

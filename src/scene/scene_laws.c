@@ -117,19 +117,13 @@ static status check_first_yield(struct reader *r, const struct node *material, c
     return OK;
 }
 
-/* Returns REFUSED where the method or solver of the scene has no laws. */
+/* Returns REFUSED where the method of the scene has no laws. */
 static status check_law_place(struct reader *r, const struct node *law_node)
 {
-    const struct scene *s = r->scene;
-    if (s->method != METHOD_MPM)
-        return fault(r, law_node,
-                     "is for material points; `method: mpm` is expected, or linear hardening by yield_hardening, which "
-                     "bonds have");
-    if (!scene_moves(s))
-        return fault(r, law_node,
-                     "is for steps in time; `solver: explicit` is expected, or linear hardening by yield_hardening, "
-                     "which load steps have");
-    return OK;
+    if (r->scene->method == METHOD_MPM) return OK;
+    return fault(r, law_node,
+                 "is for material points; `method: mpm` is expected, or linear hardening by yield_hardening, which "
+                 "bonds have");
 }
 
 status read_law(struct reader *r, const struct node *n, struct material *m)

@@ -183,7 +183,7 @@ refuses()
 refuses "cells of one spacing" inputs/plate_crack.yaml $mesh -s mpm.cell=1
 refuses "a node at a particle" inputs/plate_crack.yaml $mesh -s "mpm.origin=[0.1 mm, 0]"
 refuses "one unified grid" inputs/plate_crack.yaml $mesh -s coupling=pmg
-refuses "yielding" inputs/bar_plastic.yaml $mesh -s method=mpm -s mpm.cell=2
+refuses "yielding" inputs/bar_plastic.yaml $mesh -s method=adaptive -s mpm.cell=2
 refuses "two bodies that touch" inputs/hopkinson_bar.yaml $mesh
 
 # ---- choice by auto --------------------------------------------------------------------------------------------------

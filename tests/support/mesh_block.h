@@ -17,6 +17,7 @@ struct block {
     struct cloud c;
     struct mesh mesh;
     struct elastic elastic[CLOUD_MATERIALS];
+    struct law law[CLOUD_MATERIALS]; /* of materials with a flow law */
     struct mesh_source source;
 };
 

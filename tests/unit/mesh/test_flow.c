@@ -1,18 +1,19 @@
 /* Plastic flow of points of a mesh (mesh_flow.h): forces are the gradient of one incremental energy from any plastic
- * state, this energy is that of strain and plastic work in the balance, and without yielding results are elastic. */
+ * state, this energy is that of strain and plastic work in the balance, and without yielding results are elastic. The
+ * same with flow laws, in load steps; explicit steps close the balance of energy to round-off. */
 #include "tests/support/mesh_block.h"
 
 #include "data/material.h"
 
-enum { FLOWS = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
-enum { STATES = 2 + SYM_MAX };
+enum { FLOWED = WITH_PLASTIC | WITH_OUT_OF_PLANE | WITH_PLASTIC_CORRECTION };
+enum { LAWS = WITH_LAW | WITH_BACK_STRESS, STATES = 3 + 2 * SYM_MAX };
 static const enum space flow_spaces[] = {SPACE_LINE, SPACE_PLANE_STRESS, SPACE_PLANE_STRAIN, SPACE_SOLID};
 
 /* Creates a block whose points yield at this fraction of the shear modulus, material 1 with hardening; 0: no
  * yielding. */
-static void flow_block_make(struct block *b, enum space space, real yield)
+static void flow_block_make(struct block *b, enum space space, real yield, int optional)
 {
-    block_make_with(b, space, true, false, FLOWS);
+    block_make_with(b, space, true, false, FLOWED | optional);
     if (space != SPACE_PLANE_STRAIN) memory_free(b->c.p.out_of_plane), b->c.p.out_of_plane = NULL;
     for (int m = 0; m < CLOUD_MATERIALS; m++) {
         struct elastic *k = &b->elastic[m];
@@ -22,13 +23,34 @@ static void flow_block_make(struct block *b, enum space space, real yield)
     }
 }
 
+/* Creates a block whose material 1 has linear hardening and material 0 Voce's law and a back stress in place of it,
+ * with recall, if given. mode: of the law; explicit steps have laws alone. */
+static void law_block_make(struct block *b, enum space space, real recall, enum law_mode mode)
+{
+    flow_block_make(b, space, 0.05, LAWS | (mode == LAW_EXPLICIT ? WITH_MESH_STRESS : 0));
+    for (int m = 0; m < (mode == LAW_EXPLICIT ? CLOUD_MATERIALS : 1); m++) {
+        struct elastic *k = &b->elastic[m];
+        const struct material *own = &b->c.material[m];
+        struct law *law = &b->law[m];
+        const real shear = space == SPACE_LINE ? 0 : k->shear;
+        *law = (struct law){.given = true, .flow = FLOW_VOCE, .voce = {0.6 * k->yield, 20}};
+        law->kinematic.modulus = 3 * k->yield, law->kinematic.recall = recall;
+        law_compute_constants(law, k->yield, own->young, own->poisson, shear, own->density);
+        k->law = law, k->mode = mode, k->yield = k->hardening = 0;
+    }
+}
+
 /* Lists the arrays of the plastic state of a block. */
 static int states_of(const struct block *b, real *array[STATES])
 {
     int n = 0;
     array[n++] = b->c.p.plastic_strain;
     if (b->c.p.out_of_plane) array[n++] = b->c.p.out_of_plane;
-    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) array[n++] = b->c.p.plastic_correction[k];
+    if (b->c.p.plastic_work) array[n++] = b->c.p.plastic_work;
+    for (int k = 0; k < symmetric_count(b->c.p.dim); k++) {
+        array[n++] = b->c.p.plastic_correction[k];
+        if (b->c.p.back_stress[0]) array[n++] = b->c.p.back_stress[k];
+    }
     return n;
 }
 
@@ -49,7 +71,8 @@ static real incremental_energy(struct block *b, real *kept, bool finite)
     for (int64_t i = 0; i < b->c.p.n; i++) {
         const struct elastic *m = &b->elastic[b->c.p.material[i]];
         const real a = b->c.p.plastic_strain[i];
-        if (b->mesh.place[i] >= 0) sum += b->mesh.volume * (m->yield + 0.5 * m->hardening * a) * a;
+        const real work = m->law ? b->c.p.plastic_work[i] : (m->yield + 0.5 * m->hardening * a) * a;
+        if (b->mesh.place[i] >= 0) sum += b->mesh.volume * work;
     }
     return sum + mesh_strain(&b->mesh, &b->c.p, b->elastic, finite);
 }
@@ -63,10 +86,13 @@ static int64_t flowed(const struct block *b)
 
 /* f = -dW/du by central differences at some nodes, from a plastic state left by another path. Where a point starts to
  * yield within the step its second derivative jumps, which adds 1e-6 of the largest force. */
-static void flow_gradient_of(enum space space, bool finite)
+static void flow_gradient_of(enum space space, bool finite, bool law)
 {
     struct block b;
-    flow_block_make(&b, space, 0.05);
+    if (law)
+        law_block_make(&b, space, 0, LAW_LOAD_STEP);
+    else
+        flow_block_make(&b, space, 0.05, 0);
     const int64_t n = b.c.p.n;
     real *kept = NEW("test.kept", STATES * n, real), *force[DIM_MAX];
     shake(&b, 0.15, 5);
@@ -99,7 +125,8 @@ static void test_flow_gradient(void **state)
 {
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(flow_spaces); s++)
-        for (int finite = 0; finite < 2; finite++) flow_gradient_of(flow_spaces[s], finite);
+        for (int finite = 0; finite < 2; finite++)
+            for (int law = 0; law < 2; law++) flow_gradient_of(flow_spaces[s], finite, law);
 }
 
 /* Points that never reach their yield stress have the forces and energies of the closed forms used for elastic
@@ -110,7 +137,7 @@ static void test_flow_elastic(void **state)
     for (unsigned s = 0; s < COUNT_OF(flow_spaces); s++)
         for (int finite = 0; finite < 2; finite++) {
             struct block by_points, closed;
-            flow_block_make(&by_points, flow_spaces[s], 1e6);
+            flow_block_make(&by_points, flow_spaces[s], 1e6, 0);
             block_make(&closed, flow_spaces[s], true, false);
             shake(&by_points, 0.15, 5), shake(&closed, 0.15, 5);
             forces(&by_points, finite), forces(&closed, finite);
@@ -131,7 +158,7 @@ static void test_flow_state(void **state)
 {
     (void)state;
     struct block b;
-    flow_block_make(&b, SPACE_PLANE_STRAIN, 0.05);
+    flow_block_make(&b, SPACE_PLANE_STRAIN, 0.05, 0);
     real *kept = NEW("test.kept", STATES * b.c.p.n, real);
     rotation(&b, 0.3, 0.2);
     const real first = incremental_energy(&b, kept, true);
@@ -149,12 +176,47 @@ static void test_flow_state(void **state)
     block_free(&b);
 }
 
+/* Explicit steps of random motion, to and fro: the mean forces of a step times its displacements are strain energy and
+ * plastic work. Finite strains have them along straight paths of the nodes, where the rotation is not linear. */
+static void test_flow_energy(void **state)
+{
+    (void)state;
+    for (unsigned s = 0; s < COUNT_OF(flow_spaces); s++) {
+        struct block b;
+        law_block_make(&b, flow_spaces[s], 2, LAW_EXPLICIT);
+        const int64_t nodes = b.mesh.grid.n;
+        const int dim = b.c.p.dim;
+        real work = 0, moved = 0, plastic = 0, *u = NEW("test.u", nodes * dim, real),
+             *f = NEW("test.f", nodes * dim, real);
+        for (int step = 1; step <= 40; step++) {
+            for (int d = 0; d < dim; d++) memcpy(u + d * nodes, b.mesh.displacement[d], (size_t)nodes * sizeof(real));
+            for (int d = 0; d < dim; d++) memcpy(f + d * nodes, b.mesh.grid.force[d], (size_t)nodes * sizeof(real));
+            shake(&b, 0.1, (uint64_t)step);
+            mesh_points_flow(&b.mesh, &b.c.p, b.elastic, 1e-6, false);
+            forces(&b, false);
+            for (int d = 0; d < dim; d++)
+                for (int64_t I = 0; I < nodes; I++) {
+                    const real by = b.mesh.displacement[d][I] - u[d * nodes + I];
+                    const real one = -0.5 * (f[d * nodes + I] + b.mesh.grid.force[d][I]) * by;
+                    work += one, moved += fabs(one);
+                }
+        }
+        for (int64_t i = 0; i < b.c.p.n; i++)
+            if (b.mesh.place[i] >= 0) plastic += b.mesh.volume * b.c.p.plastic_work[i];
+        assert_true(flowed(&b) > b.c.p.n / 2);
+        assert_near(work, plastic + mesh_strain(&b.mesh, &b.c.p, b.elastic, false), 1e-14 * moved);
+        memory_free(u), memory_free(f);
+        block_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_flow_gradient),
         cmocka_unit_test(test_flow_elastic),
         cmocka_unit_test(test_flow_state),
+        cmocka_unit_test(test_flow_energy),
     };
     int failures = 0;
     FOR_EVERY_SET failures += cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,102 @@
+/* Flow laws (laws/law_update.h) at the material points of cells: eight points at a time, those of one number in eight
+ * cells. Stresses are in the axes of the cells, which rotate with them; volumes are those of the undeformed body. */
+#ifndef CLEAVE_KERNELS_MESH_LAWS
+#define CLEAVE_KERNELS_MESH_LAWS
+
+#include "kernels/laws/law_update.h"
+
+/* Returns material point number q of a cell, -1 if there is none. cell: -1 for a lane without cell. */
+static ALWAYS_INLINE int32_t place_point(const struct mesh *mesh, int32_t cell, int q, const int dim)
+{
+    return cell < 0 ? -1 : mesh->point[((int64_t)cell << dim) + q];
+}
+
+/* Returns the values of an array of particles at eight points. point: indices, -1: 0 in this lane. */
+static ALWAYS_INLINE lanes lanes_of_listed(const real *from, const int32_t *point)
+{
+    lanes eight;
+    for (int l = 0; l < LANES; l++) eight[l] = point[l] < 0 ? 0 : from[point[l]];
+    return eight;
+}
+
+/* Returns the total deviatoric strain rate sqrt(2/3 D':D') of a step of dt [s] in which the elastic trial stress has
+ * grown from e->before to e->s [1/s]; in plane stress and 1D that of incompressible flow. dt 0: returns 0, the rate of
+ * load steps. m: elastic constants. */
+static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_points *e, real dt)
+{
+    lanes D[SYM_MAX], square = lanes_of(0);
+    if (!(dt > 0)) return square;
+    for (int c = 0; c < SYM_MAX; c++) D[c] = e->s[c] - e->before[c];
+    const lanes mean = (D[0] + D[1] + D[2]) / 3.0, x = D[0], y = D[1];
+    const real young = m->law->young, nu = m->law->poisson, twice = m->shear > 0 ? 1 / (2 * m->shear) : 0;
+    for (int c = 0; c < 3; c++) D[c] = (D[c] - mean) * twice, D[c + 3] *= twice;
+    if (m->space == SPACE_PLANE_STRESS) D[0] = (x - nu * y) / young, D[1] = (y - nu * x) / young, D[2] = -D[0] - D[1];
+    if (m->space == SPACE_LINE) D[0] = x / young, D[1] = D[2] = -0.5 * D[0];
+    for (int c = 0; c < 3; c++) square += D[c] * D[c] + 2.0 * D[c + 3] * D[c + 3];
+    return lanes_root(2.0 / 3 * square) / dt;
+}
+
+/* Loads the state of eight points into *e. point: indices, -1 for a lane without a point; stress: symmetric components
+ * of the trial stress [Pa]; dt: as in law_rate; m: constants of the material whose law is evaluated. */
+static ALWAYS_INLINE void laws_load(const struct particles *p, const struct elastic *m, const int32_t *point,
+                                    const lanes *stress, real dt, struct law_points *e, const int dim)
+{
+    const int n = symmetric_count(dim);
+    for (int c = 0; c < SYM_MAX; c++) e->s[c] = e->before[c] = e->back[c] = lanes_of(0);
+    for (int k = 0; k < n; k++) {
+        e->s[law_place[dim][k]] = stress[k];
+        if (dt > 0) e->before[law_place[dim][k]] = lanes_of_listed(p->mesh_stress[k], point);
+        if (p->back_stress[0]) e->back[law_place[dim][k]] = lanes_of_listed(p->back_stress[k], point);
+    }
+    if (dim == 2) e->back[2] = -e->back[0] - e->back[1];
+    if (m->space == SPACE_PLANE_STRAIN) {
+        const lanes across = lanes_of_listed(p->out_of_plane, point);
+        e->s[2] = m->law->poisson * (e->s[0] + e->s[1]) + across;
+        e->before[2] = m->law->poisson * (e->before[0] + e->before[1]) + across;
+    }
+    e->volume_before = e->volume = lanes_of(1);
+    e->rate = law_rate(m, e, dt);
+    e->a = lanes_of_listed(p->plastic_strain, point), e->work = lanes_of_listed(p->plastic_work, point);
+    e->temperature = p->temperature ? lanes_of_listed(p->temperature, point) : lanes_of(m->law->johnson_cook.T_room);
+}
+
+/* Stores the state of lane l to point i, and its stress in `stress`, whose trial value it replaces. */
+static ALWAYS_INLINE void law_store(const struct particles *p, const struct elastic *m, const struct law_points *e,
+                                    int l, int64_t i, lanes *stress, const int dim)
+{
+    for (int k = 0; k < symmetric_count(dim); k++) {
+        const int c = law_place[dim][k];
+        p->plastic_correction[k][i] += stress[k][l] - e->s[c][l];
+        stress[k][l] = e->s[c][l];
+        if (p->mesh_stress[0]) p->mesh_stress[k][i] = e->s[c][l];
+        if (p->back_stress[0]) p->back_stress[k][i] = e->back[c][l];
+    }
+    if (m->space == SPACE_PLANE_STRAIN) p->out_of_plane[i] = e->s[2][l] - m->law->poisson * (e->s[0][l] + e->s[1][l]);
+    p->plastic_strain[i] = e->a[l], p->plastic_work[i] = e->work[l];
+    if (p->temperature) p->temperature[i] = e->temperature[l];
+}
+
+/* Maps the trial stresses of the points number q of eight cells back to their yield surfaces by their flow laws, and
+ * updates their plastic state. left: bits of the lanes whose points have a law; dt: duration of an explicit step [s], 0
+ * in load steps; stress: symmetric components, trial stress on entry [Pa]; m: elastic constants of all materials.
+ * Points of several materials: law by law. */
+static NEVER_INLINE void place_laws(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                    const int32_t *cell, int q, unsigned left, real dt, lanes *stress, int dim)
+{
+    struct law_points e;
+    int32_t point[LANES];
+    for (int l = 0; l < LANES; l++) point[l] = place_point(mesh, cell[l], q, dim);
+    while (left) {
+        const uint8_t material = p->material[point[__builtin_ctz(left)]];
+        unsigned own = 0;
+        for (int l = 0; l < LANES; l++) own |= (unsigned)(left >> l & 1 && p->material[point[l]] == material) << l;
+        left &= ~own;
+        laws_load(p, &m[material], point, stress, dt, &e, dim);
+        e.active = lanes_of_bits((uint8_t)own);
+        law_update(m[material].law, &e, m[material].space, m[material].mode);
+        for (int l = 0; l < LANES; l++)
+            if (own >> l & 1) law_store(p, &m[material], &e, l, point[l], stress, dim);
+    }
+}
+
+#endif

@@ -1,0 +1,83 @@
+/* Plastic state of the material points of the mesh at the end of an explicit step (mesh_flow.h). Forces, samples and
+ * frames then need no return mapping. */
+#include "mesh_flow.h"
+#include "mesh_partial.h"
+#include "mesh_run.h"
+
+/* Arguments of mesh_points_flow. */
+struct flow_step {
+    const struct mesh *mesh;
+    const struct particles *p;
+    const struct elastic *elastic;
+    real dt;
+};
+
+/* Updates the plastic state of the points of eight cells. cell: eight cell indices, -1 for a lane without cell;
+ * u[c][i]: displacements of their corners [m]. */
+static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *cell, lanes u[CORNERS_MAX][3],
+                                     const int dim, const bool finite)
+{
+    struct mesh_cell s;
+    cell_strain(&s, f->mesh->grid.h, u, dim, finite && dim > 1);
+    for (int q = 0; q < 1 << dim; q++) {
+        lanes stress[SYM_MAX];
+        unsigned with_law = 0;
+        place_stress(f->mesh, f->p, f->elastic, cell, &s, q, stress, dim, false);
+        for (int l = 0; l < LANES; l++) {
+            const int32_t i = place_point(f->mesh, cell[l], q, dim);
+            if (i < 0) continue;
+            const struct elastic *m = &f->elastic[f->p->material[i]];
+            with_law |= (unsigned)(m->law && m->mode == LAW_EXPLICIT) << l;
+        }
+        if (with_law) place_laws(f->mesh, f->p, f->elastic, cell, q, with_law, f->dt, stress, dim);
+    }
+}
+
+#define FLOW_STEP(D, FINITE)                                                                                           \
+    static NEVER_INLINE void cells_step_##D##_##FINITE(const struct flow_step *f, const int32_t *cell,                 \
+                                                       lanes u[CORNERS_MAX][3])                                        \
+    {                                                                                                                  \
+        cells_step(f, cell, u, D, FINITE);                                                                             \
+    }                                                                                                                  \
+    static void run_step_##D##_##FINITE(const struct flow_step *f, const struct mesh_run *run)                         \
+    {                                                                                                                  \
+        int32_t cell[LANES];                                                                                           \
+        lanes u[CORNERS_MAX][3];                                                                                       \
+        if (!f->elastic[run->material].law) return;                                                                    \
+        for (int64_t k = 0; k < run->cells; k += LANES) {                                                              \
+            run_cells(run, k, cell);                                                                                   \
+            mesh_run_load(f->mesh, run, k, u, D);                                                                      \
+            cells_step_##D##_##FINITE(f, cell, u);                                                                     \
+        }                                                                                                              \
+    }                                                                                                                  \
+    static void group_step_##D##_##FINITE(const struct flow_step *f, int64_t group)                                    \
+    {                                                                                                                  \
+        int32_t cell[LANES];                                                                                           \
+        lanes u[CORNERS_MAX][3];                                                                                       \
+        group_cells(f->mesh, group, cell);                                                                             \
+        mesh_partial_load(f->mesh, group, u, D);                                                                       \
+        cells_step_##D##_##FINITE(f, cell, u);                                                                         \
+    }                                                                                                                  \
+    static void all_step_##D##_##FINITE(const struct flow_step *f)                                                     \
+    {                                                                                                                  \
+        const int64_t groups = mesh_groups(f->mesh);                                                                   \
+        _Pragma("omp parallel for schedule(static)") for (int64_t k = 0; k < groups + f->mesh->runs; k++)              \
+        {                                                                                                              \
+            if (k < groups)                                                                                            \
+                group_step_##D##_##FINITE(f, k);                                                                       \
+            else                                                                                                       \
+                run_step_##D##_##FINITE(f, &f->mesh->run[k - groups]);                                                 \
+        }                                                                                                              \
+    }
+FLOW_STEP(1, 0)
+FLOW_STEP(2, 0)
+FLOW_STEP(2, 1)
+FLOW_STEP(3, 0)
+FLOW_STEP(3, 1)
+
+void mesh_points_flow(const struct mesh *mesh, const struct particles *p, const struct elastic *m, real dt, bool finite)
+{
+    static void (*const all[DIM_MAX + 1][2])(const struct flow_step *) = {
+        {NULL, NULL}, {all_step_1_0, all_step_1_0}, {all_step_2_0, all_step_2_1}, {all_step_3_0, all_step_3_1}};
+    all[mesh->grid.dim][finite](&(struct flow_step){mesh, p, m, dt});
+}

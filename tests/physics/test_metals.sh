@@ -1,0 +1,212 @@
+#!/bin/sh
+# Flow laws in the reference frame and in load steps, through the whole engine: single elements against closed forms and published numbers,
+# their energy, beams after a restart, refusals.
+test_name=test_metals
+. tests/support/summary.sh
+. tests/support/scenes.sh
+. tests/support/trust.sh
+. tests/support/physics.sh
+
+# ---- a bar of one cell, of prescribed strain ---------------------------------------------------------------------------------
+
+scene explicit <<'END'
+space: line
+duration: 100 us
+method: mpm
+mpm: {frame: reference}
+material: {young: 200 GPa, density: 7850 kg/m^3, yield_stress: 200 MPa}
+body: {box: {from: [0], to: [2 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{name: all, velocity: ["500/s*x"], region: {box: {from: [-1 mm], to: [3 mm]}}}]
+probes: [{point: {at: [0.5 mm]}}]
+time: {step: 0.1 us}
+output: {frames: 2, samples: 1000}
+END
+scene steps <<'END'
+space: line
+duration: 1 s
+method: mpm
+solver: static
+steps: {number: 20}
+material: {young: 200 GPa, density: 7850 kg/m^3, yield_stress: 200 MPa}
+body: {box: {from: [0], to: [2 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{name: all, displacement: ["0.05*x"], region: {box: {from: [-1 mm], to: [3 mm]}}, time: {ramp: {until: 1 s}}}]
+probes: [{point: {at: [0.5 mm]}}]
+output: {frames: 2}
+END
+
+# stress FOLDER TIME: prints the stress [MPa]; work_of FOLDER: the plastic work at the end [MJ/m^3].
+stress() { compute "$(column "$work/$1" point.stress_xx "$2")/1e6"; }
+work_of() { compute "$(f "$1" energy.plastic)/0.002e6"; }
+
+# balanced WHAT FOLDER: explicit steps of cells close the balance of energy to round-off.
+balanced() { apart "$1: energy balance" "$(f "$2" energy.balance_error)" 0 1e-12; }
+
+steel="young: 200 GPa, density: 7850, yield_stress: 200 MPa"
+voce="material={$steel, hardening: {voce: {saturation: 150 MPa, rate: 20}}}"
+table="material={young: 200 GPa, density: 7850, hardening: {table: [[0, 200 MPa], [0.01, 260 MPa], [0.05, 320 MPa]]}}"
+
+# 200 + 150 (1 - exp(-20 a)) MPa: numbers of six digits. An explicit step of 5e-5 errs by the curvature of the curve, and corrects it.
+calm "$work/voce" "$work/explicit.yaml" -s "$voce"
+calm "$work/voce_steps" "$work/steps.yaml" -s "$voce"
+for one in voce:20e-6:100e-6 voce_steps:0.2:1; do
+    name=${one%%:*} times=${one#*:}
+    near "$name: stress at 0.01 [MPa]" "$(stress $name ${times%:*})" 224.403 5e-6
+    near "$name: stress at 0.05 [MPa]" "$(stress $name ${times#*:})" 293.176 5e-6
+    near "$name: work [MJ/m^3]" "$(work_of $name)" 12.3281 2e-5
+done
+balanced Voce voce
+
+# A curve through points is exact on its segments and beyond: strains are a + stress/E. Explicit steps: to the digits of histories.
+for one in 0.00615:230 0.03145:290 0.0616:320; do
+    strain=${one%:*} expected=${one#*:}
+    calm "$work/table$expected" "$work/explicit.yaml" -s "$table" -s "duration=$(compute "$strain/500") s" -s "time.step=$(compute "$strain/500/200") s"
+    calm "$work/table_steps$expected" "$work/steps.yaml" -s "$table" -s steps.number=3 -s "boundary[0].displacement=[\"$strain*x\"]"
+    near "table: stress at $strain [MPa]" "$(stress table$expected 1)" "$expected" 1e-6
+    near "table in load steps: stress at $strain [MPa]" "$(stress table_steps$expected 1)" "$expected" 1e-8
+done
+
+# Johnson & Cook's copper at 1000/s, adiabatic; closed forms with m = 1 (T* = 1 - exp(-0.9 R W/(rho c (T_melt - T_room))), with the work W
+# at room temperature and R = 1 + C log(1000)). Steps of 1e-4 end at the strains a + stress/E; the linearised law errs by 1e-5.
+copper="young: 117 GPa, density: 8960, johnson_cook: {A: 90 MPa, B: 292 MPa, n: 0.31, C: 0.025, m: 1, T_room: 294 K, T_melt: 1356 K}"
+copper="material={$copper, specific_heat: 383 J/(kg K)}"
+for one in 0.2:309.393:307.771 0.5:367.131:334.689; do
+    a=${one%%:*} of=${one#*:}; expected=${of%:*} hot=${of#*:}
+    strain=$(compute "$a + $expected/117e3")
+    calm "$work/copper$a" "$work/explicit.yaml" -s "$copper" -s 'boundary[0].velocity=["1000/s*x"]' -s "duration=$(compute "$strain/1000") s" \
+        -s "time.step=$(compute "$strain/1000/2000") s"
+    near "copper: plastic strain" "$(column "$work/copper$a" point.plastic_strain 1)" "$a" 1e-5
+    near "copper at $a: stress [MPa]" "$(stress copper$a 1)" "$expected" 5e-5
+    near "copper at $a: temperature [K]" "$(column "$work/copper$a" point.temperature 1)" "$hot" 5e-5
+    balanced "copper at $a" copper$a
+done
+# Load steps are slow: the rate has no effect, and the temperature of a step is that before it. 100 of them lag by half a step.
+calm "$work/copper_steps" "$work/steps.yaml" -s "$copper" -s 'boundary[0].displacement=["0.5*x"]' -s steps.number=100
+a=$(column "$work/copper_steps" point.plastic_strain 1) hot=$(column "$work/copper_steps" point.temperature 1)
+near "slow copper: stress [MPa]" "$(stress copper_steps 1)" "$(compute "(90 + 292*exp(0.31*log($a)))*(1 - ($hot - 294)/1062)")" 1e-3
+near "slow copper: heat" "$(compute "($hot - 294)*8960*383*0.002")" "$(compute "0.9*$(f copper_steps energy.plastic)")" 1e-6
+
+# Cycles of +-0.01: Prager's law reaches +-(k + C e)/(1 + C/E) at once, in every cycle.
+cycles='boundary[0].velocity=["200*pi/s*x*cos(2*pi*t/(100 us))"]'
+cycles_steps="boundary[0].time={table: [[0 s, 0], [0.1 s, 1], [0.3 s, -1], [0.5 s, 1], [0.7 s, -1], [0.9 s, 1], [1 s, 0]]}"
+prager="material={$steel, kinematic: {modulus: 10 GPa}}"
+calm "$work/prager" "$work/explicit.yaml" -s "$prager" -s "$cycles" -s "duration=250 us" -s output.samples=2500
+calm "$work/prager_steps" "$work/steps.yaml" -s "$prager" -s "$cycles_steps" -s 'boundary[0].displacement=["0.01*x"]'
+for peak in 25:285.714 75:-285.714 125:285.714 175:-285.714; do
+    t=${peak%:*}
+    near "Prager: stress at $t us" "$(stress prager ${t}e-6)" "${peak#*:}" 3e-6
+    near "Prager in load steps: stress at $t us" "$(stress prager_steps $(compute "$t/250"))" "${peak#*:}" 3e-6
+done
+balanced Prager prager
+
+# Armstrong and Frederick's law, k 200 MPa, C 40 GPa, gamma 300: 322.56 MPa first, then k + (C/gamma) tanh(gamma d/2) = 331.56 MPa with the plastic
+# strain d of half a cycle. Euler's implicit steps: first order, half as far off with steps of half the size.
+recall="material={$steel, kinematic: {modulus: 40 GPa, recall: 300}}"
+calm "$work/recall" "$work/explicit.yaml" -s "$recall" -s "$cycles" -s "duration=250 us" -s output.samples=2500
+calm "$work/recall_steps" "$work/steps.yaml" -s "$recall" -s "$cycles_steps" -s 'boundary[0].displacement=["0.01*x"]' -s steps.number=1000
+for peak in 25:322.56 75:-331.56 125:331.56 175:-331.56; do
+    t=${peak%:*}
+    near "recall: stress at $t us" "$(stress recall ${t}e-6)" "${peak#*:}" 6e-4
+    near "recall in load steps: stress at $t us" "$(stress recall_steps $(compute "$t/250"))" "${peak#*:}" 1.5e-3
+done
+balanced recall recall
+
+# Ratchet: between +300 and -200 MPa the strain grows by 2.75560e-3 a cycle. First order in the step, so that steps of two sizes tell the
+# limit, to the second order. The load acts on the last point, at 3/4 of the second cell.
+for steps in 250 500; do
+    calm "$work/ratchet$steps" "$work/steps.yaml" -s "$recall" -s steps.number=$steps -s 'body.box={from: [0], to: [4 mm]}' \
+        -s 'boundary=[{name: left, mirror: {axis: x, at: 0}}, {name: right, traction: [100 MPa], face: x+, time: {table: [[0 s, 0], [0.2 s, 3], [0.4 s, -2], [0.6 s, 3], [0.8 s, -2], [1 s, 3]]}}]'
+done
+cycle() { compute "($(column "$work/ratchet$1" point.displacement_x 1) - $(column "$work/ratchet$1" point.displacement_x 0.6))/0.5e-3"; }
+near "ratchet: strain of a cycle" "$(compute "2*$(cycle 500) - $(cycle 250)")" 2.7556e-3 5e-3
+
+# ---- one cell in the plane and in space ------------------------------------------------------------------------------------
+
+# Tension in plane strain, 250 MPa: at 0.005 without hardening 288.665 MPa and a = 4.2090e-3, at 0.02 with H = 1 GPa 313.376 MPa. Implicit
+# steps along a path that turns: first order in the step. In explicit steps the free edge swings, by 0.2 MPa.
+scene plane <<'END'
+space: plane strain
+thickness: 1 mm
+duration: 1 s
+method: mpm
+mpm: {strain: small}
+solver: static
+steps: {number: 100}
+material: {young: 200 GPa, poisson: 0.3, density: 7850 kg/m^3, yield_stress: 250 MPa, hardening: {linear: {modulus: 0 Pa}}}
+body: {box: {from: [0, 0], to: [2 mm, 2 mm]}}
+particles: {spacing: 1 mm}
+boundary:
+  - {name: right, displacement: ["0.005*x", free], face: x+, time: {ramp: {until: 1 s}}}
+  - {name: left, mirror: {axis: x, at: 0}}
+  - {name: below, mirror: {axis: y, at: 0}}
+probes: [{point: {at: [0.5 mm, 0.5 mm]}}]
+output: {frames: 2}
+END
+calm "$work/plane" "$work/plane.yaml"
+calm "$work/plane_hard" "$work/plane.yaml" -s material.hardening.linear.modulus=1GPa -s 'boundary[0].displacement[0]=0.02*x'
+near "plane strain: stress [MPa]" "$(stress plane 1)" 288.665 1e-4
+near "plane strain: plastic strain" "$(column "$work/plane" point.plastic_strain 1)" 4.209e-3 1e-4
+near "plane strain with hardening: stress [MPa]" "$(stress plane_hard 1)" 313.376 2e-4
+apart "plane strain: balance" "$(f plane energy.balance_error)" 0 1e-5
+sed -e '/^solver/d; /^steps/d; s/^mpm.*/mpm: {frame: reference, strain: small}/; s/^duration.*/duration: 300 us/' -e 's/frames: 2/&, samples: 2000/' \
+    -e 's/displacement: \["0.005\*x", free\]/velocity: ["0.01 mm\/(300 us)", free]/; s/, time: {ramp.*}}}/}/' "$work/plane.yaml" >"$work/plane_time.yaml"
+calm "$work/plane_time" "$work/plane_time.yaml"
+near "plane strain in time: stress [MPa]" "$(compute "$(mean plane_time point.stress_xx 290e-6 300e-6)/1e6")" 288.665 1e-3
+near "plane strain in time: plastic strain" "$(column "$work/plane_time" point.plastic_strain 1)" 4.209e-3 1e-3
+balanced "plane strain in time" plane_time
+
+# Cycles of a cell in every space, as fast as waves: round-off, and frames of a restart.
+sed -e 's/^duration.*/duration: 40 us/; s/velocity: .*free\]/velocity: ["4*sin(pi*t\/(10 us))*(1 m\/s)", free]/' "$work/plane_time.yaml" >"$work/cycle.yaml"
+sed -e 's/^space: .*/space: solid/; /^thickness/d; s/free\]/free, free]/; s/from: \[0, 0\], to: \[2 mm, 2 mm\]/from: [0, 0, 0], to: [2 mm, 2 mm, 2 mm]/' \
+    -e 's/at: \[0.5 mm, /&0.5 mm, /; s/^  - {name: below.*/&\n  - {name: back, mirror: {axis: z, at: 0}}/' "$work/cycle.yaml" >"$work/cube.yaml"
+both="material={young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 200 MPa, hardening: {power: {coefficient: 300 MPa, exponent: 0.3}}, kinematic: {modulus: 40 GPa, recall: 300}}"
+for one in "cycle plane strain" "cycle plane stress" "cube solid"; do
+    name=${one%% *} space=${one#* }
+    calm "$work/fast" "$work/$name.yaml" -s "space=$space" -s "$both" -s mpm.strain=finite
+    between "$space: plastic work" "$(f fast energy.plastic)" 1e-3 1
+    balanced "$space: cycles" fast
+    rm -r "$work/fast"
+done
+
+# ---- beams: bending, turning, restart ----------------------------------------------------------------------------------------
+
+# A cantilever that a blow bends far beyond yielding. Rotations of cells within a step cost accuracy of its second order.
+scene beam <<'END'
+space: plane stress
+thickness: 1 mm
+duration: 60 us
+method: mpm
+mpm: {frame: reference}
+material: {young: 200 GPa, poisson: 0.3, density: 7850 kg/m^3, yield_stress: 200 MPa, hardening: {voce: {saturation: 150 MPa, rate: 20}}, kinematic: {modulus: 2 GPa}}
+body: {box: {from: [0, 0], to: [40 mm, 4 mm]}}
+particles: {spacing: 1 mm}
+boundary: [{name: grip, fixed: [x, y], region: {box: {from: [-1 mm, -1 mm], to: [2 mm, 5 mm]}}}]
+initial: [{velocity: [0, -200 m/s], region: {box: {from: [30 mm, -1 mm], to: [41 mm, 5 mm]}}}]
+probes: [{point: {at: [3 mm, 0.5 mm]}}]
+output: {frames: 3, samples: 60}
+END
+calm "$work/beam" "$work/beam.yaml" -t 2
+between "beam: plastic strain at the grip" "$(column "$work/beam" point.plastic_strain 1)" 0.01 0.2
+apart "beam: energy balance" "$(f beam energy.balance_error)" 0 1e-4
+calm "$work/beam1" "$work/beam.yaml" -t 1
+same "beam: 1 and 2 threads" "$work/beam" "$work/beam1"
+interrupted "$work/stopped" 30 "$work/beam.yaml" -t 2
+calm "$work/stopped" --resume "$work/beam.yaml" -t 2
+same "beam: after a restart" "$work/beam" "$work/stopped"
+calm "$work/echo" "$work/beam/scene.yaml" -t 2
+same "beam: scene as run" "$work/beam" "$work/echo"
+# Linear hardening by yield_tangent is that by hardening: linear.
+calm "$work/tangent" "$work/beam.yaml" -s "material={young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 200 MPa, yield_tangent: 20 GPa}"
+calm "$work/linear" "$work/beam.yaml" -s "material={young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 200 MPa, hardening: {linear: {modulus: 200 GPa/9}}}"
+is "beam: linear hardening" "$(f tangent energy.plastic)" "$(f linear energy.plastic)"
+
+# ---- refusals ------------------------------------------------------------------------------------------------------------------
+
+refused "coarse cells" "$work/no" 'materials that yield need mpm.levels: 0 there' "$work/beam.yaml" -s mpm.levels=2
+refused "constants of a lattice" "$work/no" 'mpm.constants: isotropic' "$work/beam.yaml" -s mpm.constants=lattice -s material.poisson=1/3
+refused "conversion" "$work/no" 'materials that yield need method: mpm there' "$work/beam.yaml" -s method=adaptive \
+    -s "material={young: 200 GPa, density: 7850, yield_stress: 200 MPa}"
+refused "bonds" "$work/no" 'is for material points; `method: mpm` is expected' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
+refused "one equilibrium" "$work/no" 'is for elastic materials, and material yields' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
+finish
