@@ -34,6 +34,7 @@ struct elastic {
     enum space space;
     const struct law *law; /* flow law of the material, which then replaces yield and hardening; NULL: none */
     enum law_mode mode;    /* how the flow law is solved */
+    bool mean_dilatation;  /* the points of a cell have its mean dilatation (mpm/dilatation.h, mesh/mesh_law.h) */
 };
 
 /* Returns true if the material yields, by linear hardening or by a flow law. */
@@ -85,6 +86,7 @@ struct transfer_data {
     real dt;                       /* [s] */
     real dt_velocity;              /* step of the velocities: dt, but dt/2 in the first step (leap-frog start) [s] */
     bool laws;                     /* at least one material has a flow law (elastic.law) */
+    bool mean_dilatation;  /* at least one material has the mean dilatation of cells (elastic.mean_dilatation) */
     bool momentum_only;    /* transfers momentum only: grid-coupled peridynamic particles, which have no stress */
     const uint8_t *bonded; /* [n] not 0: the material point has bonds; NULL: none has */
     bool second_map;       /* FLIP: all points move with the nodal velocities that remap has computed (second map) */

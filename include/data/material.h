@@ -42,6 +42,14 @@ static inline bool material_yields(const struct material *m)
     return (m->yield_stress > 0 && isfinite(m->yield_stress)) || m->law.given;
 }
 
+/* Returns true if the material points of a cell have one dilatation, the mean of theirs: where the material yields, or
+ * is nearly incompressible (Poisson's ratio above 0.4), linear cells would be too stiff (kernels/mpm/dilatation.h). In
+ * plane stress and 1D the volume is not constrained. */
+static inline bool material_averages_dilatation(const struct material *m, enum space space)
+{
+    return (space == SPACE_PLANE_STRAIN || space == SPACE_SOLID) && (material_yields(m) || m->poisson > 0.4);
+}
+
 /* Returns the stress at which the material begins to yield [Pa]; only if material_yields. */
 static inline real material_first_yield(const struct material *m)
 {

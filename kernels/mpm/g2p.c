@@ -11,6 +11,7 @@
  * positions in long runs: a free rotating plate with GIMP shapes loses a tenth of its energy in 1e5 steps with v_I, and
  * gains 40 % with v2 (bench/stability/limits_motion.c). Each point is written by one thread. */
 #include "kernels/kernels.h"
+#include "dilatation.h"
 #include "plastic.h"
 #include "points_flow.h"
 #include "scatter.h"
@@ -212,11 +213,58 @@ static ALWAYS_INLINE void points_gather(const struct grid *g, const struct cell 
     }
 }
 
+/* Computes the rate of dilatation tr L at the points of stencil s of cell c [1/s], as points_gather does. */
+static ALWAYS_INLINE row_of_points points_dilate(const struct grid *g, const struct cell *c,
+                                                 const struct cell_stencil *s, const int dim, const enum shape shape,
+                                                 const enum transfer transfer)
+{
+    row_of_points trace = points_of(0);
+    FOR_ANY_TOUCHED(s, dim, shape)
+    {
+        const row_of_points weight = stencil_rows(s, k1, k2, dim, shape);
+        const int64_t I = cell_row(c, g, k1, k2, dim);
+        for (int d = 0; d < dim; d++) {
+            const real *at = (transfer == TRANSFER_APIC ? g->velocity[d] : g->momentum[d]) + I;
+            row_of_points sum = points_of(0);
+            FOR_NODES(dim, shape)
+            sum += (d < ROW_DIMS(dim, shape) ? s->D[d][k] : s->N[k]) * at[row_node(g, k, dim, shape)];
+            trace += sum * (d < ROW_DIMS(dim, shape) ? weight : stencil_slopes(s, k1, k2, d, dim, shape));
+        }
+    }
+    return trace;
+}
+
+/* Computes by how much the rate of dilatation of n <= MEAN_POINTS listed points of a cell changes by averaging
+ * (dilatation.h) [1/s]. */
+static NEVER_INLINE void means_of_dilatation(const struct grid *g, const struct particles *p,
+                                             const struct transfer_data *t, const int32_t *list, int n, real *change,
+                                             const int dim, const enum shape shape, const enum transfer transfer)
+{
+    const struct cell c = cell_make(g, p, list[0], dim, shape);
+    for (int k = 0; k < n; k += AT_ONCE(dim)) {
+        struct cell_stencil s;
+        const int points = at_once(n - k, dim);
+        cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
+        const row_of_points trace = points_dilate(g, &c, &s, dim, shape, transfer);
+        for (int at = 0; at < points; at++) change[k + at] = trace[at];
+    }
+    differences_from_mean(p, t, list, n, change);
+}
+
+/* Adds a third, in 2D half, of the changes of n points to the diagonal of their velocity gradients L [1/s]. */
+static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *change, int n, const int dim)
+{
+    row_of_points more;
+    for (int k = 0; k < POINTS; k++) more[k] = change[smaller(k % AT_ONCE(dim), n - 1)] / dim;
+    for (int d = 0; d < dim; d++) L[d * dim + d] += more;
+}
+
 /* Updates the n listed points (n <= AT_ONCE) of cell c: position, stress, volume, and with APIC velocity and its
- * gradient. Returns the number of points that have left the cell. */
+ * gradient. dilatation: change of the rate of dilatation of each point [1/s]; NULL: none. Returns the number of points
+ * that have left the cell. */
 static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
-                                    const struct transfer_data *t, const int32_t *list, int n, const int dim,
-                                    const enum shape shape, const enum transfer transfer)
+                                    const struct transfer_data *t, const int32_t *list, int n, const real *dilatation,
+                                    const int dim, const enum shape shape, const enum transfer transfer)
 {
     struct cell_stencil s;
     row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
@@ -226,6 +274,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
         for (int d = 0; d < dim; d++) points_store(p->v[d], s.point, velocity[d], dim);
         for (int k = 0; k < dim * dim; k++) points_store(p->gradient[k], s.point, L[k], dim);
     }
+    if (dilatation) points_dilate_more(L, dilatation, n, dim);
     const struct elastic_points m = elastic_of(p, t, s.point, dim);
     if (!t->momentum_only) points_strain(p, t, &m, s.point, L, dim, shape);
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
@@ -255,22 +304,29 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
 }
 
 /* Updates the n listed points of one cell (g2p_points). Returns the number of points that have left the cell. The cell
- * is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. */
+ * is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged:
+ * result of mean_dilatation. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
                                       const int32_t *list, int n, const int dim, const enum shape shape,
-                                      const enum transfer transfer)
+                                      const enum transfer transfer, const bool averaged)
 {
+    real change[MEAN_POINTS];
     int64_t moved = 0;
     for (int k = 0; k < n; k++) g2p_fetch(p, list, k, dim);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         const struct cell c = cell_make(g, p, list[k], dim, shape);
-        moved += g2p_points(g, &c, p, t, list + k, at_once(n - k, dim), dim, shape, transfer);
+        if (averaged && k % MEAN_POINTS == 0)
+            means_of_dilatation(g, p, t, list + k, smaller(n - k, MEAN_POINTS), change, dim, shape, transfer);
+        moved += g2p_points(g, &c, p, t, list + k, at_once(n - k, dim), averaged ? &change[k % MEAN_POINTS] : NULL, dim,
+                            shape, transfer);
     }
     return moved;
 }
 
-#define INSTANCE(D, S, T)                                                                                              \
-    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)      \
+/* Two loops over all cells: points with the mean dilatation of their cells have one of their own, so that the other has
+ * no code of it. */
+#define CELLS(NAME, D, S, T, AVERAGED)                                                                                 \
+    static int64_t NAME(const struct grid *g, struct particles *p, const struct transfer_data *t)                      \
     {                                                                                                                  \
         const struct transfer_order *o = t->order;                                                                     \
         int64_t moved = 0;                                                                                             \
@@ -281,9 +337,16 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
             struct transfer_data data = *t;                                                                            \
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
                 g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                                       \
-                         o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T);                         \
+                         o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T, AVERAGED);               \
         }                                                                                                              \
         return moved;                                                                                                  \
+    }
+#define INSTANCE(D, S, T)                                                                                              \
+    CELLS(g2p_plain_##D##d_##S##_##T, D, S, T, false)                                                                  \
+    CELLS(g2p_averaged_##D##d_##S##_##T, D, S, T, true)                                                                \
+    static int64_t g2p_##D##d_##S##_##T(const struct grid *g, struct particles *p, const struct transfer_data *t)      \
+    {                                                                                                                  \
+        return mean_dilatation(t, D) ? g2p_averaged_##D##d_##S##_##T(g, p, t) : g2p_plain_##D##d_##S##_##T(g, p, t);   \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "kernels/kernels.h"
+#include "dilatation.h"
 #include "scatter.h"
 #include "shape.h"
 #include "stress.h"
@@ -61,11 +62,12 @@ static ALWAYS_INLINE bool continues(const struct transfer_data *t, const int dim
 
 /* Adds mass, momentum and force of point `at` of stencil s to the sums of its cell. Factors of the directions along a
  * row, equal for all rows, are computed once. turn: velocity gradients of the points of the stencil, by which they
- * extrapolate their velocity to nodes, from turn_slopes [1/s]; not read for APIC, nor where points do not rotate. */
+ * extrapolate their velocity to nodes, from turn_slopes [1/s]; not read for APIC, nor where points do not rotate.
+ * pressure: mean stress that is added to its stress [Pa], from means_of_stress; NULL: none. */
 static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, const struct particles *p,
                                        const struct transfer_data *t, const struct cell_stencil *s,
-                                       const row_of_points *turn, int at, const int dim, const enum shape shape,
-                                       const enum transfer transfer)
+                                       const row_of_points *turn, const real *pressure, int at, const int dim,
+                                       const enum shape shape, const enum transfer transfer)
 {
     const int along = ROW_DIMS(dim, shape);
     const int64_t i = s->point[at];
@@ -75,6 +77,7 @@ static ALWAYS_INLINE void p2g_particle(cell_sums sum, const struct grid *g, cons
         memset(stress, 0, sizeof stress);
     else
         stress_given(p, t->partial, i, stress, dim);
+    for (int d = 0; d < dim && pressure; d++) stress[d] += *pressure;
     const real m = p->mass[i], volume = p->volume[i];
     for (int k = 0; k < dim * (dim + 1) / 2; k++) stress[k] *= volume;
     const row_of_nodes mass = m * row.N;
@@ -126,25 +129,42 @@ static ALWAYS_INLINE void p2g_fetch(const struct particles *p, const int32_t *li
     for (int c = 0; c < dim * dim && transfer == TRANSFER_APIC; c++) fetch(p->gradient[c] + i);
 }
 
-/* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. */
+/* Computes by how much the mean stress of n <= MEAN_POINTS listed points of a cell changes by averaging
+ * (dilatation.h) [Pa]. */
+static NEVER_INLINE void means_of_stress(const struct particles *p, const struct transfer_data *t, const int32_t *list,
+                                         int n, real *change, int dim)
+{
+    for (int k = 0; k < n; k++) {
+        real stress[SYM_MAX];
+        stress_given(p, t->partial, list[k], stress, dim);
+        change[k] = (dim == 2 ? stress[0] + stress[1] : stress[0] + stress[1] + stress[2]) / dim;
+    }
+    differences_from_mean(p, t, list, n, change);
+}
+
+/* Adds mass, momentum and force of the n listed points of one cell to the nodes of the grid. averaged: result of
+ * mean_dilatation. */
 static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles *p, const struct transfer_data *t,
                                    const int32_t *list, int n, const int dim, const enum shape shape,
-                                   const enum transfer transfer)
+                                   const enum transfer transfer, const bool averaged)
 {
     const struct cell c = cell_make(g, p, list[0], dim, shape);
+    real change[MEAN_POINTS];
     cell_sums sum;
     FOR_ROWS(dim, shape)
     for (int f = 0; f < 1 + 2 * dim; f++) sum[f][PATCH(dim, shape)] = row_of(0);
     for (int k = 0; k < n; k += AT_ONCE(dim)) {
         struct cell_stencil s;
         const int points = at_once(n - k, dim);
+        if (averaged && k % MEAN_POINTS == 0) means_of_stress(p, t, list + k, smaller(n - k, MEAN_POINTS), change, dim);
         cell_stencil_make(&s, g, &c, p, list + k, points, t->half_width, dim, shape);
         stencil_transpose(&s, dim, shape);
         row_of_points turn[DIM_MAX * DIM_MAX];
         if (transfer == TRANSFER_FLIP && continues(t, dim, transfer)) turn_slopes(t, s.point, 0.5 * t->dt, turn, dim);
         for (int at = 0; at < points; at++) {
             p2g_fetch(p, list, k + at, dim, transfer);
-            p2g_particle(sum, g, p, t, &s, turn, at, dim, shape, transfer);
+            p2g_particle(sum, g, p, t, &s, turn, averaged ? &change[(k + at) % MEAN_POINTS] : NULL, at, dim, shape,
+                         transfer);
         }
     }
     FOR_ROWS(dim, shape)
@@ -159,10 +179,15 @@ static ALWAYS_INLINE void p2g_cell(const struct grid *g, const struct particles 
     }
 }
 
+/* Points with the mean dilatation of their cells have a loop of their own, so that the other one has no code of it. */
 #define INSTANCE(D, S, T)                                                                                              \
     static void p2g_##D##d_##S##_##T(struct grid *g, const struct particles *p, const struct transfer_data *t)         \
     {                                                                                                                  \
-        SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T));                    \
+        if (mean_dilatation(t, D)) {                                                                                   \
+            SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, true));          \
+        } else {                                                                                                       \
+            SCATTER(D, t, g, p, p2g_cell(&nodes, &points, &data, list, n, D, SHAPE_##S, TRANSFER_##T, false));         \
+        }                                                                                                              \
     }
 #define BOTH(D, S) TRANSFER_VARIANTS(INSTANCE, D, S)
 SHAPE_VARIANTS(BOTH)

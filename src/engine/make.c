@@ -102,6 +102,7 @@ static void make_materials(const struct scene *s, struct material_tables *tables
                                               .poisson = given->poisson,
                                               .law = given->law.given ? &given->law : NULL,
                                               .mode = scene_in_steps(s) ? LAW_LOAD_STEP : LAW_EXPLICIT,
+                                              .mean_dilatation = material_averages_dilatation(given, s->space),
                                               .trigger = conversion_trigger(s, given),
                                               .trigger_mean = conversion_trigger(s, given)};
         if (!material_yields(given) || given->law.given) continue;
@@ -449,17 +450,14 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&
                               s->contact_convert && unjoined_body_index(s, 1) + s->rigids >= 0 &&
                               !coupling_unified(s->coupling);
-    e->grid->transfer = (struct transfer_data){&e->grid->field[0].order,
-                                               &e->coupling->partial,
-                                               e->tables.elastic,
-                                               0.5 * s->spacing,
-                                               e->clock.dt,
-                                               e->clock.dt,
-                                               e->part.plastic_work != NULL,
-                                               false,
-                                               NULL,
-                                               false,
-                                               {NULL}};
+    e->grid->transfer = (struct transfer_data){.order = &e->grid->field[0].order,
+                                               .partial = &e->coupling->partial,
+                                               .elastic = e->tables.elastic,
+                                               .half_width = 0.5 * s->spacing,
+                                               .dt = e->clock.dt,
+                                               .dt_velocity = e->clock.dt,
+                                               .laws = e->part.plastic_work != NULL};
+    for (int m = 0; m < s->materials; m++) e->grid->transfer.mean_dilatation |= e->tables.elastic[m].mean_dilatation;
     grid_turning_make(e->grid, &e->part, &e->loads, e->scene, e->coupling_kind);
     return make_probes(e);
 }

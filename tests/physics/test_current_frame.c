@@ -219,7 +219,7 @@ static const struct {
     {&cube, "coupling: handshake\nparticles: {horizon: 2.015}\nmpm: {shape: quadratic}\n"},
 };
 
-static void check_one_energy(const struct block *b, const char *more)
+static void check_one_energy(const struct block *b, const char *method, const char *poisson, const char *more)
 {
     char keys[256];
     struct held_run *r = NEW("test.run", 1, struct held_run);
@@ -228,7 +228,7 @@ static void check_one_energy(const struct block *b, const char *more)
         snprintf(keys, sizeof keys, "%.*sparticles: {spacing: 1 mm, %s", (int)(particles - more), more, particles + 12);
     else
         snprintf(keys, sizeof keys, "particles: {spacing: 1 mm}\n%s", more);
-    run_make(r, b, "adaptive", NULL, keys);
+    run_make(r, b, method, poisson, keys);
     struct operators o;
     operators_make(r, &o);
     const int n = o.n;
@@ -249,7 +249,19 @@ static void check_one_energy(const struct block *b, const char *more)
 static void test_one_energy(void **state)
 {
     (void)state;
-    for (size_t k = 0; k < COUNT_OF(one_energy); k++) check_one_energy(one_energy[k].block, one_energy[k].more);
+    for (size_t k = 0; k < COUNT_OF(one_energy); k++)
+        check_one_energy(one_energy[k].block, "adaptive", NULL, one_energy[k].more);
+}
+
+/* Bodies that have one dilatation in a cell (kernels/mpm/dilatation.h). */
+static void test_dilatation(void **state)
+{
+    (void)state;
+    check_one_energy(&spot, "mpm", "0.45", "");
+    check_one_energy(&spot, "mpm", "0.49", "mpm: {shape: linear}\nparticles: {irregularity: 0.4}\n");
+    check_one_energy(&spot, "mpm", "0.499", "mpm: {shape: quadratic, cell: 3}\n");
+    check_one_energy(&cube, "mpm", "0.49", "");
+    check_one_energy(&cube, "mpm", "0.45", "mpm: {shape: cpgimp}\n");
 }
 
 /* ---- runs -------------------------------------------------------------------------------------------------------- */
@@ -374,7 +386,8 @@ static void test_turning(void **state)
 int main(void)
 {
     omp_set_num_threads(1); /* bodies of a hundred particles */
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_one_energy), cmocka_unit_test(test_apic),
-                                       cmocka_unit_test(test_plate), cmocka_unit_test(test_turning)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_one_energy), cmocka_unit_test(test_dilatation),
+                                       cmocka_unit_test(test_apic), cmocka_unit_test(test_plate),
+                                       cmocka_unit_test(test_turning)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

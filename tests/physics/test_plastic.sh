@@ -119,8 +119,8 @@ for space in stress strain solid; do
     go wave_$space $space
     go wave_${space}_apic $space -s mpm.transfer=apic
 done
-go elastic strain -s mpm.frame=current -s material.yield_stress=inf
-go never strain -s material.yield_stress=1e30
+go elastic strain -s material.poisson=0.45 -s mpm.frame=current -s material.yield_stress=inf
+go never strain -s material.poisson=0.45 -s material.yield_stress=1e30
 landed
 for space in strain solid; do
     for run in wave_$space wave_${space}_apic; do
@@ -140,7 +140,7 @@ for run in wave_stress wave_stress_apic; do
     between "$run: plastic work" "$(f $run energy.plastic)" 1e-9 1e3
 done
 
-# A material that never yields is elastic to the last digit.
+# A material that never yields is elastic to the last digit (above Poisson's ratio 0.4 both have one dilatation in a cell).
 holds "never: yields nowhere" cmp "$work/elastic/history.csv" "$work/never/history.csv"
 is "never: plastic work" "$(f never energy.plastic)" 0
 

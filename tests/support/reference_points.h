@@ -63,6 +63,7 @@ struct reference_step {
     const struct grid *g;         /* positions of nodes; its values are not used */
     real *value, *slope[DIM_MAX]; /* N and grad N, [n][nodes], at the old positions */
     real *mass, *momentum[DIM_MAX], *force[DIM_MAX], *velocity[DIM_MAX], *change[DIM_MAX];
+    real *more; /* [n] change of mean stress or rate of dilatation by the mean of the cell */
 };
 
 static inline void reference_node_position(const struct grid *g, int64_t node, real *x)
@@ -101,6 +102,7 @@ static inline void reference_step_make(struct reference_step *s)
     int64_t nodes = s->g->n;
     s->value = NEW("reference.value", s->p->n * nodes, real);
     s->mass = NEW("reference.mass", nodes, real);
+    s->more = NEW("reference.more", s->p->n, real);
     for (int d = 0; d < s->p->dim; d++) {
         s->slope[d] = NEW("reference.slope", s->p->n * nodes, real);
         s->momentum[d] = NEW("reference.momentum", nodes, real);
@@ -115,6 +117,7 @@ static inline void reference_step_free(struct reference_step *s)
 {
     memory_free(s->value);
     memory_free(s->mass);
+    memory_free(s->more);
     for (int d = 0; d < s->p->dim; d++) {
         memory_free(s->slope[d]);
         memory_free(s->momentum[d]);
@@ -160,14 +163,58 @@ static inline void reference_map(struct reference_step *s, bool with_mass)
     }
 }
 
+/* Returns true if points i and j are in one cell and have one mean dilatation. */
+static inline bool reference_together(const struct reference_step *s, int64_t i, int64_t j)
+{
+    const struct particles *p = s->p;
+    bool same = p->kind[i] == KIND_MPM && p->kind[j] == KIND_MPM && p->material[i] == p->material[j] &&
+                p->body[i] == p->body[j] && s->elastic[p->material[i]].mean_dilatation;
+    for (int d = 0; d < p->dim && same; d++)
+        same = floor((p->x[d][i] - s->g->anchor[d]) / s->g->h) == floor((p->x[d][j] - s->g->anchor[d]) / s->g->h);
+    return same;
+}
+
+/* Computes by how much a value of each point changes where it is replaced by the mean of its cell. */
+static inline void reference_means(const struct reference_step *s, const real *value, real *change)
+{
+    for (int64_t i = 0; i < s->p->n; i++) {
+        real volume = 0, sum = 0;
+        for (int64_t j = 0; j < s->p->n; j++)
+            if (reference_together(s, i, j)) volume += s->p->volume[j], sum += s->p->volume[j] * value[j];
+        change[i] = volume > 0 ? sum / volume - value[i] : 0;
+    }
+}
+
+static inline real reference_trace(real tensor[DIM_MAX][DIM_MAX], int dim)
+{
+    real sum = 0;
+    for (int d = 0; d < dim; d++) sum += tensor[d][d];
+    return sum;
+}
+
+/* Computes by how much the mean stress of each point changes, into s->more. */
+static inline void reference_pressures(struct reference_step *s)
+{
+    real *mean = NEW("reference.mean", s->p->n, real);
+    for (int64_t i = 0; i < s->p->n; i++) {
+        real sigma[DIM_MAX][DIM_MAX];
+        reference_given(s, i, sigma);
+        mean[i] = reference_trace(sigma, s->p->dim) / s->p->dim;
+    }
+    reference_means(s, mean, s->more);
+    memory_free(mean);
+}
+
 /* Computes f = -sum V sigma . grad N + sum N f (step 3). */
 static inline void reference_forces(struct reference_step *s)
 {
     const struct particles *p = s->p;
+    reference_pressures(s);
     for (int64_t i = 0; i < p->n; i++) {
         real sigma[DIM_MAX][DIM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
         reference_given(s, i, sigma);
+        for (int d = 0; d < p->dim; d++) sigma[d][d] += s->more[i];
         for (int64_t I = 0; I < s->g->n; I++)
             for (int a = 0; a < p->dim; a++) {
                 s->force[a][I] += s->value[i * s->g->n + I] * p->f[a][i];
@@ -273,22 +320,42 @@ static inline void reference_stress(const struct reference_step *s, int64_t i, r
     for (int a = 0; a < p->dim && s->shape == SHAPE_CPGIMP; a++) p->stretch[a][i] *= 1 + s->dt * L[a][a];
 }
 
+/* Computes the velocity gradient L at point i. */
+static inline void reference_gradient(const struct reference_step *s, int64_t i, real L[DIM_MAX][DIM_MAX])
+{
+    real *const *straining = s->transfer == TRANSFER_APIC ? s->velocity : s->momentum;
+    for (int a = 0; a < s->p->dim; a++)
+        for (int b = 0; b < s->p->dim; b++) L[a][b] = reference_at(s, s->slope[b], straining[a], i);
+}
+
+/* Computes by how much the rate of dilatation of each point changes, into s->more. */
+static inline void reference_dilatations(struct reference_step *s)
+{
+    real *rate = NEW("reference.rate", s->p->n, real), L[DIM_MAX][DIM_MAX];
+    for (int64_t i = 0; i < s->p->n; i++) {
+        reference_gradient(s, i, L);
+        rate[i] = reference_trace(L, s->p->dim);
+    }
+    reference_means(s, rate, s->more);
+    memory_free(rate);
+}
+
 /* Updates positions with the nodal velocity or, if bonds end at a point, with that of the second map; computes the
  * gradient from the second map (FLIP) or the nodal velocity (APIC). */
 static inline void reference_gather(struct reference_step *s)
 {
     struct particles *p = s->p;
     bool affine = s->transfer == TRANSFER_APIC;
+    reference_dilatations(s);
     for (int64_t i = 0; i < p->n; i++) {
         real L[DIM_MAX][DIM_MAX];
         if (p->kind[i] != KIND_MPM) continue;
         real *const *straining = affine ? s->velocity : s->momentum;
         real *const *moving = s->bonded && s->bonded[i] ? straining : s->velocity;
-        for (int a = 0; a < p->dim; a++)
-            for (int b = 0; b < p->dim; b++) {
-                L[a][b] = reference_at(s, s->slope[b], straining[a], i);
-                if (affine) p->gradient[a * p->dim + b][i] = L[a][b];
-            }
+        reference_gradient(s, i, L);
+        for (int a = 0; a < p->dim && affine; a++)
+            for (int b = 0; b < p->dim; b++) p->gradient[a * p->dim + b][i] = L[a][b];
+        for (int a = 0; a < p->dim; a++) L[a][a] += s->more[i] / p->dim;
         for (int a = 0; a < p->dim; a++) {
             real v = reference_at(s, s->value, moving[a], i);
             if (affine) p->v[a][i] = v;

@@ -1,0 +1,55 @@
+/* The mean dilatation of a cell of the grid: the points of a cell that are of one body and one material have one rate
+ * of dilatation, the mean of theirs weighted by volume. Nearly incompressible materials, and metals that flow, then
+ * have one constraint of volume in a cell instead of one at each point, and do not lock (B-bar: Hughes 1980; of
+ * material points: Coombs et al. 2018).
+ *
+ * With the rates t_p = tr L_p and the mean stresses s_p = tr sigma_p/dim, the power of the forces on the nodes is
+ *     sum_p V_p (sigma_p : L_p + s_p (t - t_p)),   t = sum V_p t_p/sum V_p.
+ * The nodal forces that do this work have the stress sigma_p + (s - s_p) I with s = sum V_p s_p/sum V_p: the rate of
+ * dilatation (g2p) and the mean stress (p2g) are replaced by the same mean, so that the energy balance is exact. */
+#ifndef CLEAVE_KERNELS_DILATATION
+#define CLEAVE_KERNELS_DILATATION
+
+#include "kernels/kernels.h"
+
+/* Number of points over which a mean extends at most. A cell with more points, after large compression, has several
+ * means, one after the other in the order of its list. A multiple of POINTS. */
+enum { MEAN_POINTS = 64 };
+
+/* Returns true in a space where points of the materials of t can have the mean dilatation of their cell; false if the
+ * transfer has no stress. */
+static ALWAYS_INLINE bool mean_dilatation(const struct transfer_data *t, const int dim)
+{
+    return dim > 1 && __builtin_expect(t->mean_dilatation, 0) && !t->momentum_only;
+}
+
+/* Returns true if points i and j share one mean dilatation: they are of the same body and material. */
+static ALWAYS_INLINE bool mean_shared(const struct particles *p, int32_t i, int32_t j)
+{
+    return p->material[i] == p->material[j] && p->body[i] == p->body[j];
+}
+
+/* Replaces value[k] of n <= MEAN_POINTS listed points of a cell by its difference from the mean of the points of its
+ * body and material, weighted by volume: mean less value; by 0 for materials without mean dilatation. Not inlined, so
+ * that the code for other materials contains none of it. */
+static NEVER_INLINE void differences_from_mean(const struct particles *p, const struct transfer_data *t,
+                                               const int32_t *list, int n, real *value)
+{
+    uint64_t left = n < MEAN_POINTS ? ((uint64_t)1 << n) - 1 : UINT64_MAX;
+    while (left) {
+        const int32_t first = list[__builtin_ctzll(left)];
+        uint64_t own = 0;
+        real volume = 0, sum = 0;
+        for (int k = 0; k < n; k++) {
+            if (!(left >> k & 1 && mean_shared(p, first, list[k]))) continue;
+            own |= (uint64_t)1 << k;
+            volume += p->volume[list[k]], sum += p->volume[list[k]] * value[k];
+        }
+        const bool averaged = t->elastic[p->material[first]].mean_dilatation;
+        for (int k = 0; k < n; k++)
+            if (own >> k & 1) value[k] = averaged ? sum / volume - value[k] : 0;
+        left &= ~own;
+    }
+}
+
+#endif
