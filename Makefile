@@ -173,7 +173,7 @@ bench: all
 # What `make install` lays below PREFIX, for `make uninstall`, too.
 SHARE     = $(DESTDIR)$(PREFIX)/share
 INSTALLED = $(DESTDIR)$(PREFIX)/bin/cleave $(SHARE)/man/man1/cleave.1 $(SHARE)/bash-completion/completions/cleave \
-            $(SHARE)/zsh/site-functions/_cleave $(SHARE)/cleave $(SHARE)/doc/cleave $(MODULES)/cleave.py $(MODULES)/__pycache__/cleave.*.pyc
+            $(SHARE)/zsh/site-functions/_cleave $(SHARE)/cleave $(SHARE)/doc/cleave $(MODULES)/cleave
 # Where Python looks for modules below PREFIX; else a folder that PYTHONPATH has to name.
 SEEN      = $(shell python3 -c 'import sys; print(next((p for p in sys.path if p.startswith("$(PREFIX)/") and p.endswith("-packages")), ""))' 2>/dev/null)
 MODULES   = $(DESTDIR)$(or $(SEEN),$(PREFIX)/lib/python3/dist-packages)
@@ -188,7 +188,8 @@ install: all
 	install -D -m 644 $(BUILD)/cleave.bash $(SHARE)/bash-completion/completions/cleave
 	install -D -m 644 $(BUILD)/cleave.zsh $(SHARE)/zsh/site-functions/_cleave
 	install -D -m 644 $(BUILD)/cleave.schema.json $(SHARE)/cleave/cleave.schema.json
-	install -D -m 644 src/python/cleave.py $(MODULES)/cleave.py
+	install -d $(MODULES)/cleave
+	install -m 644 src/python/cleave/*.py src/python/cleave/py.typed $(MODULES)/cleave
 	@sh src/app/install_documents.sh $(SHARE)/doc/cleave
 	@$(if $(DESTDIR)$(SEEN),:,echo "for import cleave: export PYTHONPATH=$(MODULES)")
 

@@ -35,7 +35,7 @@ Maintainer: Cleave developers <maintainers@cleave.example>
 Installed-Size: $(du -sk "$root/usr" | cut -f 1)
 Depends: $libraries, python3:any
 Recommends: gnuplot-nox, python3-h5py, python3-numpy
-Suggests: ffmpeg, paraview
+Suggests: ffmpeg, paraview, python3-matplotlib, python3-pandas, python3-vtk9
 Section: science
 Priority: optional
 Description: dynamic fracture by peridynamics and material points

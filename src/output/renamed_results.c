@@ -1,4 +1,5 @@
-/* Earlier names of columns of history.csv and of figures of summary.json. src/python/cleave.py has the same list. */
+/* Earlier names of columns of history.csv and of figures of summary.json. src/python/cleave/_tables.py has the same
+ * list. */
 #include "output/renamed_results.h"
 
 #include <string.h>

@@ -44,6 +44,9 @@ done
 done) >"$work/list"
 is "links of installed documents that lead nowhere" "$(cat "$work/list")" ""
 holds "an installed scene is sound" "$prefix/bin/cleave" check --no-trial "$documents/inputs/plate_crack.yaml" >/dev/null 2>&1
+for file in src/python/cleave/*.py src/python/cleave/py.typed; do
+    holds "$file is installed" test -n "$(find "$prefix/lib" -path "*/cleave/$(basename "$file")")"
+done
 schema=$(sed -n '1s/.*schema=//p' "$documents/inputs/plate_crack.yaml")
 holds "and names the installed schema" test -s "$documents/inputs/$schema"
 schema=$(sed -n '1s/.*schema=//p' "$documents/inputs/new/bar.yaml")
@@ -53,7 +56,7 @@ holds "so does one of cleave new" test -s "$documents/inputs/new/$schema"
 
 version=$(sed -n 's/^VERSION *:= *//p' Makefile)
 is "version" "$("$cleave" --version | cut -d ' ' -f 1-2)" "cleave $version"
-for file in CITATION.cff CHANGELOG.md; do holds "$file names version $version" grep -q "$version" $file; done
+for file in CITATION.cff CHANGELOG.md src/python/cleave/__init__.py; do holds "$file names version $version" grep -q "$version" $file; done
 # The commit is written anew only where it changes, and is empty where the tree is in no git repository of its own.
 mkdir "$work/none"
 (cd "$work/none" && sh "$OLDPWD/src/app/commit.sh" commit.h && touch -d 2001-01-01 commit.h && sh "$OLDPWD/src/app/commit.sh" commit.h)

@@ -1,7 +1,7 @@
 #!/bin/sh
-# The Python module (src/python/cleave.py): runs scenes with overrides, passes on the program's message and exit status, and reads the files
-# of `cleave`: history, summary, frames by id, probes, fragments, tables of studies, a run in progress.
-# Skipped where numpy or h5py is missing.
+# The Python module (src/python/cleave): runs scenes with overrides, scenes that are dictionaries, and studies; passes on the program's
+# message, location and exit status; reads the files of `cleave`: history, summary, frames by id, probes, fragments, tables of studies, a run
+# in progress. What needs matplotlib, pandas or vtk: long_python.sh. Skipped where numpy or h5py is missing.
 test_name=python
 . tests/support/summary.sh
 
@@ -132,6 +132,136 @@ holds("the line whole", half.history["kinetic"][-1] == 25)
 with open(work + "/half/summary.json", "w") as file:
     file.write('{"status": ')
 refused("half a summary", None, lambda: half.status)
+
+# fields that follow from stored ones, components, parts of frames
+stress = frame["stress"].astype(float)
+deviator = stress - np.r_[1, 1, 1, 0, 0, 0] * stress[:, :3].mean(axis=1)[:, None]
+holds("von Mises", np.allclose(frame["von_mises"] ** 2, 1.5 * (deviator ** 2 * np.r_[1, 1, 1, 2, 2, 2]).sum(axis=1), rtol=1e-5))
+holds("components", (frame["stress_xy"] == frame["stress"][:, 3]).all() and (frame["velocity_y"] == frame["velocity"][:, 1]).all())
+holds("principal stresses", np.allclose(frame["principal_stress"].sum(axis=1), -3 * frame["pressure"], atol=1.0)
+      and (np.diff(frame["principal_stress"], axis=1) <= 0).all())
+holds("their units", frame.unit("von_mises") == frame.unit("stress_xy") == "Pa" and frame.unit("velocity_y") == "m/s")
+for name in ("stress_z", "velocity_xx", "damage_x", "level"):
+    try:
+        frame[name]
+        sys.exit("test_python: a field that is not there: " + name)
+    except KeyError:
+        pass
+layer = frame.slice(y=0.5e-3)
+holds("a slice", len(layer) == 20 and np.allclose(layer.reference[:, 1], 0.5e-3) and (layer["id"] == np.arange(200, 220)).all())
+holds("a slice midway is one layer", np.allclose(frame.slice(y=0.0).reference[:, 1], 0.5e-3) and len(frame.slice(y=0.0, thickness=1e-3)) == 40)
+holds("a slice of a slice", list(layer.slice(x=3.5e-3)["id"]) == [203] and len(frame.slice(x=1.0)) == 0)
+broken = frame[frame["damage"] > 0.3]
+holds("a mask", 0 < len(broken) < 400 and broken["damage"].min() > 0.3 and len(broken[:3].positions) == 3)
+holds("spacing", np.allclose(frame.spacing, 1e-3) and frame.dimension == 2 and len(layer.spacing) == 20)
+
+# shapes of particles: of a homogeneous deformation, beside a crack that opens, of a lone particle
+from cleave._shape import corners_of, deformation_gradients
+wanted = np.array([[1.2, 0.3], [-0.1, 0.9]])
+places = frame.reference[:, :2]
+none, one = np.zeros(400), np.zeros(400, dtype=int)
+holds("a homogeneous deformation", np.allclose(deformation_gradients(places, places @ wanted.T, 1e-3, none, one), wanted))
+parted = places + np.where(places[:, 1:] > 0, [[0, 1e-4]], [[0, 0]])
+flanks = (np.abs(places[:, 1]) < 1e-3).astype(float)
+holds("faces of a crack", np.allclose(deformation_gradients(places, parted, 1e-3, flanks, one), np.eye(2)))
+holds("two bodies", np.allclose(deformation_gradients(places, parted, 1e-3, none, (places[:, 1] > 0).astype(int)), np.eye(2)))
+holds("a lone particle", np.allclose(deformation_gradients(places[:1], parted[:1], 1e-3, none[:1], one[:1]), np.eye(2)))
+square = corners_of(frame)[210]
+holds("corners", square.shape == (4, 2) and np.allclose(square.mean(axis=0), frame.positions[210, :2], atol=1e-9)
+      and np.allclose(np.ptp(square, axis=0), 1e-3, rtol=0.02))
+
+# packages that only some functions need: one line says which and how to get it
+for name, need in (("matplotlib.pyplot", lambda: run.plot()), ("pandas", frame.to_pandas), ("pandas", history.to_pandas),
+                   ("vtkmodules.vtkCommonDataModel", frame.to_vtk), ("pyvista", frame.to_pyvista), ("h5py", lambda: frame["id"])):
+    kept, sys.modules[name] = sys.modules.get(name), None
+    try:
+        need()
+        sys.exit("test_python: without " + name)
+    except ImportError as fault:
+        holds("a missing package: %s" % fault, "pip install" in str(fault) and "\n" not in str(fault))
+    sys.modules.pop(name)
+    if kept:
+        sys.modules[name] = kept
+
+# scenes that are dictionaries: the bits of the scene in a file; what is refused names line, column and key
+plate = {"space": "plane stress", "thickness": "1 mm", "duration": 6e-6, "method": "pd",
+         "material": {"young": "72 GPa", "density": "2440 kg/m^3", "energy_release_rate": 135},
+         "body": {"box": {"from": [0, "-10 mm"], "to": ["20 mm", np.float64(0.01)]}}, "particles": {"spacing": "1 mm"},
+         "cracks": [{"from": [0, 0], "to": ["9.9 mm", 0]}],
+         "boundary": [{"traction": [0, "12 MPa"], "face": "y+"}, {"traction": np.array([0, -12e6]), "face": "y-"}],
+         "probes": ["tip", {"line": {"name": "middle", "from": [0, 5e-4], "to": ["20 mm", "0.5 mm"]}}],
+         "time": {"active_set": False},
+         "output": {"frames": 3, "samples": 10, "regions": [{"name": "left", "region": {"box": {"from": [0, -0.01], "to": [5e-3, 0.01]}}, "every": "3 us"}]}}
+told = []
+same = cleave.run(plate, {"name": "from_dictionary"}, output=work + "/dictionary", progress=told.append)
+holds("the bits of the scene in a file", (same.frames[-1]["stress"] == run.frames[-1]["stress"]).all() and same.summary["name"] == "from_dictionary")
+holds("progress", told and told[-1].step == told[-1].steps == same.summary["steps"] and told[-1].share == 1 and "step" in str(told[-1])
+      and np.isclose(told[-1].time, 6e-6, rtol=1e-3) and np.isclose(told[-1].crack_length, history["crack_length"][-1], rtol=0.01))
+holds("progress of load steps", cleave._program.progress_of("load step 3/50  12 equilibria  at most 2 min left  PD 100.0 %  crack 0.5 mm").seconds_left == 120)
+
+
+def faulty(entries, key, line, words, **more):
+    try:
+        cleave.Scene(entries, **more).check(trial=False)
+    except cleave.SceneError as fault:
+        holds("%s: %s" % (fault, vars(fault)), fault.key == key and fault.line == line and fault.status == 2 and words in fault.message)
+        holds("its place in the line", str(fault).endswith(fault.message) and (line is None or str(fault).startswith("<scene>:%d:" % line)))
+        return fault
+    sys.exit("test_python: not refused: " + words)
+
+
+fault = faulty({**plate, "duratoin": 1}, "duratoin", 41, "the nearest is duration")
+holds("its line", fault.source == "duratoin: 1" and fault.column == 1)
+faulty({**plate, "boundary": [plate["boundary"][0], {"traction": [0, "1 kg"], "face": "y-"}]}, "boundary.1.traction", 21, "1 kg is a mass")
+faulty(plate, "particles.spacing", None, "2 s is a time", changes={"particles.spacing": "2 s"})
+with open(work + "/faulty.yaml", "w") as file:
+    file.write("space: plane stress\nthickness: 1 s\n")
+try:
+    cleave.run(work + "/faulty.yaml")
+    sys.exit("test_python: a faulty file")
+except cleave.SceneError as fault:
+    holds("of a file: %s" % vars(fault), (fault.file, fault.line, fault.column, fault.source) == (work + "/faulty.yaml", 2, 1, "thickness: 1 s") and fault.key is None)
+for value in ({1, 2}, object()):
+    try:
+        cleave.Scene({"space": value})
+        sys.exit("test_python: a value of a type that scenes do not have")
+    except TypeError:
+        pass
+
+made = cleave.Scene({**plate, "name": "plate-1"})
+found = made.check(trial=False)
+holds("a sound scene", found == [] and found.rows["particles"][0].startswith("400: 400 peridynamic") and found.text.splitlines()[-1].endswith("is sound"))
+holds("hints", any("symmetric" in hint for hint in found.hints))
+found = made.changed({"material.young": "72 Pa", "output.regions": None}).check(trial=False)
+holds("a warning: %s" % found, any("check the units of young" in line for line in found) and made.changes == {})
+made.save(work + "/made.yaml")
+holds("saved", cleave.Scene(work + "/made.yaml").check(trial=False) == [] and open(work + "/made.yaml").read() == made.text)
+holds("a scene that includes others", cleave.Scene({"include": work + "/made.yaml", "thickness": 2e-3}).check(trial=False) == [])
+
+# an exception of the callback interrupts the run after a checkpoint, from which it continues
+try:
+    cleave.run(plate, {"duration": 0.1, "output.regions": None}, output=work + "/stopped", progress=lambda now: 1 / 0)
+    sys.exit("test_python: a callback that fails")
+except ZeroDivisionError:
+    holds("interrupted", cleave.open(work + "/stopped").status == "interrupted")
+
+# studies
+told = []
+study = cleave.sweep(plate, {"particles.spacing": ["2 mm", 4e-3], "boundary.0.traction": [[0, 6e6]]}, output=work + "/sweep", jobs=1, progress=told.append)
+holds("a sweep", list(study.sweep["state"]) == ["done"] * 2 and study.status == "study" and [p.step for p in told] == [1, 2] and told[-1].steps == 2)
+holds("its runs", list(study.runs) == list(study.sweep["run"]) and list(study.runs.values())[1].summary["particles"] == study.sweep["particles"][1] == 25)
+study = cleave.converge(plate, "energy.kinetic", {"output.frames": 0}, output=work + "/converge", levels=3, runs=1, budget=5, jobs=2)
+figure = study.figures["energy.kinetic"]
+holds("a figure: %s" % figure, figure.unit == "J" and figure.uncertainty > 0 and len(figure.means) == len(figure.spacings) == 3
+      and figure.value == study.converge["value"][0] and (np.diff(figure.spacings) > 0).all() and len(study.runs) >= 3)
+
+# a frame of the earlier form, complete by itself
+import h5py
+with h5py.File(frame.path, "r") as old, h5py.File(work + "/alone.hdf", "w") as new:
+    for name in ("VTKHDF", "Cleave"):
+        old.copy(name, new, expand_external=True)
+alone = cleave.Frame(work + "/alone.hdf", frame.time)
+holds("complete by itself", (alone["id"] == frame["id"]).all() and (alone.reference == frame.reference).all() and alone.scene == frame.scene)
 
 # a frame beside a particles file that is cut short, damaged, of another run or missing; then as it was
 beside = work + "/run/frames/particles_000000.h5"

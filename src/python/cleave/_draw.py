@@ -1,0 +1,137 @@
+"""Pictures by matplotlib."""
+
+from __future__ import annotations
+
+from typing import Any, Dict, List, Optional, Tuple
+
+import numpy as np
+
+from ._errors import need
+from ._fields import scale_of
+from ._shape import corners_of
+
+_EXTREME = 0.002                         # share of the values beyond either end of the colour bar
+
+
+def _axes_of(ax: Any) -> Any:
+    """Returns axes to draw into: those given, or new ones."""
+    return ax if ax is not None else need("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
+
+
+def _name_of(frame: Any, field: Optional[str]) -> str:
+    """Returns the field to draw: the given one, else what happens in the frame."""
+    if field is not None:
+        return field
+    for name in ("damage", "plastic_strain"):
+        if name in frame and frame[name].max(initial=0) > 0:
+            return name
+    return "von_mises"
+
+
+def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
+    """Returns one number for each particle, what it is in words, and its unit. A tensor is shown by its von Mises stress or its largest
+    component, a vector by its length."""
+    values, words, unit = frame[name], name.replace("_", " "), frame.unit(name)
+    if name == "stress":
+        return frame["von_mises"], "von Mises stress", unit
+    if values.ndim > 1:
+        return np.linalg.norm(values[:, :3], axis=1), "|%s|" % words, unit
+    return values.astype(float), {"von_mises": "von Mises stress"}.get(name, words), unit
+
+
+def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
+    """Returns the ends of the colour bar: those given, else all values but the extremes, symmetric about 0 for both signs."""
+    if given is not None:
+        return float(given[0]), float(given[1])
+    finite = values[np.isfinite(values)]
+    if len(finite) == 0:
+        return 0.0, 1.0
+    low, high = np.quantile(finite, [_EXTREME, 1 - _EXTREME])
+    if low == high:
+        low, high = finite.min(), finite.max()
+    if low < 0 < high and min(-low, high) > 0.05 * max(-low, high):
+        low, high = -max(-low, high), max(-low, high)
+    return float(low), float(high if high > low else low + 1.0)
+
+
+def _section(frame: Any, plane: Optional[Dict[str, float]]) -> Tuple[Any, Tuple[int, int], str]:
+    """Returns the particles of a solid to draw, the axes of the picture, and the section in words."""
+    reference = frame.reference
+    if plane is None:
+        axis = int(np.argmin(np.ptp(reference, axis=0)))
+        damaged = "damage" in frame and frame["damage"].max(initial=0) > 0
+        at = reference[np.argmax(frame["damage"]), axis] if damaged else reference[:, axis].min() + np.ptp(reference[:, axis]) / 2
+        plane = {"xyz"[axis]: float(at)}
+    (name, at), = plane.items()
+    axis = "xyz".index(name)
+    part = frame.slice(**{name: at})
+    if len(part) == 0:
+        raise ValueError("no particles at %s = %g m" % (name, at))
+    factor, unit = scale_of(float(np.abs(reference).max()), "m")
+    kept: List[int] = [k for k in range(3) if k != axis]
+    return part, (kept[0], kept[1]), "%s = %.4g %s" % (name, at * factor, unit)
+
+
+def _draw_line(frame: Any, name: str, ax: Any, magnify: float) -> Any:
+    """Draws a field of a bar as a curve over the position."""
+    values, words, unit = _values_of(frame, name)
+    reference = frame.reference[:, 0]
+    places = reference + (frame.positions[:, 0] - reference) * magnify
+    order = np.argsort(reference)
+    long, metres = scale_of(float(np.ptp(places)), "m")
+    factor, shown = scale_of(float(np.abs(values).max(initial=0)), unit)
+    ax.plot(long * places[order], factor * values[order])
+    ax.set_xlabel("x [%s]" % metres)
+    ax.set_ylabel(words + (" [%s]" % shown if shown else ""))
+    return ax
+
+
+def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: float = 1.0, limits: Any = None, colours: Optional[str] = None,
+               colour_bar: bool = True, slice: Optional[Dict[str, float]] = None) -> Any:
+    """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
+    need("matplotlib.pyplot", "plot")
+    from matplotlib.collections import PolyCollection
+    ax = _axes_of(ax)
+    name, words, axes = _name_of(frame, field), [], (0, 1)
+    tau, seconds = scale_of(frame.time, "s")
+    words.append("%.4g %s" % (frame.time * tau, seconds if frame.time > 0 else "s"))
+    if frame.dimension == 1:
+        ax.set_title(", ".join(words), fontsize="medium")
+        return _draw_line(frame, name, ax, magnify)
+    if frame.dimension == 3:
+        frame, axes, where = _section(frame, slice)
+        words.append(where)
+    if magnify != 1:
+        words.append("displacements times %g" % magnify)
+    values, label, unit = _values_of(frame, name)
+    low, high = _limits(values, limits)
+    factor, shown = scale_of(max(abs(low), abs(high)), unit)
+    corners = corners_of(frame, magnify, axes)
+    long, metres = scale_of(float(np.ptp(corners.reshape(-1, 2), axis=0).max(initial=0)) / 4, "m")
+    squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low < 0 < high else "viridis"),
+                             edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
+    squares.set_clim(factor * low, factor * high)
+    ax.add_collection(squares)
+    ax.autoscale_view()
+    ax.set_aspect("equal")
+    ax.set_xlabel("%s [%s]" % ("xyz"[axes[0]], metres))
+    ax.set_ylabel("%s [%s]" % ("xyz"[axes[1]], metres))
+    ax.set_title(", ".join(words), fontsize="medium")
+    if colour_bar:
+        beyond = (values.min(initial=low) < low, values.max(initial=high) > high)
+        ax.figure.colorbar(squares, ax=ax, label=label + (" [%s]" % shown if shown else ""),
+                           extend={(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither"))
+    return ax
+
+
+def draw_figure(figure: Any, ax: Any = None) -> Any:
+    """Draws the means of a figure with their error bars over the spacing, and its value as a band, and returns the axes."""
+    ax = _axes_of(ax)
+    long, metres = scale_of(float(figure.spacings.max()), "m")
+    factor, shown = scale_of(float(np.abs(figure.means).max()), figure.unit)
+    ax.axhspan(factor * (figure.value - figure.uncertainty), factor * (figure.value + figure.uncertainty), color="C0", alpha=0.15, linewidth=0)
+    ax.errorbar(long * figure.spacings, factor * figure.means, factor * figure.uncertainties, fmt="o", capsize=3)
+    ax.set_xlim(0, None)
+    ax.set_xlabel("spacing [%s]" % metres)
+    ax.set_ylabel(figure.name + (" [%s]" % shown if shown else ""))
+    return ax

@@ -1,0 +1,66 @@
+"""Exceptions of the module, and packages that only some functions need."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from types import ModuleType
+from typing import Optional
+
+PLACE = re.compile(r"(?P<file>.+?):(?P<line>\d+):(?P<column>\d+): (?P<message>.*)", re.S)
+OVERRIDE = re.compile(r"-s (?P<key>[^\s=]+)=.*?: (?P<message>.*)", re.S)
+
+# Name of a package for import: its names for pip and in Debian.
+PACKAGES = {"h5py": ("h5py", "python3-h5py"), "matplotlib.pyplot": ("matplotlib", "python3-matplotlib"),
+            "pandas": ("pandas", "python3-pandas"), "vtkmodules.vtkCommonDataModel": ("vtk", "python3-vtk9"),
+            "pyvista": ("pyvista", "")}
+
+
+class Error(Exception):
+    """Reports what the program refused or why it failed, in one line.
+
+    status   exit status: 1 the run failed, 2 the scene or the command line is wrong, 130 interrupted after a checkpoint;
+             None if the module itself found the fault
+    message  the line without file, line and column
+    """
+
+    def __init__(self, line: str, status: Optional[int] = None):
+        super().__init__(line)
+        self.status = status
+        self.message = line
+
+
+class SceneError(Error):
+    """Reports a fault of a scene and where it is.
+
+    file, line, column  location in the scene file, from 1; None for a fault of an override
+    key                 key at this location, as "boundary.0.traction": of overrides and of scenes that are dictionaries; else None
+    message             the fault and its remedy
+    source              text of the line in the scene, "" if unknown
+    """
+
+    def __init__(self, line: str, status: Optional[int], place: re.Match):
+        super().__init__(line, status)
+        found = place.groupdict()
+        self.message = found["message"]
+        self.file: Optional[str] = found.get("file")
+        self.line: Optional[int] = int(found["line"]) if "line" in found else None
+        self.column: Optional[int] = int(found["column"]) if "column" in found else None
+        self.key: Optional[str] = found.get("key")
+        self.source = ""
+
+
+def error_of(line: str, status: int) -> Error:
+    """Returns the exception for the program's last line: a SceneError if it names a location or an override."""
+    place = OVERRIDE.fullmatch(line) or PLACE.fullmatch(line)
+    return SceneError(line, status, place) if place and status == 2 else Error(line, status)
+
+
+def need(name: str, task: str) -> ModuleType:
+    """Imports a package that only some functions need. task: what needs it, for the message of the ImportError."""
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        pip, debian = PACKAGES[name]
+        remedy = "pip install %s%s" % (pip, "; Debian: apt-get install %s" % debian if debian else "")
+        raise ImportError("%s: the package %s is missing (%s)" % (task, pip, remedy)) from None

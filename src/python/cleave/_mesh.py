@@ -1,0 +1,45 @@
+"""Frames as grids of VTK."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._errors import need
+from ._shape import corners_of
+
+_VERTEX = 1
+_BOXES = {1: (3, 2), 2: (9, 4), 3: (12, 8)}     # by dimension: type of VTK's cell, its corners
+
+
+def grid_of(frame: Any, cells: str, magnify: float) -> Any:
+    """Returns a frame as vtkUnstructuredGrid. Arguments: Frame.to_vtk. Arrays are shared with numpy, which keeps them alive."""
+    model = need("vtkmodules.vtkCommonDataModel", "to_vtk")
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    if cells not in ("points", "boxes"):
+        raise ValueError('cells: "points" or "boxes", not %r' % (cells,))
+    count, dim = len(frame), frame.dimension
+    if cells == "points":
+        kind, corners = _VERTEX, 1
+        reference = frame.reference
+        places = frame.positions if magnify == 1 else reference + magnify * (frame.positions - reference)
+    else:
+        kind, corners = _BOXES[dim]
+        places = np.zeros((count * corners, 3))
+        places[:, :dim] = corners_of(frame, magnify).reshape(-1, dim)
+
+    grid, points, lists = model.vtkUnstructuredGrid(), vtkPoints(), model.vtkCellArray()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(places)))
+    grid.SetPoints(points)
+    lists.SetData(corners, numpy_to_vtkIdTypeArray(np.arange(count * corners, dtype=np.int64)))
+    grid.SetCells(kind, lists)
+    data = grid.GetPointData() if cells == "points" else grid.GetCellData()
+    fields = {name: frame[name] for name in frame.names}
+    fields.setdefault("spacing", frame.spacing)
+    for name, values in fields.items():
+        array = numpy_to_vtk(np.ascontiguousarray(values))
+        array.SetName(name)
+        data.AddArray(array)
+    return grid
