@@ -11,7 +11,10 @@
 #include "step/checks.h"
 
 #define ENERGY_DOUBTFUL                                                                                                \
-    0.05           /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
+    0.05 /* relative error of the energy balance that is reported: 10 times the largest in inputs/ */
+#define YIELD_DOUBTFUL                                                                                                 \
+    0.01 /* relative gain that is reported of bodies that yield by yield_stress and yield_tangent: 3 times the largest \
+            in inputs/ */
 #define FAST_TIP 5 /* [spacings] least growth of a tip whose speed is judged: shorter ones have not settled */
 #define DAMPED_DOUBTFUL                                                                                                \
     0.1 /* share of energy taken by interface damping that is reported: 3 times the largest in inputs/ */
@@ -103,6 +106,32 @@ void warn_of_fast_tips(const struct tips *t, const struct scene *s, struct warni
     warnings_add_and_print(to, text);
 }
 
+/* Returns the material of a scene that yields by yield_stress and yield_tangent, NULL if none does. Its plastic work is
+ * that of implicit Euler steps, sigma_(n+1) d eps_p, where the motion makes the work of the mean stress of a step. */
+static const struct material *yielding_material(const struct scene *s)
+{
+    const struct material *found = NULL;
+    for (int m = 0; m < s->materials && s->method != METHOD_PD; m++)
+        if (material_yields(&s->material[m]) && !s->material[m].law.given) found = &s->material[m];
+    return found;
+}
+
+/* Warns that energy comes from nowhere in a body that yields, with what makes it less. m: its material; error: relative
+ * error of the energy balance [1]. */
+static void say_yield_gain(const struct scene *s, const struct material *m, real error, struct warnings *to)
+{
+    char text[480], law[120] = "";
+    if (s->method == METHOD_MPM && scene_moves(s))
+        snprintf(law, sizeof law, ", and material.hardening: {linear: {modulus: %.4g}} counts it more exactly",
+                 m->yield_hardening);
+    snprintf(
+        text, sizeof text,
+        "%.2g %% of the energy comes from nowhere (energy.balance_error %.2g): the plastic work of yield_stress and "
+        "yield_tangent is counted with the stress at the end of each step; time.safety: %.2g halves the error%s",
+        100 * error, error, 0.5 * s->safety, law);
+    warnings_add_and_print(to, text);
+}
+
 void warn_of_imbalance(struct run *e)
 {
     const struct diagnostics *w = e->diagnostics;
@@ -115,6 +144,10 @@ void warn_of_imbalance(struct run *e)
     say_released(e->scene, w, &e->warnings);
     if (zone_damps(e->scene, e->coupling) && !round_off) say_damped(e->damped / w->energy_scale, &e->warnings);
     if (shock_text(e->scene, w, text, sizeof text)) warnings_add_and_print(&e->warnings, text);
+    const struct material *yields = yielding_material(e->scene);
+    if (!scene_moves(e->scene) || round_off) yields = NULL;
+    if (yields && error > YIELD_DOUBTFUL && error <= ENERGY_DOUBTFUL)
+        say_yield_gain(e->scene, yields, error, &e->warnings);
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
