@@ -21,8 +21,9 @@
 
 /* Factors of the weights of bonds near faces, by class of particle and offset. */
 struct surface_weights {
-    real spacing;            /* lattice spacing [m] */
-    int reach, dim;          /* largest component of a bond vector [spacings]; dimension */
+    real spacing;   /* lattice spacing [m] */
+    real residual;  /* of the least-squares problem, over that of factors of 1; large if its solver gave up [1] */
+    int reach, dim; /* largest component of a bond vector [spacings]; dimension */
     int offsets, *offset_at; /* neighbours of a full family; index of an offset by its position in a box of offsets */
     int32_t classes, *class_of; /* [n] class of equal surroundings of a particle; 0: no face nearby */
     uint8_t *mirrors;           /* [n] mirrors that turn the particle into one of its class, one bit per axis */

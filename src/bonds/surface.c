@@ -35,8 +35,9 @@ status surface_weights_make(struct surface_weights *to, const struct particles *
     face_targets_make(&f, &b, rotates);
     bond_classes_make(&a, &b);
     real *factor = NEW("surface.factors", a.groups, real);
-    surface_fit_factors(factor, &b, &f, &a, rotates);
+    const real left = surface_fit_factors(factor, &b, &f, &a, rotates, SURFACE_PRODUCTS);
     *to = (struct surface_weights){.spacing = s->family.spacing,
+                                   .residual = left,
                                    .reach = b.offset.reach,
                                    .dim = p->dim,
                                    .offsets = b.offset.n,

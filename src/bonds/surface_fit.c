@@ -394,8 +394,8 @@ static void bounds_make(struct fit *q, const struct near_faces *b, const struct 
     plain_parts(q, b, f, rotates);
 }
 
-void surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
-                         const struct bond_classes *a, bool rotates)
+real surface_fit_factors(real *factor, const struct near_faces *b, const struct face_targets *f,
+                         const struct bond_classes *a, bool rotates, int products)
 {
     struct moments m;
     moments_make(&m, &b->offset);
@@ -410,7 +410,7 @@ void surface_fit_factors(real *factor, const struct near_faces *b, const struct 
     memory_free(goal);
     prior_make(&q, &m);
     bounds_make(&q, b, f, rotates);
-    surface_solve(&q, factor);
+    const real left = surface_solve(&q, factor, products);
     memory_free(m.of);
     memory_free(q.class);
     memory_free(q.first);
@@ -418,4 +418,5 @@ void surface_fit_factors(real *factor, const struct near_faces *b, const struct 
     memory_free(q.prior);
     memory_free(q.low);
     memory_free(q.high);
+    return left;
 }

@@ -162,13 +162,18 @@ struct fit {
     real *prior, *low, *high;     /* [groups] weight of (f - 1)^2; bounds of f, equal if f is given */
 };
 
+/* Largest number of products of surface_solve; most bodies take 60 to 250, thin ones with cracks in space 700. */
+enum { SURFACE_PRODUCTS = 1000 };
+
 /* Solves the least-squares problem q for the factors by Newton's method on its dual (surface_solve.c). factor: receives
- * the factors [groups]. */
-void surface_solve(const struct fit *q, real *factor);
+ * the factors [groups]. products: largest number of products with the matrix of the dual problem, fewer in large
+ * bodies. Returns the residual that is left, over that of factors of 1 [1]. */
+real surface_solve(const struct fit *q, real *factor, int products);
 
 /* Computes the factors on the weights of all groups of bonds near faces by bounded least squares (surface_fit.c).
- * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations. */
-void surface_fit_factors(real *factor, const struct near_faces *near, const struct face_targets *targets,
-                         const struct bond_classes *classes, bool rotates);
+ * factor: [classes->groups] [1]; targets: targets of the fit; rotates: true for the model with particle rotations.
+ * products: as in surface_solve. Returns the residual that is left, over the first one [1]. */
+real surface_fit_factors(real *factor, const struct near_faces *near, const struct face_targets *targets,
+                         const struct bond_classes *classes, bool rotates, int products);
 
 #endif

@@ -15,11 +15,10 @@
 #include "base/team.h"
 #include "surface_parts.h"
 
-#define CLOSE 1e-13   /* relative reduction of R at which the solver stops */
-#define ROUGH 0.1     /* largest residual of a linear system, relative to R */
-#define STEEP 0.1     /* largest slope after a step, relative to that before it */
-#define PRODUCTS 1000 /* largest number of products; most bodies take 60 to 250, thin ones with cracks in space 700 */
-#define WORK 2.5e10   /* largest number of multiplications: 10 s on two cores */
+#define CLOSE 1e-13 /* relative reduction of R at which the solver stops */
+#define ROUGH 0.1   /* largest residual of a linear system, relative to R */
+#define STEEP 0.1   /* largest slope after a step, relative to that before it */
+#define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
 enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
@@ -302,19 +301,21 @@ static void step_take(struct descent *d)
     array_copy(d->residual, d->next_residual, d->n, sizeof(real));
 }
 
-static void descend(struct descent *d)
+/* Makes steps of Newton's method until R is small or the products are used up. Returns R over its first value [1]. */
+static real descend(struct descent *d)
 {
     residual_make(d, d->multiplier, d->residual);
     const real first = sqrt(inner(d->n, d->residual, d->residual));
-    while (d->products < d->most) {
-        const real left = sqrt(inner(d->n, d->residual, d->residual)) / first;
-        if (!(left > CLOSE)) break;
+    real left = first > 0 ? 1 : 0;
+    while (left > CLOSE && d->products < d->most) {
         step_solve(d, fmax(fmin(ROUGH, left), 0.5 * CLOSE / left));
         step_take(d);
+        left = sqrt(inner(d->n, d->residual, d->residual)) / first;
     }
+    return left;
 }
 
-void surface_solve(const struct fit *q, real *factor)
+real surface_solve(const struct fit *q, real *factor, int products)
 {
     const int width = q->thirds + q->fourths;
     const int64_t classes = q->alike->classes, n = classes * width;
@@ -330,11 +331,12 @@ void surface_solve(const struct fit *q, real *factor)
     for (int32_t class = 1; class < q->alike->classes; class ++) images_count(&d, class);
     d.change = NEW("surface.change", q->alike->groups, real);
     d.value = NEW("surface.value", classes * q->offsets, real);
-    d.most = (int)fmin(PRODUCTS, WORK / work);
-    if (q->alike->groups > 0) descend(&d);
+    d.most = (int)fmin(products, WORK / work);
+    const real left = q->alike->groups > 0 ? descend(&d) : 0;
     memory_free(all);
     memory_free(d.block);
     memory_free(d.images);
     memory_free(d.change);
     memory_free(d.value);
+    return left;
 }

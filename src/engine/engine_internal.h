@@ -70,6 +70,18 @@ void engine_warn_of_speed(const struct scene *s, const struct loads *loads, cons
 void engine_warn_of_supports(const struct scene *s, const struct loads *loads, const struct particles *p,
                              struct warnings *to);
 
+/* Adds warnings to *to about bodies of a few rows of particles, whose stiffness pd.surface: moments cannot correct, and
+ * about weights of bonds near faces whose solver has given up. w: these weights. */
+void engine_warn_of_faces(const struct scene *s, const struct particles *p, const struct surface_weights *w,
+                          struct warnings *to);
+
+/* Computes the box of the particles of body b and of all that are joined to it [m]. Returns false if there are none. */
+bool engine_body_box(const struct scene *s, const struct particles *p, int b, real *low, real *high);
+
+/* Returns the number of particles along an axis between the positions low and high [m], including their images beyond
+ * planes of symmetry. */
+real engine_particles_across(const struct scene *s, real low, real high, int axis);
+
 /* Adds warnings to *to about solids of the shape of a body that add nothing to it or remove nothing from it. */
 void engine_warn_of_shapes(const struct scene *s, struct warnings *to);
 

@@ -212,6 +212,7 @@ void engine_warn_of_input(struct run *e)
     engine_warn_of_speed(s, &e->loads, &e->part, to);
     engine_warn_of_supports(s, &e->loads, &e->part, to);
     engine_warn_of_shapes(s, to);
+    engine_warn_of_faces(s, &e->part, &e->tables.surface, to);
     engine_warn_of_encounters(s, &e->part, to);
     engine_warn_of_output(s, to);
     warn_of_fields(s->fields, &e->part, &e->bonds, to);

@@ -278,9 +278,7 @@ bool crack_meets_box(const struct crack *c, const real *low, const real *high, i
     return meets;
 }
 
-/* Returns the number of particles along an axis between the positions low and high [m], including their images beyond
- * planes of symmetry. */
-static real particles_across(const struct scene *s, real low, real high, int axis)
+real engine_particles_across(const struct scene *s, real low, real high, int axis)
 {
     real n = round((high - low) / s->spacing) + 1;
     for (int b = 0; b < s->boundaries; b++)
@@ -295,25 +293,33 @@ static void units_of_body(const struct scene *s, const char *name, const real *l
     char subject[NAME_MAX_LENGTH + 16], note[80];
     real least = INFINITY;
     for (int d = 0; d < s->dim; d++) {
-        const real n = particles_across(s, low[d], high[d], d);
+        const real n = engine_particles_across(s, low[d], high[d], d);
         if (n < least) least = n, snprintf(note, sizeof note, ", along %c", "xyz"[d]);
     }
     snprintf(subject, sizeof subject, "body %s", name);
     units_judge(s, ACCEPT_PARTICLES, subject, least, note, to);
 }
 
+bool engine_body_box(const struct scene *s, const struct particles *p, int b, real *low, real *high)
+{
+    for (int d = 0; d < s->dim; d++) {
+        low[d] = INFINITY, high[d] = -INFINITY;
+        for (int64_t i = 0; i < p->n; i++) {
+            if (s->body[p->body[i]].joined != b) continue;
+            low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
+        }
+    }
+    return high[0] >= low[0];
+}
+
 /* Warns of bodies with a pre-crack that have few particles across (units_of_body). Joined bodies count as one. */
 static void units_of_particles(const struct scene *s, const struct particles *p, struct warnings *to)
 {
     for (int b = 0; b < s->bodies && s->cracks > 0 && p->n == p->n_body; b++) {
-        real low[DIM_MAX] = {INFINITY, INFINITY, INFINITY}, high[DIM_MAX] = {-INFINITY, -INFINITY, -INFINITY};
+        real low[DIM_MAX], high[DIM_MAX];
         bool cracked = false;
-        for (int d = 0; d < s->dim; d++)
-            for (int64_t i = 0; i < p->n; i++) {
-                if (s->body[p->body[i]].joined != b) continue;
-                low[d] = real_min(low[d], p->X[d][i]), high[d] = real_max(high[d], p->X[d][i]);
-            }
-        for (int k = 0; k < s->cracks && high[0] >= low[0]; k++)
+        if (!engine_body_box(s, p, b, low, high)) continue;
+        for (int k = 0; k < s->cracks; k++)
             cracked = cracked || crack_meets_box(&s->crack[k], low, high, s->dim, s->spacing);
         if (cracked) units_of_body(s, s->body[b].name, low, high, to);
     }

@@ -1,0 +1,34 @@
+/* Warnings where pd.surface: moments fails: weights whose solver has given up. Bodies of a few rows: test_meant.sh. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "src/engine/engine_internal.h"
+
+static void weights_that_are_not_solved(void **state)
+{
+    (void)state;
+    static const struct {
+        real residual;
+        enum surface_rule surface;
+        int warnings;
+    } cases[] = {{1e-13, SURFACE_MOMENTS, 0}, {0.02, SURFACE_MOMENTS, 1}, {0.02, SURFACE_NONE, 0}};
+    for (size_t k = 0; k < COUNT_OF(cases); k++) {
+        const struct scene s = {.method = METHOD_PD, .dim = 2, .surface = cases[k].surface};
+        const struct particles p = {0};
+        const struct surface_weights w = {.residual = cases[k].residual};
+        struct warnings to = {0};
+        engine_warn_of_faces(&s, &p, &w, &to);
+        assert_int_equal(to.n, cases[k].warnings);
+        if (to.n > 0) assert_non_null(strstr(to.text[0], "has given up at a residual of 0.02 of the first one"));
+        warnings_free(&to);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(weights_that_are_not_solved)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
