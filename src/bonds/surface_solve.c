@@ -19,19 +19,24 @@
 #define ROUGH 0.1   /* largest residual of a linear system, relative to R */
 #define STEEP 0.1   /* largest slope after a step, relative to that before it */
 #define WORK 2.5e10 /* largest number of multiplications: 10 s on two cores */
-enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2 };
+/* TOGETHER: number of classes whose blocks are stored interleaved, and solved together by vector instructions */
+enum { SHORTENINGS = 20, BLOCK = MOMENTS * (MOMENTS + 1) / 2, TOGETHER = 4 };
 
 /* State of the solver. Vectors have one number for each moment of each class: [classes width]. */
 struct descent {
     const struct fit *fit;
     int64_t n;
-    int width, products, most;
+    int width, products, most, systems; /* systems: number of linear systems so far */
     real *multiplier, *residual, *step, *left, *weighed, *direction, *image, *next, *next_residual;
-    real *block;     /* [classes BLOCK] lower triangles of the Cholesky factors of the blocks */
-    uint8_t *images; /* [classes offsets] number of bonds of the group in the class */
-    real *factor;    /* [groups] factors of the bonds */
-    real *change;    /* [groups] change of the factors along `direction` */
-    real *value;     /* [classes offsets] product of the moments of a bond with the multipliers of its class */
+    /* [classes/TOGETHER, BLOCK, TOGETHER] lower triangles of the Cholesky factors of the blocks */
+    real (*block)[TOGETHER];
+    uint8_t *images;  /* [classes offsets] number of bonds of the group in the class */
+    real *factor;     /* [groups] factors of the bonds */
+    uint8_t *between; /* [groups] 1: in the present linear system the factor is between its bounds */
+    uint8_t *turned;  /* [groups] 1: not so in the last linear system, or only there */
+    uint8_t *changes; /* [classes offsets/2] 1: the factor of one of two opposite bonds is between its bounds */
+    real *change;     /* [groups] change of the factors along `direction` */
+    real *value;      /* [classes offsets] product of the moments of a bond with the multipliers of its class */
 };
 
 struct pair {
@@ -53,11 +58,13 @@ static real inner(int64_t n, const real *a, const real *b)
 
 /* ---- products ---------------------------------------------------------------------------------------------------- */
 
-/* Computes the products of the moments of all bonds of a class with the vector `by`. */
-static ALWAYS_INLINE void class_back(const struct fit *q, const real *by, real *value, const int thirds,
-                                     const int fourths)
+/* Computes the products of the moments of the bonds of a class with the vector `by`. changes: skips pairs of opposite
+ * bonds without a mark, unless NULL. */
+static ALWAYS_INLINE void class_back(const struct fit *q, const uint8_t *changes, const real *by, real *value,
+                                     const int thirds, const int fourths)
 {
     for (int k = 0; k < q->offsets / 2; k++) { /* opposite bonds have opposite third moments and equal fourth moments */
+        if (changes && !changes[k]) continue;
         const real *of = q->of + (int64_t)k * (thirds + fourths);
         real odd[2] = {0}, even[2] = {0};
         for (int x = 0; x < thirds; x += 2)
@@ -69,14 +76,15 @@ static ALWAYS_INLINE void class_back(const struct fit *q, const real *by, real *
     }
 }
 
-/* Subtracts the sum of the moments of the bonds of a class, times x of their groups, from `to`. */
-static ALWAYS_INLINE void class_sum(const struct fit *q, const int64_t *group, const real *x, real *to,
-                                    const int thirds, const int fourths)
+/* Subtracts the sum of the moments of the bonds of a class, times x of their groups, from `to`. changes: skips pairs of
+ * opposite bonds without a mark, for which x is 0, unless NULL. */
+static ALWAYS_INLINE void class_sum(const struct fit *q, const uint8_t *changes, const int64_t *group, const real *x,
+                                    real *to, const int thirds, const int fourths)
 {
     real sum[MOMENTS] = {0};
     for (int k = 0; k < q->offsets / 2; k++) {
         const int64_t one = group[k], other = group[q->offsets - 1 - k];
-        if (one < 0 && other < 0) continue;
+        if (changes ? !changes[k] : one < 0 && other < 0) continue;
         const real a = one < 0 ? 0 : x[one], b = other < 0 ? 0 : x[other], odd = a - b, even = a + b;
         const real *of = q->of + (int64_t)k * (thirds + fourths);
         for (int m = 0; m < thirds; m++) sum[m] += odd * of[m];
@@ -96,39 +104,49 @@ static ALWAYS_INLINE void class_weigh(const struct class_fit *c, const real *of,
         for (int x = 0; x < fourths; x++) to[thirds + x] += c->fourth[y][x] * of[thirds + y];
 }
 
-/* Computes `value` of all bonds from the vector x. */
-static void all_back(struct descent *d, const real *x)
+/* Returns the marks of the pairs of bonds of a class, in the array `changes` of all classes; NULL if that is NULL. */
+static const uint8_t *marks_of(const struct fit *q, const uint8_t *changes, int32_t class)
+{
+    return changes ? changes + (int64_t) class * (q->offsets / 2) : NULL;
+}
+
+/* Computes `value` of the bonds from the vector x: of all, or, if `changes` is not NULL, of pairs with a mark. */
+static void all_back(struct descent *d, const uint8_t *changes, const real *x)
 {
     const struct fit *q = d->fit;
     const bool solid = q->thirds == THIRDS;
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < q->alike->classes; class ++) {
+        const uint8_t *marks = marks_of(q, changes, class);
         const real *by = x + (int64_t) class * d->width;
         real *value = d->value + (int64_t) class * q->offsets;
         if (solid)
-            class_back(q, by, value, THIRDS, FOURTHS);
+            class_back(q, marks, by, value, THIRDS, FOURTHS);
         else
-            class_back(q, by, value, THIRDS_2D, FOURTHS_2D);
+            class_back(q, marks, by, value, THIRDS_2D, FOURTHS_2D);
     }
 }
 
-/* Computes to = Q^-1 by - sum of moments times x of the groups, plus the goals if `goals`. */
-static void all_sum(const struct descent *d, const real *by, const real *x, bool goals, real *to)
+/* Computes to = Q^-1 by - sum of moments times x of the groups, plus the goals if `goals`. changes: marks of pairs of
+ * bonds, without which x is 0, or NULL. */
+static void all_sum(const struct descent *d, const uint8_t *changes, const real *by, const real *x, bool goals,
+                    real *to)
 {
     const struct fit *q = d->fit;
     const bool solid = q->thirds == THIRDS;
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < q->alike->classes; class ++) {
         const int64_t at = (int64_t) class * d->width, *group = q->alike->group_of + (int64_t) class * q->offsets;
+        const uint8_t *marks = marks_of(q, changes, class);
         if (solid)
             class_weigh(&q->class[class], by + at, to + at, THIRDS, FOURTHS);
         else
             class_weigh(&q->class[class], by + at, to + at, THIRDS_2D, FOURTHS_2D);
         for (int m = 0; m < d->width && goals; m++) to[at + m] += q->class[class].goal[m];
         if (solid)
-            class_sum(q, group, x, to + at, THIRDS, FOURTHS);
+            class_sum(q, marks, group, x, to + at, THIRDS, FOURTHS);
         else
-            class_sum(q, group, x, to + at, THIRDS_2D, FOURTHS_2D);
+            class_sum(q, marks, group, x, to + at, THIRDS_2D, FOURTHS_2D);
     }
 }
 
@@ -141,21 +159,15 @@ static real group_sum(const struct descent *d, int64_t g)
     return sum;
 }
 
-/* Returns true if the factor of a group is between its bounds. */
-static bool between_bounds(const struct descent *d, int64_t g)
-{
-    return d->factor[g] > d->fit->low[g] && d->factor[g] < d->fit->high[g];
-}
-
 /* Computes the factors from multipliers x, and R from both. */
 static void residual_make(struct descent *d, const real *x, real *residual)
 {
     const struct fit *q = d->fit;
-    all_back(d, x);
+    all_back(d, NULL, x);
 #pragma omp parallel for schedule(static)
     for (int64_t g = 0; g < q->alike->groups; g++)
         d->factor[g] = fmin(fmax(1 - group_sum(d, g) / q->prior[g], q->low[g]), q->high[g]);
-    all_sum(d, x, d->factor, true, residual);
+    all_sum(d, NULL, x, d->factor, true, residual);
     d->products++;
 }
 
@@ -163,11 +175,10 @@ static void residual_make(struct descent *d, const real *x, real *residual)
 static void image_make(struct descent *d)
 {
     const struct fit *q = d->fit;
-    all_back(d, d->direction);
+    all_back(d, d->changes, d->direction);
 #pragma omp parallel for schedule(static)
-    for (int64_t g = 0; g < q->alike->groups; g++)
-        d->change[g] = between_bounds(d, g) ? -group_sum(d, g) / q->prior[g] : 0;
-    all_sum(d, d->direction, d->change, false, d->image);
+    for (int64_t g = 0; g < q->alike->groups; g++) d->change[g] = d->between[g] ? -group_sum(d, g) / q->prior[g] : 0;
+    all_sum(d, d->changes, d->direction, d->change, false, d->image);
     d->products++;
 }
 
@@ -187,22 +198,24 @@ static void cholesky(real *a, int n)
     }
 }
 
-/* Solves with a Cholesky factor, in place: x = A^-1 x. */
-static void cholesky_solve(const real *a, int n, real *x)
+/* Solves with the Cholesky factors a of TOGETHER matrices, in place: x = A^-1 x. */
+static void cholesky_solve(const real (*a)[TOGETHER], int n, real (*x)[TOGETHER])
 {
-    const real *column = a;
+    const real(*column)[TOGETHER] = a;
     for (int c = 0; c < n; column += n - c, c++) {
-        x[c] *= column[0];
-        for (int r = 1; r < n - c; r++) x[c + r] -= column[r] * x[c];
+        for (int l = 0; l < TOGETHER; l++) x[c][l] *= column[0][l];
+        for (int r = 1; r < n - c; r++)
+            for (int l = 0; l < TOGETHER; l++) x[c + r][l] -= column[r][l] * x[c][l];
     }
     for (int c = n - 1; c >= 0; c--) {
-        column -= n - c;
-        real sum[2] = {0}, *rest = x + c;
+        real odd[TOGETHER] = {0}, even[TOGETHER] = {0}, (*rest)[TOGETHER] = x + c;
         int r = 1;
+        column -= n - c;
         for (; r + 1 < n - c; r += 2)
-            for (int l = 0; l < 2; l++) sum[l] += column[r + l] * rest[r + l];
-        if (r < n - c) sum[0] += column[r] * rest[r];
-        x[c] = (x[c] - (sum[0] + sum[1])) * column[0];
+            for (int l = 0; l < TOGETHER; l++)
+                odd[l] += column[r][l] * rest[r][l], even[l] += column[r + 1][l] * rest[r + 1][l];
+        for (int l = 0; l < TOGETHER && r < n - c; l++) odd[l] += column[r][l] * rest[r][l];
+        for (int l = 0; l < TOGETHER; l++) x[c][l] = (x[c][l] - (odd[l] + even[l])) * column[0][l];
     }
 }
 
@@ -221,7 +234,7 @@ static void images_count(const struct descent *d, int32_t class)
 static real block_weight(const struct descent *d, int32_t class, int k)
 {
     const int64_t at = (int64_t) class * d->fit->offsets + k, group = d->fit->alike->group_of[at];
-    return group < 0 || !between_bounds(d, group) ? 0 : d->images[at] / d->fit->prior[group];
+    return group < 0 || !d->between[group] ? 0 : d->images[at] / d->fit->prior[group];
 }
 
 /* Computes the Cholesky factor of the block of a class. */
@@ -230,7 +243,7 @@ static void block_make(const struct descent *d, int32_t class)
     const struct fit *q = d->fit;
     const struct class_fit *c = &q->class[class];
     const int width = d->width, thirds = q->thirds;
-    real *block = d->block + (int64_t) class * BLOCK;
+    real block[BLOCK], (*all)[TOGETHER] = d->block + (int64_t)(class / TOGETHER) * BLOCK;
     for (int r = 0, at = 0; r < width; r++)
         for (int s = r; s < width; s++, at++)
             block[at] = s < thirds ? c->third[r][s] : r < thirds ? 0 : c->fourth[r - thirds][s - thirds];
@@ -249,16 +262,64 @@ static void block_make(const struct descent *d, int32_t class)
     for (int r = 0, at = 0; r < width; at += width - r, r++) /* padding */
         if (block[at] == 0) block[at] = 1;
     cholesky(block, width);
+    for (int at = 0; at < width * (width + 1) / 2; at++) all[at][class % TOGETHER] = block[at];
+}
+
+/* Returns true if the factor of a bond of a class has met or left a bound since the last linear system. */
+static bool class_turned(const struct descent *d, int32_t class)
+{
+    const int n = d->fit->offsets;
+    const int64_t *group = d->fit->alike->group_of + (int64_t) class * n;
+    for (int k = 0; k < n; k++)
+        if (group[k] >= 0 && d->turned[group[k]]) return true;
+    return false;
+}
+
+/* Marks the pairs of opposite bonds of a class of which a factor is between its bounds. */
+static void class_mark(struct descent *d, int32_t class)
+{
+    const int n = d->fit->offsets;
+    const int64_t *group = d->fit->alike->group_of + (int64_t) class * n;
+    for (int k = 0; k < n / 2; k++) {
+        const int64_t one = group[k], other = group[n - 1 - k];
+        d->changes[(int64_t) class * (n / 2) + k] = (one >= 0 && d->between[one]) || (other >= 0 && d->between[other]);
+    }
+}
+
+/* Sets the matrix of the linear system for the present factors: which are between their bounds, and the blocks of the
+ * classes where that has changed since the last linear system. */
+static void system_make(struct descent *d)
+{
+#pragma omp parallel for schedule(static)
+    for (int64_t g = 0; g < d->fit->alike->groups; g++) {
+        const bool between = d->factor[g] > d->fit->low[g] && d->factor[g] < d->fit->high[g];
+        d->turned[g] = d->between[g] != between;
+        d->between[g] = between;
+    }
+#pragma omp parallel for schedule(dynamic, TOGETHER)
+    for (int32_t class = 1; class < d->fit->alike->classes; class ++) {
+        if (d->systems > 0 && !class_turned(d, class)) continue;
+        class_mark(d, class);
+        block_make(d, class);
+    }
+    d->systems++;
 }
 
 /* Computes weighed = blocks^-1 left. */
 static void left_weigh(struct descent *d)
 {
+    const int32_t classes = d->fit->alike->classes;
+    const int width = d->width;
 #pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < d->fit->alike->classes; class ++) {
-        const int64_t at = (int64_t) class * d->width;
-        array_copy(d->weighed + at, d->left + at, d->width, sizeof(real));
-        cholesky_solve(d->block + (int64_t) class * BLOCK, d->width, d->weighed + at);
+    for (int32_t first = 0; first < classes; first += TOGETHER) {
+        real x[MOMENTS][TOGETHER] = {{0}};
+        const int64_t at = (int64_t)first * width;
+        const int lanes = classes - first < TOGETHER ? classes - first : TOGETHER;
+        for (int l = 0; l < lanes; l++)
+            for (int m = 0; m < width; m++) x[m][l] = d->left[at + l * width + m];
+        cholesky_solve(d->block + (int64_t)(first / TOGETHER) * BLOCK, width, x);
+        for (int l = 0; l < lanes; l++)
+            for (int m = 0; m < width; m++) d->weighed[at + l * width + m] = x[m][l];
     }
 }
 
@@ -269,8 +330,7 @@ static void step_solve(struct descent *d, real share)
 {
     real before = 0;
     const real enough = square(share) * inner(d->n, d->residual, d->residual);
-#pragma omp parallel for schedule(static)
-    for (int32_t class = 1; class < d->fit->alike->classes; class ++) block_make(d, class);
+    system_make(d);
     array_fill_bytes(d->step, 0, d->n, sizeof(real));
     array_fill_bytes(d->direction, 0, d->n, sizeof(real));
     array_copy(d->left, d->residual, d->n, sizeof(real));
@@ -325,11 +385,14 @@ real surface_solve(const struct fit *q, real *factor, int products)
                              &d.direction,  &d.image,    &d.next, &d.next_residual};
     real *all = NEW("surface.descent", n * (int64_t)COUNT_OF(vector), real);
     for (size_t k = 0; k < COUNT_OF(vector); k++) *vector[k] = all + (int64_t)k * n;
-    d.block = BARE("surface.block", classes * BLOCK, real);
+    d.block = memory_new("surface.block", (classes + TOGETHER - 1) / TOGETHER * BLOCK, sizeof *d.block);
     d.images = NEW("surface.images", classes * q->offsets, uint8_t);
 #pragma omp parallel for schedule(static)
     for (int32_t class = 1; class < q->alike->classes; class ++) images_count(&d, class);
     d.change = NEW("surface.change", q->alike->groups, real);
+    d.between = NEW("surface.between", q->alike->groups, uint8_t);
+    d.turned = NEW("surface.turned", q->alike->groups, uint8_t);
+    d.changes = NEW("surface.changes", classes * (q->offsets / 2), uint8_t);
     d.value = NEW("surface.value", classes * q->offsets, real);
     d.most = (int)fmin(products, WORK / work);
     const real left = q->alike->groups > 0 ? descend(&d) : 0;
@@ -337,6 +400,9 @@ real surface_solve(const struct fit *q, real *factor, int products)
     memory_free(d.block);
     memory_free(d.images);
     memory_free(d.change);
+    memory_free(d.between);
+    memory_free(d.turned);
+    memory_free(d.changes);
     memory_free(d.value);
     return left;
 }
