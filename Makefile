@@ -18,8 +18,9 @@ LIBRARIES := hdf5 hwloc yaml-0.1 libpng libtiff-4
 
 CPPFLAGS += -I. -Iinclude -I$(BUILD) -D_GNU_SOURCE -DCLEAVE_VERSION='"$(VERSION)"'
 CFLAGS   += -std=c11 $(OPTIMISE) $(DEBUG) -ffp-contract=fast -fno-math-errno -fno-trapping-math -fopenmp $(WARN)
-LIBFLAGS  = $(shell pkg-config --cflags $(LIBRARIES))
-LIBS      = $(shell pkg-config --libs $(LIBRARIES)) -lm
+# Asked once, when the first recipe needs them: the targets that install packages read this file before those are there.
+LIBFLAGS  = $(eval LIBFLAGS := $(shell pkg-config --cflags $(LIBRARIES)))$(LIBFLAGS)
+LIBS      = $(eval LIBS := $(shell pkg-config --libs $(LIBRARIES)) -lm)$(LIBS)
 
 # Kernels are compiled once for each set of vector instructions; the program takes one at start (src/simd/simd.c). The rest is
 # for any machine of its kind, or for ARCH (native, ...). Debuggers see their lines, not their variables (-g1), which of code
@@ -72,8 +73,9 @@ all: $(BUILD)/cleave $(BUILD)/cleave.schema.json
 $(PROGRAMS:=.o) $(BUILD)/tests/robustness/faults.o: OPTIMISE := -O1
 $(BUILD)/bench/%.o: OPTIMISE := -O2
 
-# Nor do commands, readers of scenes, studies and exports take time when they run.
-$(BUILD)/src/app/%.o $(BUILD)/src/export/%.o $(BUILD)/src/scene/%.o $(BUILD)/src/study/%.o: OPTIMISE := -O1
+# Nor do commands, readers of scenes and shapes, studies, exports and the bookkeeping of runs take time when they run.
+COLD     := app engine export geometry scene study
+$(COLD:%=$(BUILD)/src/%/%.o): OPTIMISE := -O1
 
 # Short lines unless V=1.
 Q = $(if $(V),,@echo "  $(if $(filter %.o,$@),CC,LD)  $@";)
