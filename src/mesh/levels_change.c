@@ -41,15 +41,22 @@ static struct cell_around coarse_around(const struct mesh_levels *l, int64_t I, 
     return a;
 }
 
-/* Interpolates a nodal field of the coarse mesh to the position `a` in a cell. */
-static real field_at(const struct mesh *mesh, const struct cell_around *a, const real *field)
+/* Computes the weights of the corners of a cell at the position `a` in the cell [corners, 1]. */
+static void coarse_corner_weights(const struct cell_around *a, int dim, real *weight)
+{
+    for (int c = 0; c < 1 << dim; c++) {
+        weight[c] = 1;
+        for (int d = 0; d < dim; d++) weight[c] *= c >> d & 1 ? a->t[d] : 1 - a->t[d];
+    }
+}
+
+/* Interpolates a nodal field of the coarse mesh inside a cell. weight: of the corners of the cell, from
+ * coarse_corner_weights. */
+static real field_at(const struct mesh *mesh, int64_t cell, const real *weight, const real *field)
 {
     real value = 0;
-    for (int c = 0; c < 1 << mesh->grid.dim; c++) {
-        real share = 1;
-        for (int d = 0; d < mesh->grid.dim; d++) share *= c >> d & 1 ? a->t[d] : 1 - a->t[d];
-        if (share > 0) value += share * field[a->cell + mesh->corner[c]];
-    }
+    for (int c = 0; c < 1 << mesh->grid.dim; c++)
+        if (weight[c] > 0) value += weight[c] * field[cell + mesh->corner[c]];
     return value;
 }
 
@@ -60,9 +67,11 @@ static void node_interpolate(struct mesh_levels *l, int64_t I, const int64_t *k)
     const struct cell_around a = coarse_around(l, I, k);
     if (a.level == 0) return;
     const struct mesh *mesh = &l->at[a.level].mesh;
+    real weight[CORNERS_MAX];
+    coarse_corner_weights(&a, fine->grid.dim, weight);
     for (int d = 0; d < fine->grid.dim; d++) {
-        fine->displacement[d][I] = field_at(mesh, &a, mesh->displacement[d]);
-        fine->grid.velocity[d][I] = field_at(mesh, &a, mesh->grid.velocity[d]);
+        fine->displacement[d][I] = field_at(mesh, a.cell, weight, mesh->displacement[d]);
+        fine->grid.velocity[d][I] = field_at(mesh, a.cell, weight, mesh->grid.velocity[d]);
     }
 }
 

@@ -81,13 +81,14 @@ int64_t diagnostics_first_break(const struct particles *p, const int32_t *list, 
     return ends;
 }
 
-/* Returns true if a driven particle has just lost a bond. */
+/* Returns true if a driven particle has just lost a bond. Evaluates all particles, without an early exit, so that the
+ * loop is compiled to vector instructions. */
 static bool driven_breaks(const struct particles *p)
 {
     const uint8_t both = FLAG_DRIVEN | FLAG_LOST_BOND;
-    for (int64_t i = 0; i < p->n; i++)
-        if ((p->flag[i] & both) == both) return true;
-    return false;
+    uint8_t any = 0;
+    for (int64_t i = 0; i < p->n; i++) any |= (p->flag[i] & both) == both;
+    return any != 0;
 }
 
 bool diagnostics_record_breaks(struct diagnostics *w, const struct particles *p, real horizon, int64_t broken, real t)

@@ -302,7 +302,10 @@ void sample_begin(struct run *e)
     probes_store_motion(&e->probing->probes, &o);
     keep_velocities(sampling, &e->part, e->coupling_kind);
     sampling->t_velocity = o.t_velocity;
-    momentum_now(&e->part, e->frame, sampling->momentum);
+    if (sampling->due) /* sample_state has computed it */
+        array_copy(sampling->momentum, e->diagnostics->now.momentum, e->part.dim, sizeof(real));
+    else
+        momentum_now(&e->part, e->frame, sampling->momentum);
     sampling->kinetic = kinetic_now(&e->part, e->frame);
     sampling->rigid = rigids_energy(e->rigid, e->clock.dt).before;
 }
