@@ -40,12 +40,13 @@ each()
 # count FILE CONDITION: the number of lines of a table for which a condition holds.
 count() { each "$1" "1 if $2" | wc -l | tr -d ' '; }
 
-# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first` or `last` value of a formula over the lines of history.csv.
+# over FOLDER WHAT FORMULA: the `largest`, `smallest`, `first`, `last` or `mean` value of a formula over the lines of history.csv.
 over()
 {
-    each "$1/history.csv" "$3" | awk -v what="$2" '
+    each "$1/history.csv" "$3" | awk -v OFMT=%.12g -v what="$2" '
+        { sum += $1 }
         value == "" || what == "last" || (what == "largest" && $1 - value > 0) || (what == "smallest" && $1 - value < 0) { value = $1 }
-        END { print value }'
+        END { print what == "mean" && NR ? sum / NR : value }'
 }
 
 # value_at RUN PATH: a figure of the run RUN1: its path in summary.json; `column NAME TIME`: a column of history.csv at the last sample not
@@ -62,7 +63,7 @@ value_at()
             set -- $path
             "$1" "$folder" "$2" "$3" ;;
         "fragments "*) count "$folder/fragments.csv" "${path#* }" ;;
-        "largest "* | "smallest "* | "first "* | "last "*) over "$folder" "${path%% *}" "${path#* }" ;;
+        "largest "* | "smallest "* | "first "* | "last "* | "mean "*) over "$folder" "${path%% *}" "${path#* }" ;;
         *) figure "$folder" "$path" ;;
     esac
 }
