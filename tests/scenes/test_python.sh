@@ -164,6 +164,9 @@ holds("a homogeneous deformation", np.allclose(deformation_gradients(places, pla
 parted = places + np.where(places[:, 1:] > 0, [[0, 1e-4]], [[0, 0]])
 flanks = (np.abs(places[:, 1]) < 1e-3).astype(float)
 holds("faces of a crack", np.allclose(deformation_gradients(places, parted, 1e-3, flanks, one), np.eye(2)))
+slit = cleave._shape.precracks("cracks:\n  - {from: [-1, 0], to: [1, 0]}\nboundary:\n  - {from: [0, 0], to: [1, 1]}\n")
+holds("a pre-crack of material points", len(slit) == 1 and np.allclose(deformation_gradients(places, parted, 1e-3, none, one, slit), np.eye(2)))
+holds("the bodies", not np.allclose(deformation_gradients(places, parted, 1e-3, none, one), np.eye(2)))
 holds("two bodies", np.allclose(deformation_gradients(places, parted, 1e-3, none, (places[:, 1] > 0).astype(int)), np.eye(2)))
 holds("a lone particle", np.allclose(deformation_gradients(places[:1], parted[:1], 1e-3, none[:1], one[:1]), np.eye(2)))
 square = corners_of(frame)[210]

@@ -13,9 +13,12 @@ from ._shape import corners_of
 _EXTREME = 0.002                         # share of the values beyond either end of the colour bar
 
 
-def _axes_of(ax: Any) -> Any:
-    """Returns axes to draw into: those given, or new ones."""
-    return ax if ax is not None else need("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
+def _axes_of(ax: Any, tall: float = 0.7) -> Any:
+    """Returns axes to draw into: those given, or new ones. tall: height of what is drawn over its width."""
+    if ax is not None:
+        return ax
+    height = min(max(5.0 * tall + 0.9, 2.2), 7.5)
+    return need("matplotlib.pyplot", "plot").subplots(figsize=(min(6.4, 1.8 + (height - 0.9) / tall), height), layout="constrained")[1]
 
 
 def _name_of(frame: Any, field: Optional[str]) -> str:
@@ -91,13 +94,13 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     """Draws a field of a frame and returns the axes. Arguments: Run.plot."""
     need("matplotlib.pyplot", "plot")
     from matplotlib.collections import PolyCollection
-    ax = _axes_of(ax)
     name, words, axes = _name_of(frame, field), [], (0, 1)
     tau, seconds = scale_of(frame.time, "s")
     words.append("%.4g %s" % (frame.time * tau, seconds if frame.time > 0 else "s"))
     if frame.dimension == 1:
+        ax = _draw_line(frame, name, _axes_of(ax), magnify)
         ax.set_title(", ".join(words), fontsize="medium")
-        return _draw_line(frame, name, ax, magnify)
+        return ax
     if frame.dimension == 3:
         frame, axes, where = _section(frame, slice)
         words.append(where)
@@ -107,7 +110,9 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     low, high = _limits(values, limits)
     factor, shown = scale_of(max(abs(low), abs(high)), unit)
     corners = corners_of(frame, magnify, axes)
-    long, metres = scale_of(float(np.ptp(corners.reshape(-1, 2), axis=0).max(initial=0)) / 4, "m")
+    wide, high_up = np.ptp(corners.reshape(-1, 2), axis=0) if len(corners) else (1.0, 1.0)
+    ax = _axes_of(ax, high_up / wide)
+    long, metres = scale_of(float(max(wide, high_up)) / 4, "m")
     squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low < 0 < high else "viridis"),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)

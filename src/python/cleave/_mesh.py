@@ -14,7 +14,8 @@ _BOXES = {1: (3, 2), 2: (9, 4), 3: (12, 8)}     # by dimension: type of VTK's ce
 
 
 def grid_of(frame: Any, cells: str, magnify: float) -> Any:
-    """Returns a frame as vtkUnstructuredGrid. Arguments: Frame.to_vtk. Arrays are shared with numpy, which keeps them alive."""
+    """Returns a frame as vtkUnstructuredGrid. Arguments: Frame.to_vtk. Arrays of fields and points are shared with numpy and kept
+    alive by VTK; that of the cells is copied, as VTK takes its memory without a reference."""
     model = need("vtkmodules.vtkCommonDataModel", "to_vtk")
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -33,7 +34,7 @@ def grid_of(frame: Any, cells: str, magnify: float) -> Any:
     grid, points, lists = model.vtkUnstructuredGrid(), vtkPoints(), model.vtkCellArray()
     points.SetData(numpy_to_vtk(np.ascontiguousarray(places)))
     grid.SetPoints(points)
-    lists.SetData(corners, numpy_to_vtkIdTypeArray(np.arange(count * corners, dtype=np.int64)))
+    lists.SetData(corners, numpy_to_vtkIdTypeArray(np.arange(count * corners, dtype=np.int64), deep=True))
     grid.SetCells(kind, lists)
     data = grid.GetPointData() if cells == "points" else grid.GetCellData()
     fields = {name: frame[name] for name in frame.names}

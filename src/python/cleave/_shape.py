@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterator, Tuple
+import re
+from typing import Any, Iterator, List, Tuple
 
 import numpy as np
 
@@ -35,12 +36,33 @@ def _pairs(reference: np.ndarray, spacing: float) -> Iterator[Tuple[np.ndarray, 
             yield i[near], j[near]
 
 
+def precracks(scene: str) -> List[np.ndarray]:
+    """Returns the segments of the pre-cracks of a plane scene, at most 100: ends [m], 2 x 2. scene: text of the scene as run."""
+    block = re.search(r"^cracks:\n((?: .*\n)*)", scene, re.M)
+    ends = re.findall(r"from: \[([^\]]*)\], to: \[([^\]]*)\]", block.group(1)) if block else []
+    segments = [np.array([[float(number) for number in end.split(",")] for end in pair]) for pair in ends[:100]]
+    return [segment for segment in segments if segment.shape == (2, 2)]
+
+
+def _beside(a: np.ndarray, b: np.ndarray, cuts: List[np.ndarray]) -> np.ndarray:
+    """Returns true for the pairs of points a, b [n, 2] whose connecting line crosses no segment."""
+    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+        along, to = q - p, r - p
+        return along[..., 0] * to[..., 1] - along[..., 1] * to[..., 0]
+
+    free = np.ones(len(a), dtype=bool)
+    for p, q in cuts:
+        free &= (side(p, q, a) * side(p, q, b) > 0) | (side(a, b, p) * side(a, b, q) > 0)
+    return free
+
+
 def _growth(reference: np.ndarray, current: np.ndarray, i: np.ndarray, j: np.ndarray) -> np.ndarray:
     """Returns the distances of pairs over those in the reference configuration [1]."""
     return np.linalg.norm(current[j] - current[i], axis=1) / np.linalg.norm(reference[j] - reference[i], axis=1)
 
 
-def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: float, damage: np.ndarray, body: np.ndarray) -> np.ndarray:
+def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: float, damage: np.ndarray, body: np.ndarray,
+                          cuts: List[np.ndarray] = []) -> np.ndarray:
     """Returns the deformation gradient at each particle [n, dim, dim], by least squares over its neighbours; the unit matrix for a particle
     with too few. Neighbours are of the same body and have not parted: if one of a pair is damaged, the pair's stretch is at most 1.5 times
     the largest stretch of undamaged pairs, so that the faces of a crack are apart.
@@ -48,6 +70,7 @@ def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: f
     reference, current  positions [m], n x dim
     spacing             [m]
     damage, body        share of broken bonds [1], number of the body, n
+    cuts                segments that part neighbours as well, in the plane (precracks)
     """
     count, dim = reference.shape
     unit = np.broadcast_to(np.eye(dim), (count, dim, dim))
@@ -57,12 +80,14 @@ def deformation_gradients(reference: np.ndarray, current: np.ndarray, spacing: f
     if damage.any():
         for i, j in _pairs(reference, spacing):
             whole = (damage[i] == 0) & (damage[j] == 0) & (body[i] == body[j])
+            whole[whole] = _beside(reference[i[whole]], reference[j[whole]], cuts)
             largest = max(largest, float(_growth(reference, current, i[whole], j[whole]).max(initial=1.0)) - 1)
     shape, moment = np.zeros((count, dim, dim)), np.zeros((count, dim, dim))
     for i, j in _pairs(reference, spacing):
         growth = _growth(reference, current, i, j)
         limit = np.where((damage[i] > 0) | (damage[j] > 0), min(1 + _SURVIVED * largest, _PARTED), _PARTED)
         held = (growth < limit) & (growth > _OVERLAPPING) & (body[i] == body[j])
+        held[held] = _beside(reference[i[held]], reference[j[held]], cuts)
         i, j = i[held], j[held]
         before, now = (reference[j] - reference[i]) / spacing, (current[j] - current[i]) / spacing
         shape[i] += before[:, :, None] * before[:, None, :]
@@ -88,7 +113,8 @@ def corners_of(frame: Any, magnify: float = 1.0, axes: Tuple[int, ...] = (0, 1, 
     body = frame["body"] if "body" in names else none
     edge = float(spacing.min(initial=np.inf))
     unit = np.eye(len(kept))
-    gradients = unit + magnify * (deformation_gradients(reference, reference + motion, edge, damage, body) - unit)
+    cuts = precracks(frame.scene) if frame.dimension == 2 else []
+    gradients = unit + magnify * (deformation_gradients(reference, reference + motion, edge, damage, body, cuts) - unit)
     halves = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]) / 2
     edges = halves[:2 ** len(kept), :len(kept)] * spacing[:, None, None]
     return (reference + magnify * motion)[:, None] + np.einsum("nij,nkj->nki", gradients, edges)
