@@ -47,7 +47,7 @@ struct law_points laws_points_at_rest(void);
 
 /* Stores the trial stress of a strain increment in all points of p. strain: tensor components [1]; normal ones out of a
  * plane or across a bar are not used where the space leaves them free. */
-void laws_load(const struct law *m, struct law_points *p, const real *strain, enum space space);
+void laws_add_trial_stress(const struct law *m, struct law_points *p, const real *strain, enum space space);
 
 /* Returns the elastic energy density of the first of the points [J/m^3]. */
 real laws_elastic_energy(const struct law *m, const struct law_points *p);

@@ -41,7 +41,7 @@ struct law_points laws_points_at_rest(void)
     return p;
 }
 
-void laws_load(const struct law *m, struct law_points *p, const real *strain, enum space space)
+void laws_add_trial_stress(const struct law *m, struct law_points *p, const real *strain, enum space space)
 {
     const real G = m->shear, nu = m->poisson, E = m->young;
     const real lame = space == SPACE_PLANE_STRESS ? E * nu / (1 - nu * nu) : E * nu / ((1 + nu) * (1 - 2 * nu));
@@ -74,7 +74,7 @@ double laws_cycled_energy(const struct law *m, enum space space)
     for (int k = 0; k < 500; k++) {
         real strain[SYM_MAX];
         for (int c = 0; c < SYM_MAX; c++) strain[c] = 2e-3 * bench_random(&seed);
-        laws_load(m, &p, strain, space);
+        laws_add_trial_stress(m, &p, strain, space);
         law_update(m, &p, space, LAW_EXPLICIT);
         for (int c = 0; c < n; c++) {
             if (c == 2 && space != SPACE_SOLID) continue;
@@ -104,7 +104,7 @@ static void bar_load(const struct law *m, struct law_points *p, real *strain, re
 {
     const real step[SYM_MAX] = {(to - *strain) / steps};
     for (int k = 0; k < steps; k++) {
-        laws_load(m, p, step, SPACE_LINE);
+        laws_add_trial_stress(m, p, step, SPACE_LINE);
         law_update(m, p, SPACE_LINE, LAW_EXPLICIT);
     }
     *strain = to;
@@ -118,7 +118,7 @@ static void bar_pull(const struct law *m, struct law_points *p, real *strain, re
     while (step > 1e-15) {
         struct law_points next = *p;
         const real more[SYM_MAX] = {sign * step};
-        laws_load(m, &next, more, SPACE_LINE);
+        laws_add_trial_stress(m, &next, more, SPACE_LINE);
         law_update(m, &next, SPACE_LINE, LAW_EXPLICIT);
         if (sign * (next.s[0][0] - to) > 0) {
             step *= 0.5;
@@ -204,7 +204,7 @@ static real sheet_pull(const struct law *m, struct law_points *p, real at)
         for (int times = 0; times < 60; times++) {
             const real strain[SYM_MAX] = {step, 0.5 * (low + high)};
             next = *p;
-            laws_load(m, &next, strain, SPACE_PLANE_STRAIN);
+            laws_add_trial_stress(m, &next, strain, SPACE_PLANE_STRAIN);
             law_update(m, &next, SPACE_PLANE_STRAIN, LAW_EXPLICIT);
             if (next.s[1][0] > 0)
                 high = strain[1];
@@ -236,7 +236,7 @@ static void point_heat(const struct law *m, real to, real *stress, real *tempera
     p.rate = next.rate = lanes_of(1000);
     while (next.a[0] < to) {
         p = next;
-        laws_load(m, &next, strain, SPACE_SOLID);
+        laws_add_trial_stress(m, &next, strain, SPACE_SOLID);
         law_update(m, &next, SPACE_SOLID, LAW_EXPLICIT);
     }
     const real share = (to - p.a[0]) / (next.a[0] - p.a[0]);
