@@ -300,11 +300,31 @@ static void temporary_remove(const char *folder)
     regions_each(folder, ASIDE_ENDING, file_remove);
 }
 
-/* Checks a file that a run would remove. REFUSED if it has the name of a frame or of a particles file, and Cleave did
- * not write it. */
+/* Returns true if the index FOLDER/frames.xdmf, of a region FOLDER/NAME.xdmf, lists the file `path`,
+ * FOLDER/frames/FILE or FOLDER/frames_NAME/FILE. */
+static bool index_lists(const char *path)
+{
+    const char *const file = strrchr(path, '/'), *inner = file;
+    char entry[2 * PATH_NAME_ROOM], name[PATH_NAME_ROOM], *text;
+    size_t length;
+    while (inner > path && inner[-1] != '/') inner--;
+    const int series = (int)(file - inner) - 7; /* length of NAME */
+    snprintf(entry, sizeof entry, "%.500s:", inner);
+    snprintf(name, sizeof name, "%.*s.xdmf", series > 0 ? series : 6, series > 0 ? inner + 7 : inner);
+    char folder[PATH_ROOM];
+    snprintf(folder, sizeof folder, "%.*s", inner > path ? (int)(inner - path) - 1 : 1, inner > path ? path : ".");
+    const struct path index = path_join(folder, name);
+    if (!path_is_file(index.text) || file_read_whole(index.text, &text, &length) != OK) return false;
+    const bool listed = strstr(text, entry) != NULL;
+    memory_free(text);
+    return listed;
+}
+
+/* Checks a file that a run would remove. REFUSED if it has the name of a frame or of a particles file, but neither the
+ * footer of Cleave's files nor a place in the index of the older run. */
 static status frame_guard(const char *path)
 {
-    if (!is_frame(strrchr(path, '/') + 1, "") || file_has_footer(path)) return OK;
+    if (!is_frame(strrchr(path, '/') + 1, "") || file_has_footer(path) || index_lists(path)) return OK;
     return status_set(REFUSED, "%s was not written by cleave, or is cut short; move or remove it", path);
 }
 
