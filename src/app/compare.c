@@ -139,7 +139,8 @@ static void print_fields(const struct frame *a, const struct frame *b)
 {
     int64_t other_kind = 0;
     for (int64_t i = 0; i < a->n; i++) other_kind += a->kind[i] != b->kind[i];
-    printf("\n%-30s %14s %14s %14s   %s\n", "fields, |B - A|", "largest", "rms", "largest |A|", "largest at X [m]");
+    printf("\n%-30s %14s %14s %14s   %s\n", "differences of fields, |B - A|", "largest", "quadratic mean",
+           "largest |A|", "position of the largest [m]");
     print_field("displacement", "m", a, field_difference(a->u, b->u, a->dim, a->n));
     print_field("velocity", "m/s", a, field_difference(a->v, b->v, a->dim, a->n));
     if (a->stress[0] && b->stress[0])
@@ -253,7 +254,7 @@ static status compare_energies(const struct pair *p)
         history_free(&h[0]);
         return s;
     }
-    print_head("at the end of history.csv");
+    print_head("last line of history.csv");
     compare_print_row("time", "s", last_of(&h[0], "time"), last_of(&h[1], "time"));
     for (int k = 0; k < LEDGER_ROWS; k++)
         compare_print_row(ledger[k].label, "J", last_of(&h[0], ledger[k].name), last_of(&h[1], ledger[k].name));
@@ -308,14 +309,14 @@ static void compare_cracks(const struct pair *p)
 {
     static const struct {
         const char *key, *label, *unit;
-    } figure[] = {{"crack.start_time", "first break", "s"},
-                  {"crack.tip_start_time", "tip starts", "s"},
-                  {"crack.arrest_time", "tip arrests", "s"},
-                  {"crack.angle_deg", "angle", "degree"},
-                  {"crack.length_end", "length", "m"},
-                  {"crack.tip_speed_mean", "mean speed", "m/s"},
-                  {"crack.tip_speed_max", "largest speed", "m/s"}};
-    print_head("crack");
+    } figure[] = {{"crack.start_time", "first bond broken at", "s"},
+                  {"crack.tip_start_time", "tip moves first at", "s"},
+                  {"crack.arrest_time", "tip moves last at", "s"},
+                  {"crack.angle_deg", "angle to the pre-crack", "degree"},
+                  {"crack.length_end", "growth", "m"},
+                  {"crack.tip_speed_mean", "mean speed of its tip", "m/s"},
+                  {"crack.tip_speed_max", "largest speed of its tip", "m/s"}};
+    print_head("longest crack");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
                           compare_figure_of(p->folder[1], figure[k].key));
@@ -330,14 +331,14 @@ static void compare_time(const struct pair *p)
                   {"time_step", "time step", "s"},
                   {"threads", "threads", ""},
                   {"memory_peak_bytes", "peak memory", "byte"},
-                  {"loop_seconds", "loop", "s"}};
-    print_head("time taken");
+                  {"loop_seconds", "time of the steps", "s"}};
+    print_head("steps, memory and time");
     for (int k = 0; k < (int)COUNT_OF(figure); k++)
         compare_print_row(figure[k].label, figure[k].unit, compare_figure_of(p->folder[0], figure[k].key),
                           compare_figure_of(p->folder[1], figure[k].key));
     double a = compare_figure_of(p->folder[0], "loop_seconds"), b = compare_figure_of(p->folder[1], "loop_seconds");
     if (a > 0 && b > 0)
-        printf("  A/B = %.4g, t_r = 1 - A/B = %.4g: the share of the time of B that A saves\n", a / b, 1 - a / b);
+        printf("  A/B = %.4g, A saves the share t_r = 1 - A/B = %.4g of the time of B\n", a / b, 1 - a / b);
 }
 
 /* ---- the command ------------------------------------------------------------------------------------------------- */

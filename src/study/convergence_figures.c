@@ -296,8 +296,8 @@ static void figure_print(const struct figure_study *f, int own)
     order_print(f);
     if (isfinite(c->index)) printf("; grid convergence index %.2g", c->index);
     certain_digits(text, sizeof text, c->level[0].mean, c->uncertainty[0]);
-    printf("\n  %s +- %.2g (scatter %.2g, discretisation %.2g)", text, c->uncertainty[0], c->level[0].error,
-           c->discretisation[0]);
+    printf("\n  %s +- %.2g (of it %.2g by the scatter of runs, %.2g by the spacing)", text, c->uncertainty[0],
+           c->level[0].error, c->discretisation[0]);
     if (own > 0 && own < c->levels) {
         certain_digits(text, sizeof text, c->level[own].mean, c->uncertainty[own]);
         printf("; at the scene's own %.4g mm %s +- %.2g", 1e3 * c->level[own].spacing, text, c->uncertainty[own]);
@@ -314,8 +314,8 @@ void figures_print(const struct convergence_study *s, const struct figure_study 
     const int shown = figures < PRINTED_MOST ? figures : PRINTED_MOST;
     int lost = 0;
     printf(
-        "figures: mean at each spacing, kind and order of convergence; then the value at %.4g mm +- half of the 95 %% "
-        "interval of the true value\n",
+        "for each figure of summary.json: its mean at each spacing, and how it converges with the spacing; below, its "
+        "value at %.4g mm +- the distance within which the true value lies with a probability of 95 %%\n",
         1e3 * s->spacings.at[0][0]);
     for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
