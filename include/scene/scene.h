@@ -115,10 +115,17 @@ struct scene_steps {
                     by no more than this share [1] */
 };
 
+/* The place of a key of a scene: file, line and column, or the override that gives it. */
+struct key_place {
+    char key[104], place[408];
+};
+
 /* The input of a run. Arrays are owned by the scene and have as many entries as the count above them says. */
 struct scene {
-    char *path;                 /* path of the scene file, as given on the command line */
-    char name[NAME_MAX_LENGTH]; /* default: file name without folder and extension */
+    char *path;                  /* path of the scene file, as given on the command line */
+    int64_t key_places;          /* keys whose places are known */
+    struct key_place *key_place; /* [key_places] */
+    char name[NAME_MAX_LENGTH];  /* default: file name without folder and extension */
     enum space space;
     int dim;
     real thickness;        /* 2D [m]; 1 in 3D */
@@ -302,6 +309,11 @@ bool scene_body_has_material(const struct scene_body *b, int material);
 
 /* Releases the members of a scene; scene_read.h reads one. */
 void scene_free(struct scene *s);
+
+/* Puts before the message of a refusal the place of what the message begins with: of a body, of a boundary, or of a key
+ * or its group, else the path of the scene file. Messages that have a place keep it. Returns `made`; does nothing
+ * unless it is REFUSED. */
+status scene_locate(const struct scene *s, status made);
 
 /* Returns the reason why a body cannot be in the reference frame with the method, solver, coupling and materials of the
  * scene; NULL if it can. The text is static. */

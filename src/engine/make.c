@@ -282,10 +282,10 @@ static status make_affordable(const struct scene *s, const struct particles *p, 
     const real memory = (real)machine_memory_size(), bytes = run_estimate_memory(s, p, source);
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
-    return status_set(
-        REFUSED,
-        "about %.2g particles would need some %.2g GB, and %.2g can be had (%s); choose a larger particles.spacing",
-        particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
+    return status_set(REFUSED,
+                      "particles.spacing: about %.2g particles would need some %.2g GB, and %.2g can be had (%s); a "
+                      "larger one is expected",
+                      particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
 }
 
 static void tables_free(struct material_tables *t)
@@ -298,15 +298,6 @@ static void tables_free(struct material_tables *t)
 }
 
 /* ---- all --------------------------------------------------------------------------------------------------------- */
-
-/* Adds the path of the scene file to a message that names no file and line. Returns `made`, the status of the
- * message. */
-static status named(const struct scene *s, status made)
-{
-    char place[PLACE_LENGTH];
-    snprintf(place, sizeof place, "%.500s: ", s->path);
-    return status_prepend_location(place, made);
-}
 
 /* Returns the optional arrays of particles that the law of a material needs (bits WITH_...). */
 static int law_arrays(const struct law *law)
@@ -345,7 +336,7 @@ static enum pd_model law_of(const struct scene *s, const struct bond_source *sou
  * given. */
 static status make_time(struct run *e, const struct predecessor *before)
 {
-    if (!before) return named(e->scene, time_step_make(e));
+    if (!before) return scene_locate(e->scene, time_step_make(e));
     e->clock = before->run->clock;
     e->source.limit.dt = before->run->source.limit.dt;
     e->source.core = e->bonds.core = before->run->source.core;
@@ -370,11 +361,11 @@ static status make_particles(struct run *e)
     make_materials(s, &e->tables, &e->source);
     make_family(s, &e->source);
     kernels_choose(&e->kernels, s->dim, law_of(s, &e->source), s->shape, s->transfer);
-    TRY(named(s, frame_hollow_choose_cells(&e->frame->hollow, s, &e->source)));
-    if (!e->frame->hollow.absent) TRY(named(s, make_affordable(s, &e->part, &e->source)));
+    TRY(scene_locate(s, frame_hollow_choose_cells(&e->frame->hollow, s, &e->source)));
+    if (!e->frame->hollow.absent) TRY(scene_locate(s, make_affordable(s, &e->part, &e->source)));
     TRY(fill_particles(&e->part, s, &e->frame->hollow, e->optional));
     conversion_stress_lower(e->tables.elastic, &e->part);
-    return named(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
+    return scene_locate(s, make_affordable(s, &e->part, &e->source)); /* with the actual number of particles */
 }
 
 /* Creates crack tips, crack growth, static solver, diagnostics and probes. */
@@ -384,15 +375,15 @@ static status make_probes(struct run *e)
     e->probing->strain_stress = particles_largest_stress(&e->part);
     tips_make(&e->fracture->tips, &e->part, &e->cells, s->crack, s->cracks, s->spacing, s->speed_window);
     if (e->coupling->notches.lost) tips_exclude_precracks(&e->fracture->tips, e->coupling->notches.lost);
-    TRY(named(s, sif_check(e)));
+    TRY(scene_locate(s, sif_check(e)));
     e->fracture->growth = NEW("engine.growth", s->growths, struct growth);
     e->fracture->growths = s->growths;
     for (int k = 0; k < s->growths; k++) growth_make(&e->fracture->growth[k], &s->growth[k]);
-    if (scene_at_rest(s)) TRY(named(s, engine_solver_make(e)));
+    if (scene_at_rest(s)) TRY(scene_locate(s, engine_solver_make(e)));
     diagnostics_make(e->diagnostics);
     pulses_list(e->scene, e->probing);
     struct observed o = run_observed(e);
-    return named(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
+    return scene_locate(s, probes_make(&e->probing->probes, s->probe, s->probes, &o));
 }
 
 /* Creates loads, bonds, rigid bodies, contact, coupling and mesh, and computes the time step. before: run that is
@@ -400,14 +391,14 @@ static status make_probes(struct run *e)
 static status make_forces(struct run *e, struct predecessor *before)
 {
     const struct scene *s = e->scene;
-    TRY(named(s, frames_choose(e->frame, e->grid, &e->part, s)));
+    TRY(scene_locate(s, frames_choose(e->frame, e->grid, &e->part, s)));
     if (!scene_moves(s)) e->boundary = NEW("engine.boundary", s->boundaries, struct boundary);
     if (scene_at_rest(s))
         loads_make_static_boundaries(e->boundary, s->boundary, s->boundaries, s->duration, 1);
     else if (e->boundary)
         array_copy(e->boundary, s->boundary, s->boundaries, sizeof *e->boundary);
-    TRY(named(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part, s->spacing,
-                            e->source.family.cutoff, e->optional)));
+    TRY(scene_locate(s, loads_make(&e->loads, e->boundary ? e->boundary : s->boundary, s->boundaries, &e->part,
+                                   s->spacing, e->source.family.cutoff, e->optional)));
     e->tables.impedance = absorbing_impedances(s, &e->source);
     const struct impedance *z = e->tables.impedance;
     if (z)
@@ -418,11 +409,11 @@ static status make_forces(struct run *e, struct predecessor *before)
     TRY(make_bonds(e, before));
     TRY(rigids_make(e->rigid, s));
     TRY(rigids_check(e->rigid, s, &e->part));
-    TRY(named(s, joined_check(s, &e->part, &e->cells, e->source.family.cutoff)));
-    TRY(named(s, statics_check(e)));
+    TRY(scene_locate(s, joined_check(s, &e->part, &e->cells, e->source.family.cutoff)));
+    TRY(scene_locate(s, statics_check(e)));
     make_contact(e->contact, s, &e->source, e->rigid);
     coupling_partial_make(e);
-    TRY(named(s, coupling_frame_make(e, before != NULL)));
+    TRY(scene_locate(s, coupling_frame_make(e, before != NULL)));
     TRY(prescribed_motion_check(&e->loads, &e->part, s, before == NULL));
     bonded_points_update(&e->coupling->partial, e->frame, &e->part, s->material);
     stability_make(e->stability, &e->part);
@@ -440,11 +431,11 @@ status engine_remake(struct run *e, const struct scene *s, struct output *out, s
     e->report->began = wall_clock();
     e->frame->hollow = hollow;
     TRY(make_particles(e));
-    TRY(named(s, reversion_check(e->scene)));
+    TRY(scene_locate(s, reversion_check(e->scene)));
     TRY(make_forces(e, before));
     for (int64_t i = 0; i < e->part.n; i++) e->mass += e->part.mass[i];
     e->mass += (real)(e->part.n_body - e->part.n) * e->part.mass[0];
-    if (!before) TRY(named(s, frame_levels_make(e, false)));
+    if (!before) TRY(scene_locate(s, frame_levels_make(e, false)));
     e->coupling->damping_share =
         interface_damping_share(s, e->tables.wave_speed, e->clock.dt, e->grid->field[0].grid.h);
     e->coupling->approaches = s->method == METHOD_ADAPTIVE && s->contact_between != CONTACT_NONE &&

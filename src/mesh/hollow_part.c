@@ -53,7 +53,9 @@ static status box_find(struct grid *box, const struct scene *s)
     region_bounds(&s->body[0].shape, s->dim, from, to);
     box->dim = s->dim, box->h = s->cell * s->spacing;
     grid_choose_anchor(s, from, site, true, box->anchor);
-    return grid_compute_box(box, from, to, INT32_MAX) ? OK : status_set(REFUSED, "too large for the spacing");
+    return grid_compute_box(box, from, to, INT32_MAX)
+               ? OK
+               : status_set(REFUSED, "body %s: too large for the spacing", s->body[0].name);
 }
 
 /* Returns true if a particle at X is needed because of pre-cracks. h: size of a cell [m]. */

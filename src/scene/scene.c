@@ -101,6 +101,7 @@ void scene_free(struct scene *s)
     memory_free(s->growth);
     memory_free(s->times.value);
     memory_free(s->path);
+    memory_free(s->key_place);
     memory_free(s->text);
     *s = (struct scene){0};
 }

@@ -318,6 +318,12 @@ status fault(const struct reader *r, const struct node *at, const char *format, 
 status fault_mark(const struct reader *r, int origin, int line, int column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 
+/* Writes a place to text[room]: file, line and column, or the override that gives it. origin: as in struct node. */
+void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room);
+
+/* Stores the places of the keys of a scene, r->scene, in two levels below `root`; scene_locate reads them. */
+void scene_places_make(const struct reader *r, const struct node *root);
+
 /* Writes the beginning of a message of fault to text[room], for messages that follow after the reading. */
 void fault_place(const struct reader *r, const struct node *at, char *text, size_t room);
 

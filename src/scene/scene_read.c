@@ -43,6 +43,7 @@ static status scene_read_all(struct reader *r, const char *text, size_t length, 
         return fault(r, method,
                      "auto is resolved by the pilot runs of `cleave run`; write a method and "
                      "particles.spacing, or take the scene.yaml that such a run leaves");
+    scene_places_make(r, root);
     TRY(scene_from_tree(r, root));
     s->text = scene_echo(s);
     return s->text ? OK : status_set(FAILED, "%s: no memory to write it out", r->name);

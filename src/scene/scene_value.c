@@ -51,7 +51,7 @@ static void node_name(const struct node *n, char *name, size_t room)
     }
 }
 
-static void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
+void place_text(const struct reader *r, int origin, int line, int column, char *text, size_t room)
 {
     if (origin < 0) {
         snprintf(text, room, "%.300s:%d:%d", origin_file_name(r, origin), line, column);

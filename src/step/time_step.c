@@ -149,7 +149,7 @@ static real critical_of_bonds(struct run *e)
 static status make_steps(const struct scene *s, struct run_clock *clock, real dt)
 {
     if (!(s->duration / dt <= STEPS_MOST))
-        return status_set(REFUSED, "duration %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
+        return status_set(REFUSED, "duration: %.4g s would take %.1e steps of %.4g s; 1e12 is the most", s->duration,
                           s->duration / dt, dt);
     clock->steps = (int64_t)ceil(s->duration / dt * (1 - 1e-12)); /* the factor keeps round-off from adding a step */
     if (clock->steps < 1) clock->steps = 1;

@@ -128,6 +128,8 @@ done <<'END'
 2||1:1|space: missing
 3||1:1|thickness: missing
 3|thickness: 10 kg|3:1|a length is expected
+4|duration: 1e10 s|4:1|duration: 1e+10 s would take
+11|mpm: {frame: reference, cell: 1}|11:7|mpm.frame: body body cannot be in the reference frame: the reference frame needs mpm.cell: 2
 3|thickness: 0|3:1|out of range
 3|thickness: -1e-3|3:1|out of range
 3|thickness: 1e-400|3:1|out of range

@@ -1,0 +1,90 @@
+/* Where the keys of a scene stand, for refusals after it has been read. */
+#include <ctype.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene_internal.h"
+
+/* ---- the list of places --------------------------------------------------------------------------------------------
+ */
+
+/* Returns the number of nodes below `node`, down to a depth. */
+static int64_t nodes_count(const struct node *node, int depth)
+{
+    int64_t n = 0;
+    for (const struct node *c = node->first; c && depth > 0; c = c->next) n += 1 + nodes_count(c, depth - 1);
+    return n;
+}
+
+/* Adds the places of the nodes below `node`, down to a depth. path: that of `node`, "" for the root. */
+static void places_add(const struct reader *r, const struct node *node, const char *path, int depth)
+{
+    struct scene *s = r->scene;
+    int at = 0;
+    for (const struct node *c = node->first; c && depth > 0; c = c->next, at++) {
+        struct key_place *k = &s->key_place[s->key_places++];
+        if (c->key)
+            snprintf(k->key, sizeof k->key, "%.50s%s%.50s", path, *path ? "." : "", c->key);
+        else
+            snprintf(k->key, sizeof k->key, "%.50s[%d]", path, at);
+        place_text(r, c->origin, c->line, c->column, k->place, sizeof k->place);
+        places_add(r, c, k->key, depth - 1);
+    }
+}
+
+void scene_places_make(const struct reader *r, const struct node *root)
+{
+    enum { DEPTH = 2 }; /* mpm.frame, interfaces[0] */
+    r->scene->key_place = NEW("scene.places", nodes_count(root, DEPTH), struct key_place);
+    r->scene->key_places = 0;
+    places_add(r, root, "", DEPTH);
+}
+
+/* ---- the place of a refusal ----------------------------------------------------------------------------------------
+ */
+
+/* Returns true if a message begins with `kind` and a name, followed by a colon or a blank. */
+static bool begins_with(const char *text, const char *kind, const char *name)
+{
+    const size_t first = strlen(kind), second = strlen(name);
+    if (strncmp(text, kind, first) != 0 || strncmp(text + first, name, second) != 0) return false;
+    return text[first + second] == ':' || text[first + second] == ' ';
+}
+
+/* Writes to `place`, capacity PLACE_LENGTH, that of the key with which a message begins, or of the group that this key
+ * is in; nothing if the scene has neither. */
+static void place_of_key(const struct scene *s, const char *text, char *place)
+{
+    char key[100] = "";
+    for (size_t k = 0; k + 1 < sizeof key && (isalnum((unsigned char)text[k]) || strchr("._[]", text[k])) && text[k];
+         k++)
+        key[k] = text[k], key[k + 1] = 0;
+    while (*key) {
+        for (int64_t k = 0; k < s->key_places; k++)
+            if (strcmp(s->key_place[k].key, key) == 0) {
+                snprintf(place, PLACE_LENGTH, "%.400s: ", s->key_place[k].place);
+                return;
+            }
+        char *dot = strrchr(key, '.');
+        if (!dot) return;
+        *dot = 0;
+    }
+}
+
+status scene_locate(const struct scene *s, status made)
+{
+    char place[PLACE_LENGTH] = "";
+    if (made != REFUSED) return made;
+    const char *text = status_message();
+    for (int b = 0; b < s->boundaries && !*place; b++)
+        if (begins_with(text, "boundary ", s->boundary[b].name))
+            snprintf(place, sizeof place, "%s", s->boundary[b].place);
+    for (int b = 0; b < s->bodies + s->rigids && !*place; b++)
+        if (begins_with(text, "body ", s->body[b].name) || begins_with(text, "bodies ", s->body[b].name) ||
+            begins_with(text, "rigid body ", s->body[b].name))
+            snprintf(place, sizeof place, "%s", s->body[b].place);
+    if (!*place) place_of_key(s, text, place);
+    if (!*place) snprintf(place, sizeof place, "%.500s: ", s->path);
+    return status_prepend_location(place, made);
+}
