@@ -19,6 +19,7 @@ value()
 # ratio 0; at 4 us the wave in 20 mm of steel has not reached the other end.
 cat >bar.yaml <<'END'
 space: line
+accept: [steps]
 duration: 3 us
 method: pd
 material: {young: 200 GPa, density: 8000}
