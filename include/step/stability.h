@@ -10,7 +10,7 @@ struct stability {
     real start_speed;          /* largest speed of particles at t = 0 [m/s] */
     bool diverged;             /* a peridynamic particle is faster than the fastest wave */
     bool lost;                 /* an energy of the last sample is not finite */
-    bool stretched;            /* the warning that points on the grid are stretched too far has been printed */
+    bool stretched;            /* the warning that points are stretched or flow too far has been printed */
 };
 
 #endif

@@ -90,7 +90,7 @@ static ALWAYS_INLINE lanes equation_stress(const struct flow_equation *e, lanes 
     if (space != SPACE_PLANE_STRESS) return e->q / (1.0 + single_rate(e, space) * t);
     const lanes u = 1.0 / (1.0 + e->A * t), v = 1.0 / (1.0 + e->B * t);
     *fall = e->even * e->A * u * u * u + e->odd * e->B * v * v * v;
-    return lanes_root(e->even * u * u + e->odd * v * v);
+    return lanes_root(lanes_max(e->even * u * u + e->odd * v * v, lanes_of(1e-200))); /* points without stress */
 }
 
 /* Returns the solution t of 1 - slope t - bound/q(t) = 0, which is q = bound + slope da; t = 0 where q(0) is below

@@ -33,7 +33,7 @@ static ALWAYS_INLINE lanes law_rate(const struct elastic *m, const struct law_po
     if (m->space == SPACE_PLANE_STRESS) D[0] = (x - nu * y) / young, D[1] = (y - nu * x) / young, D[2] = -D[0] - D[1];
     if (m->space == SPACE_LINE) D[0] = x / young, D[1] = D[2] = -0.5 * D[0];
     for (int c = 0; c < 3; c++) square += D[c] * D[c] + 2.0 * D[c + 3] * D[c + 3];
-    return lanes_root(2.0 / 3 * square) / dt;
+    return lanes_root(lanes_max(2.0 / 3 * square, lanes_of(1e-200))) / dt;
 }
 
 /* Loads the state of eight points into *e. point: indices, -1 for a lane without a point; stress: symmetric components

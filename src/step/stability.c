@@ -410,6 +410,28 @@ static bool say_stretched(const struct particles *p, const struct scene *s, real
     return false;
 }
 
+/* Plastic strain of points of a mesh at which a warning is printed: elastic and plastic strains add up to the strain of
+ * the rotated cell, which is short of the logarithm of the stretch by half its square. */
+#define FLOW_MOST 0.3
+
+/* Warns of the first point of a mesh with a plastic strain above FLOW_MOST; returns true if there is one. t: present
+ * time [s]. */
+static bool say_flowed(const struct particles *p, real t, struct warnings *to)
+{
+    char text[300];
+    for (int64_t i = 0; i < p->n && p->mesh_stress[0]; i++) {
+        if (!(p->plastic_strain[i] > FLOW_MOST) || !(p->flag[i] & FLAG_MESHED)) continue;
+        snprintf(
+            text, sizeof text,
+            "points in mpm.frame reference have a plastic strain of %.2g at t = %.3g s, near x = %.4g m: its strains "
+            "add up, which holds to some 0.2; use mpm.frame: current",
+            p->plastic_strain[i], t, p->X[0][i]);
+        warnings_add_and_print(to, text);
+        return true;
+    }
+    return false;
+}
+
 /* Returns FAILED if the energy shows that the run is unstable, although no particle is faster than waves: a body that
  * breaks all its bonds, or one whose velocities change sign in every step. Bodies whose energy is round-off are not
  * tested. */
@@ -426,7 +448,9 @@ status energy_check(struct run *e)
     char what[96], remedy[REMEDY_LENGTH];
     if (!e->report->sampling.due && !last) return OK;
     growth_rate_add_sample(&e->stability->excess, e->clock.step, excess);
-    if (!e->stability->stretched) e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings);
+    if (!e->stability->stretched)
+        e->stability->stretched = say_stretched(&e->part, e->scene, e->clock.t, &e->warnings) ||
+                                  say_flowed(&e->part, e->clock.t, &e->warnings);
     if (energy_is_round_off(w, e->mass, e->tables.wave_speed)) return OK;
     if (swings(&e->clock, &w->now.energy)) {
         say_step(e->scene, &e->clock, remedy, sizeof remedy);

@@ -74,8 +74,10 @@ copper="material={$copper, specific_heat: 383 J/(kg K)}"
 for one in 0.2:309.393:307.771 0.5:367.131:334.689; do
     a=${one%%:*} of=${one#*:}; expected=${of%:*} hot=${of#*:}
     strain=$(compute "$a + $expected/117e3")
-    calm "$work/copper$a" "$work/explicit.yaml" -s "$copper" -s 'boundary[0].velocity=["1000/s*x"]' -s "duration=$(compute "$strain/1000") s" \
+    set -- "$work/explicit.yaml" -s "$copper" -s 'boundary[0].velocity=["1000/s*x"]' -s "duration=$(compute "$strain/1000") s" \
         -s "time.step=$(compute "$strain/1000/2000") s"
+    if [ $a = 0.2 ]; then calm "$work/copper$a" "$@"
+    else warned "copper at $a" "$work/copper$a" 'have a plastic strain of .*mpm.frame: current' "$@"; fi
     near "copper: plastic strain" "$(column "$work/copper$a" point.plastic_strain 1)" "$a" 1e-5
     near "copper at $a: stress [MPa]" "$(stress copper$a 1)" "$expected" 5e-5
     near "copper at $a: temperature [K]" "$(column "$work/copper$a" point.temperature 1)" "$hot" 5e-5
@@ -200,6 +202,21 @@ same "beam: scene as run" "$work/beam" "$work/echo"
 calm "$work/tangent" "$work/beam.yaml" -s "material={young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 200 MPa, yield_tangent: 20 GPa}"
 calm "$work/linear" "$work/beam.yaml" -s "material={young: 200 GPa, poisson: 0.3, density: 7850, yield_stress: 200 MPa, hardening: {linear: {modulus: 200 GPa/9}}}"
 is "beam: linear hardening" "$(f tangent energy.plastic)" "$(f linear energy.plastic)"
+
+# Load steps of a beam under its load, to and fro: threads, pieces, any number of steps without recall.
+sed -e 's/^duration.*/duration: 1 s\nsolver: static\nsteps: {number: 8}/; /^mpm/d; /^initial/d' \
+    -e 's/^boundary: \[\(.*\)\]$/boundary: [\1, {name: end, traction: [0, -6 MPa], face: x+, time: {table: [[0 s, 0], [0.5 s, 1], [1 s, -1]]}}]/' \
+    -e 's/at: \[3 mm/at: [2.5 mm/' "$work/beam.yaml" >"$work/bent.yaml"
+for threads in 1 2; do calm "$work/bent$threads" "$work/bent.yaml" -t $threads; done
+same "bent: 1 and 2 threads" "$work/bent1" "$work/bent2"
+piecewise "$work/bent_parts" "$work/bent.yaml"
+same "bent: in pieces" "$work/bent1" "$work/bent_parts"
+between "bent: plastic strain" "$(column "$work/bent1" point.plastic_strain 1)" 1e-3 0.1
+apart "bent: energy balance" "$(f bent1 energy.balance_error)" 0 2e-3
+calm "$work/bent_hot" "$work/bent.yaml" -s steps.number=16 -s 'space=plane strain' -s 'boundary[1].traction=[0, -8 MPa]' \
+    -s 'material={young: 200 GPa, poisson: 0.3, density: 7850, johnson_cook: {A: 200 MPa, B: 300 MPa, n: 0.3, C: 0.02, T_melt: 1700 K}, specific_heat: 450 J/(kg K)}'
+between "bent, hot: temperature [K]" "$(column "$work/bent_hot" point.temperature 1)" 293.16 310
+apart "bent, hot: energy balance" "$(f bent_hot energy.balance_error)" 0 2e-3
 
 # ---- refusals ------------------------------------------------------------------------------------------------------------------
 

@@ -87,6 +87,7 @@ static void compare(const struct law *m, enum space space, uint64_t *seed)
     for (int c = 0; c < SYM_MAX; c++) eight.s[c] = lanes_of(p.s[c]), eight.back[c] = lanes_of(p.back[c]);
     eight.a = lanes_of(p.a), eight.rate = lanes_of(rate), eight.temperature = lanes_of(T);
     eight.active[6] = 0;
+    for (int c = 0; c < SYM_MAX; c++) eight.s[c][4] = eight.back[c][4] = 0;
     const struct law_points before = eight;
     law_update(m, &eight, space, LAW_LOAD_STEP);
     if (space == SPACE_PLANE_STRESS)
@@ -101,6 +102,8 @@ static void compare(const struct law *m, enum space space, uint64_t *seed)
     }
     assert_near(eight.a[1], p.a, 3e-14 * (size / m->young + p.a));
     assert_exact(eight.a[6], before.a[6]);
+    assert_exact(eight.a[4], before.a[4]); /* a point without stress */
+    assert_exact(eight.s[0][4], 0);
 }
 
 static void test_load_steps(void **state)
