@@ -39,17 +39,21 @@ static ALWAYS_INLINE struct elastic_points elastic_of(const struct particles *p,
 /* Updates stress [Pa], volume [m^3] and (cpGIMP) stretches of a few points from their velocity gradients L [1/s], and
  * sets FLAG_STRESSED where the largest principal stress exceeds the conversion stress. The volume follows the trace of
  * the strain in the space; in plane stress the strain through the thickness is left out (below 1 % strain it changes
- * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points. */
-static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t,
-                                        const struct elastic_points *m, const int32_t *point, const row_of_points *L,
-                                        const int dim, const enum shape shape)
+ * the volume by less than 0.5 %). m: elastic constants by lane; point: numbers of the points, of which there are
+ * `points`. With flow laws the stresses go to `due` (points_flow.h). */
+static ALWAYS_INLINE void points_strain(struct particles *p, const struct transfer_data *t, struct flow_points *due,
+                                        const struct elastic_points *m, const int32_t *point, int points,
+                                        const row_of_points *L, const int dim, const enum shape shape)
 {
     const int n = dim * (dim + 1) / 2;
     row_of_points stress[SYM_MAX];
     for (int c = 0; c < n; c++) stress[c] = points_load(p->stress[c], point, dim);
     const row_of_points volume = points_load(p->volume, point, dim), trace = stress_update(stress, L, m, t->dt, dim);
     points_store(p->volume, point, volume + volume * trace, dim);
-    for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
+    if (__builtin_expect(t->laws, 0))
+        flow_add(due, point, points, stress, L, dim);
+    else
+        for (int c = 0; c < n; c++) points_store(p->stress[c], point, stress[c], dim);
     if (shape == SHAPE_CPGIMP)
         for (int d = 0; d < dim; d++) {
             const row_of_points stretch = points_load(p->stretch[d], point, dim);
@@ -260,11 +264,12 @@ static ALWAYS_INLINE void points_dilate_more(row_of_points *L, const real *chang
 }
 
 /* Updates the n listed points (n <= AT_ONCE) of cell c: position, stress, volume, and with APIC velocity and its
- * gradient. dilatation: change of the rate of dilatation of each point [1/s]; NULL: none. Returns the number of points
- * that have left the cell. */
+ * gradient. due: receives points with flow laws; dilatation: change of the rate of dilatation of each point [1/s],
+ * NULL: none. Returns the number of points that have left the cell. */
 static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, struct particles *p,
-                                    const struct transfer_data *t, const int32_t *list, int n, const real *dilatation,
-                                    const int dim, const enum shape shape, const enum transfer transfer)
+                                    const struct transfer_data *t, struct flow_points *due, const int32_t *list, int n,
+                                    const real *dilatation, const int dim, const enum shape shape,
+                                    const enum transfer transfer)
 {
     struct cell_stencil s;
     row_of_points velocity[DIM_MAX], L[DIM_MAX * DIM_MAX];
@@ -276,7 +281,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     }
     if (dilatation) points_dilate_more(L, dilatation, n, dim);
     const struct elastic_points m = elastic_of(p, t, s.point, dim);
-    if (!t->momentum_only) points_strain(p, t, &m, s.point, L, dim, shape);
+    if (!t->momentum_only) points_strain(p, t, due, &m, s.point, n, L, dim, shape);
     if (dim > 1 && __builtin_expect(p->end_rotation[0] != NULL, 0)) points_rotate(p, s.point, L, t->dt, dim);
     for (int d = 0; d < dim; d++) velocity[d] *= t->dt;
     const int moved = points_move(g, c, p, &s, velocity, dim);
@@ -284,11 +289,7 @@ static ALWAYS_INLINE int g2p_points(const struct grid *g, const struct cell *c, 
     if (yields && dim == 3) points_yield(p, t->elastic, s.point);
     for (int k = 0; k < n && yields && dim < 3; k++)
         if (m.yield[k] > 0) point_yield(p, &t->elastic[p->material[list[k]]], list[k], dim);
-    if (__builtin_expect(t->laws, 0) && !t->momentum_only) {
-        row_of_points kept[DIM_MAX * DIM_MAX]; /* L itself stays in registers */
-        for (int k = 0; k < dim * dim; k++) kept[k] = L[k];
-        points_flow(p, t, s.point, n, kept, dim);
-    }
+    if (__builtin_expect(due->n >= LANES, 0)) flow_return(p, t, due, dim);
     return __builtin_popcount(moved & ((1 << n) - 1));
 }
 
@@ -301,14 +302,17 @@ static ALWAYS_INLINE void g2p_fetch(const struct particles *p, const int32_t *li
     fetch(p->volume + i);
     for (int d = 0; d < dim; d++) fetch(p->x[d] + i);
     for (int c = 0; c < dim * (dim + 1) / 2; c++) fetch(p->stress[c] + i);
+    if (__builtin_expect(p->plastic_work != NULL, 0)) fetch(p->plastic_strain + i), fetch(p->plastic_work + i);
+    if (__builtin_expect(p->plastic_work != NULL, 0)) fetch(p->volume0 + i);
+    if (__builtin_expect(p->temperature != NULL, 0)) fetch(p->temperature + i);
 }
 
 /* Updates the n listed points of one cell (g2p_points). Returns the number of points that have left the cell. The cell
  * is computed again for every AT_ONCE points: most cells need one pass only, so it is not kept in registers. averaged:
  * result of mean_dilatation. */
 static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p, const struct transfer_data *t,
-                                      const int32_t *list, int n, const int dim, const enum shape shape,
-                                      const enum transfer transfer, const bool averaged)
+                                      struct flow_points *due, const int32_t *list, int n, const int dim,
+                                      const enum shape shape, const enum transfer transfer, const bool averaged)
 {
     real change[MEAN_POINTS];
     int64_t moved = 0;
@@ -317,8 +321,8 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
         const struct cell c = cell_make(g, p, list[k], dim, shape);
         if (averaged && k % MEAN_POINTS == 0)
             means_of_dilatation(g, p, t, list + k, smaller(n - k, MEAN_POINTS), change, dim, shape, transfer);
-        moved += g2p_points(g, &c, p, t, list + k, at_once(n - k, dim), averaged ? &change[k % MEAN_POINTS] : NULL, dim,
-                            shape, transfer);
+        moved += g2p_points(g, &c, p, t, due, list + k, at_once(n - k, dim), averaged ? &change[k % MEAN_POINTS] : NULL,
+                            dim, shape, transfer);
     }
     return moved;
 }
@@ -335,9 +339,11 @@ static ALWAYS_INLINE int64_t g2p_cell(const struct grid *g, struct particles *p,
             struct grid nodes = *g; /* as in scatter.h */                                                              \
             struct particles points = *p;                                                                              \
             struct transfer_data data = *t;                                                                            \
+            struct flow_points due = {.n = 0};                                                                         \
             _Pragma("omp for schedule(static)") for (int32_t k = 0; k < o->cells; k++) moved +=                        \
-                g2p_cell(&nodes, &points, &data, o->particle + o->cell_start[k],                                       \
+                g2p_cell(&nodes, &points, &data, &due, o->particle + o->cell_start[k],                                 \
                          o->cell_start[k + 1] - o->cell_start[k], D, SHAPE_##S, TRANSFER_##T, AVERAGED);               \
+            if (due.n > 0) flow_return(&points, &data, &due, D);                                                       \
         }                                                                                                              \
         return moved;                                                                                                  \
     }
