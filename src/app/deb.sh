@@ -9,7 +9,7 @@ done
 architecture=$(dpkg --print-architecture)
 root=$build/deb/cleave
 rm -rf "$build/deb"
-make -s install BUILD="$build" DESTDIR="$root" PREFIX=/usr
+make -s install BUILD="$build" DESTDIR="$root" PREFIX=/usr SEEN=/usr/lib/python3/dist-packages
 strip --strip-unneeded --remove-section=.comment --remove-section=.note "$root/usr/bin/cleave"
 gzip -n9 "$root/usr/share/man/man1/cleave.1"
 [ ! -d "$root/usr/share/zsh/site-functions" ] || mv "$root/usr/share/zsh/site-functions" "$root/usr/share/zsh/vendor-completions"

@@ -43,7 +43,7 @@ def _values_of(frame: Any, name: str) -> Tuple[np.ndarray, str, str]:
 
 
 def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
-    """Returns the ends of the colour bar: those given, else all values but the extremes, symmetric about 0 for both signs."""
+    """Returns the ends of the colour bar: those given, else all values but the extremes, symmetric about 0 where both signs matter."""
     if given is not None:
         return float(given[0]), float(given[1])
     finite = values[np.isfinite(values)]
@@ -52,7 +52,7 @@ def _limits(values: np.ndarray, given: Any) -> Tuple[float, float]:
     low, high = np.quantile(finite, [_EXTREME, 1 - _EXTREME])
     if low == high:
         low, high = finite.min(), finite.max()
-    if low < 0 < high and min(-low, high) > 0.05 * max(-low, high):
+    if low < 0 < high and min(-low, high) > 0.2 * max(-low, high):
         low, high = -max(-low, high), max(-low, high)
     return float(low), float(high if high > low else low + 1.0)
 
@@ -97,6 +97,8 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     name, words, axes = _name_of(frame, field), [], (0, 1)
     tau, seconds = scale_of(frame.time, "s")
     words.append("%.4g %s" % (frame.time * tau, seconds if frame.time > 0 else "s"))
+    if slice is not None and frame.dimension < 3:
+        raise ValueError("slice is for solids; this frame has %d dimension%s" % (frame.dimension, "s" * (frame.dimension > 1)))
     if frame.dimension == 1:
         ax = _draw_line(frame, name, _axes_of(ax), magnify)
         ax.set_title(", ".join(words), fontsize="medium")
@@ -113,7 +115,7 @@ def draw_frame(frame: Any, field: Optional[str], ax: Any = None, *, magnify: flo
     wide, high_up = np.ptp(corners.reshape(-1, 2), axis=0) if len(corners) else (1.0, 1.0)
     ax = _axes_of(ax, high_up / wide)
     long, metres = scale_of(float(max(wide, high_up)) / 4, "m")
-    squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low < 0 < high else "viridis"),
+    squares = PolyCollection(long * corners, array=factor * values, cmap=colours or ("coolwarm" if low == -high else "viridis"),
                              edgecolors="face", linewidths=0.3, antialiaseds=False, rasterized=len(values) > 5000)
     squares.set_clim(factor * low, factor * high)
     ax.add_collection(squares)

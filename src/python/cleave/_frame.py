@@ -7,12 +7,18 @@ import collections.abc
 import os
 import re
 import sys
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Tuple, Union
 
 import numpy as np
 
 from ._errors import Error, need
 from ._fields import DERIVED, UNITS, components
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+    import pyvista
+    import vtkmodules.vtkCommonDataModel
 
 _particles_read: Dict[str, Tuple[Any, ...]] = {}         # by path of a particles file: its state, and what _particles_mark returned
 
@@ -87,10 +93,10 @@ class Frame:
             raise Error("%s: there is no such file" % self.path) from None
         except OSError as fault:
             raise Error("%s cannot be read: %s" % (self.path, str(fault).split(" (", 1)[0])) from None
-        fault = _particles_fault(file, self.path)
-        if fault:
+        lost = _particles_fault(file, self.path)
+        if lost:
             file.close()
-            raise Error("%s cannot be read: %s" % (self.path, fault))
+            raise Error("%s cannot be read: %s" % (self.path, lost))
         return file
 
     def _part(self, values: np.ndarray) -> np.ndarray:
@@ -217,11 +223,12 @@ class Frame:
             raise ValueError("slice takes one of x, y, z [m]")
         axis, at = given[0]
         distance = self.reference[:, axis] - at
-        half = self.spacing / 2 if thickness is None else thickness / 2
         tiny = 1e-6 * self.spacing
-        return self[(distance > -half + tiny) & (distance <= half + tiny) if thickness is None else np.abs(distance) <= half + tiny]
+        if thickness is not None:
+            return self[np.abs(distance) <= thickness / 2 + tiny]
+        return self[(distance > -self.spacing / 2 + tiny) & (distance <= self.spacing / 2 + tiny)]
 
-    def to_pandas(self) -> "pandas.DataFrame":  # noqa: F821: imported when needed
+    def to_pandas(self) -> pandas.DataFrame:
         """Returns a DataFrame of pandas with a row for each particle, by id: current positions x, y, z [m], reference
         positions x_ref, y_ref, z_ref [m], fields and components of fields ("stress_xx"). attrs: "units", "time" [s]."""
         pandas = need("pandas", "to_pandas")
@@ -239,7 +246,7 @@ class Frame:
         table.attrs.update(units=units, time=self.time)
         return table.set_index("id") if "id" in table else table
 
-    def to_vtk(self, cells: str = "points", magnify: float = 1.0) -> "vtkmodules.vtkCommonDataModel.vtkUnstructuredGrid":  # noqa: F821
+    def to_vtk(self, cells: str = "points", magnify: float = 1.0) -> vtkmodules.vtkCommonDataModel.vtkUnstructuredGrid:
         """Returns an unstructured grid of VTK with the stored fields, as arrays that are not copied.
 
         cells    "points": one vertex for each particle, fields and `spacing` [m] as point data; "boxes": one quadrilateral
@@ -249,11 +256,11 @@ class Frame:
         from ._mesh import grid_of
         return grid_of(self, cells, magnify)
 
-    def to_pyvista(self, cells: str = "points", magnify: float = 1.0) -> "pyvista.UnstructuredGrid":  # noqa: F821
+    def to_pyvista(self, cells: str = "points", magnify: float = 1.0) -> pyvista.UnstructuredGrid:
         """Returns the grid of to_vtk for PyVista: frame.to_pyvista("boxes").plot(scalars="damage")."""
         return need("pyvista", "to_pyvista").wrap(self.to_vtk(cells, magnify))
 
-    def plot(self, field: Optional[str] = None, ax: Any = None, **options: Any) -> "matplotlib.axes.Axes":  # noqa: F821
+    def plot(self, field: Optional[str] = None, ax: Any = None, **options: Any) -> matplotlib.axes.Axes:
         """Draws a field by matplotlib and returns the axes; options: those of Run.plot."""
         from ._draw import draw_frame
         return draw_frame(self, field, ax, **options)
@@ -288,7 +295,7 @@ class Frames(collections.abc.Sequence):
         """Returns the frame nearest to a time [s]. Raises IndexError if there is none at all."""
         if not self._listed:
             raise IndexError("the run has no frames yet")
-        return self[int(np.argmin(np.abs(self.times - time)))]
+        return self[int(np.argmin(np.abs(self.times - float(time))))]
 
     def __len__(self) -> int:
         return len(self._listed)

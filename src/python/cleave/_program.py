@@ -27,7 +27,7 @@ def program() -> str:
               os.path.join(here, "..", "..", "..", "..", "bin", "cleave"),      # PREFIX/lib/python3/dist-packages/cleave
               os.path.join(sysconfig.get_path("scripts"), "cleave")]            # by pip, with the module
     named = os.environ.get("CLEAVE")
-    for path in [named] if named else [*beside, shutil.which("cleave")]:
+    for path in [named] if named else [*beside, shutil.which("cleave") or ""]:
         if path and os.path.isfile(path) and os.access(path, os.X_OK):
             return os.path.normpath(path)
     raise Error("CLEAVE=%s is no program" % named if named else
@@ -101,7 +101,7 @@ def progress_of(line: str) -> Optional[Progress]:
         return float(part[name]) * factor if part.get(name) else float("nan")
 
     return Progress(int(part["step"]), int(part["steps"]), number("time"), number("rate"),
-                    number("left", _SECONDS.get(part.get("unit"), 1.0)), number("share", 0.01), number("crack", 1e-3), line)
+                    number("left", _SECONDS.get(part.get("unit") or "s", 1.0)), number("share", 0.01), number("crack", 1e-3), line)
 
 
 # ---- calls --------------------------------------------------------------------------------------------------------

@@ -7,13 +7,16 @@ import dataclasses
 import json
 import os
 import re
-from typing import Any, Callable, Dict, List, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Optional, Union
 
 import numpy as np
 
 from ._errors import Error
 from ._frame import Frame, Frames
 from ._tables import Record, Table
+
+if TYPE_CHECKING:
+    import matplotlib.axes
 
 
 class Probe:
@@ -61,7 +64,7 @@ class Figure:
     uncertainties: np.ndarray
     runs: np.ndarray
 
-    def plot(self, ax: Any = None) -> "matplotlib.axes.Axes":  # noqa: F821: imported when needed
+    def plot(self, ax: Any = None) -> matplotlib.axes.Axes:
         """Draws the means with their error bars over the spacing, by matplotlib, and returns the axes."""
         from ._draw import draw_figure
         return draw_figure(self, ax)
@@ -218,7 +221,7 @@ class Run:
 
     def plot(self, field: Optional[str] = None, time: Optional[float] = None, ax: Any = None, *, magnify: float = 1.0,
              limits: Any = None, colours: Optional[str] = None, colour_bar: bool = True,
-             slice: Optional[Dict[str, float]] = None) -> "matplotlib.axes.Axes":  # noqa: F821: imported when needed
+             slice: Optional[Dict[str, float]] = None) -> matplotlib.axes.Axes:
         """Draws a field of a frame by matplotlib and returns the axes. Each particle is drawn with the shape that it has been
         deformed to, solids as a section, bars as a curve. Axes are in m, mm or µm.
 
@@ -228,13 +231,14 @@ class Run:
         ax          axes to draw into; default: new ones
         magnify     factor on displacements [1]
         limits      lowest and highest value of the colour bar [SI unit of the field]; default: all values but the extreme
-                    0.2 % at either end, symmetric about 0 if there are both signs
-        colours     name of a colour map of matplotlib; default: viridis, or coolwarm with both signs
+                    0.2 % at either end; symmetric about 0 if the smaller sign reaches 20 % of the larger
+        colours     name of a colour map of matplotlib; default: viridis, or coolwarm if symmetric
         colour_bar  False: draws none
         slice       plane of the section of a solid: {"z": 4e-3} [m]; default: normal to the shortest side of the body, through
                     the particle with the most damage, else the middle
 
-        Raises KeyError for a field that is not there, IndexError if there are no frames.
+        Raises KeyError for a field that is not there, IndexError if there are no frames, ValueError for a section without
+        particles or of a frame that is no solid.
         """
         frames = self.frames
         if not frames:

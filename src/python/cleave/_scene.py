@@ -116,7 +116,7 @@ class Scene:
             fault = SceneError(line, fault.status, place) if place and fault.status == 2 else Error(line, fault.status)
         if isinstance(fault, SceneError) and fault.line and fault.file in (path, "<%s>" % self.name):
             fault.source = (self.text.splitlines()[fault.line - 1:fault.line] or [""])[0]
-            fault.key = (self._keys[fault.line - 1:fault.line] or [None])[0]
+            fault.key = self._keys[fault.line - 1] if fault.line <= len(self._keys) else None
         return fault
 
     def check(self, threads: Optional[int] = None, trial: bool = True) -> Check:
@@ -155,10 +155,9 @@ def _finish(command: str, scene: Scene, words: Iterable[Any], output: Optional[P
     with scene._words() as first:
         printed, _ = call_fully((command, *first, *words), quiet, progress)
     found = re.search(said, printed, re.M)
-    folder = output if output is not None else found and found.group(1)
-    if folder is None:
+    if output is None and not found:
         raise Error("the program did not say where its results are; give output")
-    return Run(folder)
+    return Run(output if output is not None else found.group(1) if found else "")
 
 
 def run(scene: Union[Path, Scene, Mapping[str, Any]], overrides: Optional[Mapping[str, Any]] = None, output: Optional[Path] = None,

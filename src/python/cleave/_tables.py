@@ -8,11 +8,14 @@ import csv
 import json
 import os
 import re
-from typing import Any, Dict, Iterator, List, Mapping
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping
 
 import numpy as np
 
 from ._errors import Error, need
+
+if TYPE_CHECKING:
+    import pandas
 
 # Earlier and present names of columns of history.csv and of entries of summary.json: both name the same (the list of the program:
 # src/output/renamed_results.c).
@@ -55,14 +58,14 @@ class Table(collections.abc.Mapping):
         lines = list(csv.reader(text[:text.rfind("\n") + 1].splitlines()))
         if not lines:
             raise Error("%s: no header yet" % path)
-        heads = [re.fullmatch(r"(.*?)(?: \[(.*)\])?", head) for head in lines[0]]
+        heads: List[Any] = [re.fullmatch(r"(.*?)(?: \[(.*)\])?", head) for head in lines[0]]
         whole = [line for line in lines[1:] if len(line) == len(heads)]
         self.path = path
         self.rows: int = len(whole)
         self.units: Dict[str, str] = {head.group(1): head.group(2) or "" for head in heads}
         self._columns = {head.group(1): _column([line[k] for line in whole]) for k, head in enumerate(heads)}
 
-    def to_pandas(self) -> "pandas.DataFrame":  # noqa: F821: imported when needed
+    def to_pandas(self) -> pandas.DataFrame:
         """Returns the table as a DataFrame of pandas; its attrs["units"] are the units."""
         table = need("pandas", "to_pandas").DataFrame(dict(self))
         table.attrs["units"] = dict(self.units)
