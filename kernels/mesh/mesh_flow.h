@@ -65,19 +65,55 @@ static ALWAYS_INLINE real point_energy_of(const struct particles *p, const struc
            (across != 0 ? across * across / (4 * m->shear * (1 + m->poisson)) : 0);
 }
 
+/* Replaces value[q] of the points of eight cells by their differences from the means of their cells and materials
+ * (cell_differences). cell: eight cell indices, -1 for a lane without cell, whose values become 0. */
+static ALWAYS_INLINE void cells_differences(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                            const int32_t *cell, lanes value[CORNERS_MAX], const int dim)
+{
+    static const int32_t none[CORNERS_MAX] = {-1, -1, -1, -1, -1, -1, -1, -1};
+    for (int l = 0; l < LANES; l++) {
+        real own[CORNERS_MAX];
+        for (int q = 0; q < 1 << dim; q++) own[q] = value[q][l];
+        cell_differences(m, p->material, cell[l] < 0 ? none : &mesh->point[(int64_t)cell[l] << dim], own, dim);
+        for (int q = 0; q < 1 << dim; q++) value[q][l] = own[q];
+    }
+}
+
+/* Computes by how much the normal strains of the points of eight cells change where the points of a cell have one
+ * dilatation. Returns false, without values, if no material has mean dilatation. cell: eight cell indices, -1 for a
+ * lane without cell; s: strain of the cells; change: [2^dim]. */
+static ALWAYS_INLINE bool cells_dilate(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
+                                       const int32_t *cell, const struct mesh_cell *s, lanes change[CORNERS_MAX],
+                                       const int dim)
+{
+    bool any = false;
+    for (int l = 0; l < LANES && dim > 1; l++)
+        any |= cell[l] >= 0 && cell_averages(m, p->material, &mesh->point[(int64_t)cell[l] << dim], dim);
+    if (!any) return false;
+    for (int q = 0; q < 1 << dim; q++) {
+        lanes e[3][3];
+        cells_strain_at(s, q, e, dim);
+        change[q] = lanes_of(0);
+        for (int d = 0; d < dim; d++) change[q] += e[d][d] * (1.0 / dim);
+    }
+    cells_differences(mesh, p, m, cell, change, dim);
+    return true;
+}
+
 /* Computes the stresses of the points number q of eight cells, one cell in each vector lane. cell: eight cell indices,
- * -1 for a lane without cell; s: strain of the cells; m: elastic constants of all materials; stress: receives symmetric
- * components [Pa], 0 in lanes without a point. If flows is true, applies return mapping (flow laws: in load steps),
- * updates the plastic state of the points and returns 0. If it is false, returns the sum of the elastic energies per
- * volume of the points [J/m^3]. */
+ * -1 for a lane without cell; s: strain of the cells; change: added to the normal strains of the points [1], NULL:
+ * nothing; m: elastic constants of all materials; stress: receives symmetric components [Pa], 0 in lanes without a
+ * point. If flows is true, applies return mapping (flow laws: in load steps), updates the plastic state of the points
+ * and returns 0. If it is false, returns the sum of the elastic energies per volume of the points [J/m^3]. */
 static ALWAYS_INLINE real place_stress(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
-                                       const int32_t *cell, const struct mesh_cell *s, const int q, lanes *stress,
-                                       const int dim, const bool flows)
+                                       const int32_t *cell, const struct mesh_cell *s, const lanes *change, const int q,
+                                       lanes *stress, const int dim, const bool flows)
 {
     lanes e[3][3];
     real sum = 0;
     unsigned with_law = 0;
     cells_strain_at(s, q, e, dim);
+    for (int d = 0; d < dim && change; d++) e[d][d] += *change;
     for (int k = 0; k < symmetric_count(dim); k++) stress[k] = lanes_of(0);
     for (int l = 0; l < LANES; l++) {
         const int64_t i = place_point(mesh, cell[l], q, dim);
@@ -119,15 +155,23 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
                                      const int32_t *cell, struct mesh_cell *s, const int dim)
 {
     const real share = 1.0 / (1 << dim);
+    lanes change[CORNERS_MAX], stress[CORNERS_MAX][SYM_MAX];
+    const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
     for (int a = 0; a < dim; a++)
         for (int b = 0; b < dim; b++) s->P[a][b] = lanes_of(0);
     for (int M = 0; M < 1 << dim; M++)
         for (int a = 0; a < dim; a++) s->force[M][a] = lanes_of(0);
+    for (int q = 0; q < 1 << dim; q++)
+        place_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress[q], dim, true);
+    for (int q = 0; q < 1 << dim && averaged; q++) {
+        change[q] = lanes_of(0);
+        for (int d = 0; d < dim; d++) change[q] += stress[q][d] * (1.0 / dim);
+    }
+    if (averaged) cells_differences(mesh, p, m, cell, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
-        lanes stress[SYM_MAX];
-        place_stress(mesh, p, m, cell, s, q, stress, dim, true);
-        for (int k = 0; k < symmetric_count(dim); k++) stress[k] *= share;
-        place_stress_add(s, stress, q, dim);
+        for (int d = 0; d < dim && averaged; d++) stress[q][d] += change[q];
+        for (int k = 0; k < symmetric_count(dim); k++) stress[q][k] *= share;
+        place_stress_add(s, stress[q], q, dim);
     }
 }
 
@@ -137,9 +181,11 @@ static ALWAYS_INLINE void cells_flow(const struct mesh *mesh, const struct parti
 static ALWAYS_INLINE real cells_flow_energy(const struct mesh *mesh, const struct particles *p, const struct elastic *m,
                                             const int32_t *cell, const struct mesh_cell *s, const int dim)
 {
-    lanes stress[SYM_MAX];
+    lanes stress[SYM_MAX], change[CORNERS_MAX];
     real sum = 0;
-    for (int q = 0; q < 1 << dim; q++) sum += place_stress(mesh, p, m, cell, s, q, stress, dim, false);
+    const bool averaged = cells_dilate(mesh, p, m, cell, s, change, dim);
+    for (int q = 0; q < 1 << dim; q++)
+        sum += place_stress(mesh, p, m, cell, s, averaged ? &change[q] : NULL, q, stress, dim, false);
     return sum * mesh->volume;
 }
 

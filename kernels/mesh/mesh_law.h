@@ -12,7 +12,13 @@
  * is linear in Biot's strain, P = R C : (sym R^T F_p - 1), as the force of a bond is linear in its stretch. Since R
  * depends on F, the exact gradient of that energy has one more term: an antisymmetric part that balances the moment M =
  * sum V s U_p^T of the rotated stresses,  P += R w x,  (tr U - U) w = axial(M - M^T)/V. It vanishes for isotropic
- * constants in 2D; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c). */
+ * constants in 2D; with it energy and angular momentum are exact (tests/unit/mesh/test_mesh.c).
+ *
+ * Materials that yield or are nearly incompressible (elastic.mean_dilatation) have one dilatation in a cell, the mean
+ * over its points of the material, as in the current frame (mpm/dilatation.h; B-bar, Hughes 1980). With the stiffness k
+ * of the mean normal stress by the trace of the strain, k = (C11 + (dim - 1) C12)/dim, the energy of a point is that of
+ * C - k 1 (x) 1 at its own strain, and k/2 times the square of the mean trace: bending modes, whose trace has the mean
+ * 0 over the points of a whole cell, have the constants C11 - k and C12 - k. */
 #ifndef CLEAVE_KERNELS_MESH_LAW
 #define CLEAVE_KERNELS_MESH_LAW
 
@@ -158,20 +164,28 @@ static ALWAYS_INLINE void stress_of(const struct elastic *m, const lanes e[3][3]
     }
 }
 
+/* Returns the stiffness of the mean normal stress by the trace of the strain [Pa] if the points of a cell have one
+ * dilatation; 0 if each has its own. */
+static ALWAYS_INLINE real averaged_stiffness(const struct elastic *m, const int dim)
+{
+    return m->mean_dilatation ? (m->c11 + (dim - 1) * m->c12) / dim : 0;
+}
+
 /* Returns the derivative of the elastic energy per volume by component i of bending mode M, in the rotated axes of the
  * cell [Pa]. M: bit set of axes. The gradient d_j u_i contains mode {j, l} of component i times the coordinate along
  * l, and mode {1, 2, 3} of component i times the two other coordinates. */
 static ALWAYS_INLINE lanes bend(const struct elastic *m, lanes mode[CORNERS_MAX][3], const int M, const int i,
                                 const int dim)
 {
-    if (dim == 3 && M == 7) return mode[M][i] * ((m->c11 + 2 * m->shear) / 256);
-    if (dim == 2) return mode[M][i] * ((m->c11 + m->shear) / 16);
+    const real averaged = averaged_stiffness(m, dim), c11 = m->c11 - averaged, c12 = m->c12 - averaged;
+    if (dim == 3 && M == 7) return mode[M][i] * ((c11 + 2 * m->shear) / 256);
+    if (dim == 2) return mode[M][i] * ((c11 + m->shear) / 16);
     const int k = M == 6 ? 0 : M == 5 ? 1 : 2; /* the axis that is not in M */
     if (k == i) {                              /* shears only, coupled to two modes of other components */
         const lanes trace = mode[6][0] + mode[5][1] + mode[3][2];
         return (mode[M][i] + trace) * (m->shear / 16);
     }
-    return (mode[M][i] * (m->c11 + m->shear) + mode[7 & ~(1 << i)][k] * m->c12) * (1.0 / 16);
+    return (mode[M][i] * (c11 + m->shear) + mode[7 & ~(1 << i)][k] * c12) * (1.0 / 16);
 }
 
 /* Computes rotation, mean strain and bending modes of eight cells into s, from the displacements u[c][i] of corner c
@@ -221,6 +235,17 @@ static ALWAYS_INLINE void cells_strain_at(const struct mesh_cell *s, const int q
                 e[i][j] += place_along(M & ~(1 << j), q) * s->mode[M][i];
             }
         }
+}
+
+/* Replaces the trace of the strain e of eight whole cells at a point by that of the mean strain, if the points of the
+ * cells have one dilatation. */
+static ALWAYS_INLINE void cells_average(const struct elastic *m, const struct mesh_cell *s, lanes e[3][3],
+                                        const int dim)
+{
+    lanes change = lanes_of(0);
+    if (!m->mean_dilatation) return;
+    for (int d = 0; d < dim; d++) change += s->e[d][d] - e[d][d];
+    for (int d = 0; d < dim; d++) e[d][d] += change / dim;
 }
 
 /* Computes the stress of the mean strain s->P and the forces on the bending modes s->force of eight whole cells (with

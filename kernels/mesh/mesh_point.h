@@ -96,6 +96,59 @@ static ALWAYS_INLINE void mesh_strains(const struct mesh *mesh, int64_t I, real 
             }
 }
 
+/* Returns true if a point of the material numbers `material` in the cell with the 2^dim points `point` has the mean
+ * dilatation of its cell. */
+static ALWAYS_INLINE bool cell_averages(const struct elastic *m, const uint8_t *material, const int32_t *point,
+                                        const int dim)
+{
+    bool any = false;
+    for (int q = 0; q < 1 << dim; q++) any |= point[q] >= 0 && m[material[point[q]]].mean_dilatation;
+    return any;
+}
+
+/* Replaces value[q] of each point of a cell by its difference from the mean over the points of the cell of the same
+ * material, mean less value; by 0 for materials without mean dilatation, and where there is no point. material: number
+ * of the material of every particle; point: the 2^dim points of the cell, -1: none. */
+static ALWAYS_INLINE void cell_differences(const struct elastic *m, const uint8_t *material, const int32_t *point,
+                                           real *value, const int dim)
+{
+    unsigned left = 0;
+    for (int q = 0; q < 1 << dim; q++) {
+        const bool averaged = point[q] >= 0 && m[material[point[q]]].mean_dilatation;
+        if (averaged)
+            left |= 1u << q;
+        else
+            value[q] = 0;
+    }
+    while (left) {
+        const uint8_t first = material[point[__builtin_ctz(left)]];
+        unsigned own = 0;
+        real sum = 0;
+        for (int q = 0; q < 1 << dim; q++)
+            if (left >> q & 1 && material[point[q]] == first) own |= 1u << q, sum += value[q];
+        const real mean = sum / __builtin_popcount(own);
+        for (int q = 0; q < 1 << dim; q++)
+            if (own >> q & 1) value[q] = mean - value[q];
+        left &= ~own;
+    }
+}
+
+/* Replaces the trace of the strains e[q] of the points of cell I by the mean over the points of the same material,
+ * where the material has the mean dilatation of its cell. e: as from mesh_strains. */
+static ALWAYS_INLINE void mesh_strains_average(const struct mesh *mesh, const struct particles *p,
+                                               const struct elastic *m, int64_t I,
+                                               real e[CORNERS_MAX][DIM_MAX * DIM_MAX], const int dim)
+{
+    const int32_t *point = &mesh->point[I << dim];
+    real trace[CORNERS_MAX] = {0};
+    if (!cell_averages(m, p->material, point, dim)) return;
+    for (int q = 0; q < 1 << dim; q++)
+        for (int d = 0; d < dim; d++) trace[q] += e[q][d * (dim + 1)];
+    cell_differences(m, p->material, point, trace, dim);
+    for (int q = 0; q < 1 << dim; q++)
+        for (int d = 0; d < dim; d++) e[q][d * (dim + 1)] += trace[q] / dim;
+}
+
 /* Computes the stress s of the strain e by Hooke's law. e: dim x dim row by row, of which the symmetric part counts;
  * s: receives symmetric components [Pa]; m: elastic constants. */
 static ALWAYS_INLINE void mesh_point_stress(const struct elastic *m, const real *e, real *s, const int dim)

@@ -263,6 +263,7 @@ static ALWAYS_INLINE void cell_stress(const struct mesh *mesh, struct particles 
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX];
     mesh_strains(mesh, I, R, e, dim, finite);
+    mesh_strains_average(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i >= 0) store_point_stress(p, &m[p->material[i]], i, R, e[q], dim, finite);
@@ -326,6 +327,7 @@ static ALWAYS_INLINE void cell_points_mark(const struct mesh *mesh, struct parti
 {
     real R[9], e[CORNERS_MAX][DIM_MAX * DIM_MAX], s[SYM_MAX];
     mesh_strains(mesh, I, R, e, dim, finite);
+    mesh_strains_average(mesh, p, m, I, e, dim);
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
@@ -366,6 +368,7 @@ static ALWAYS_INLINE lanes places_tension(const struct elastic *m, const struct 
     SETS for (int q = 0; q < 1 << dim; q++)
     {
         cells_strain_at(s, q, e, dim);
+        if (!there) cells_average(m, s, e, dim);
         stress_of(m, e, P, dim);
         lanes bound = P[0][0];
         for (int a = 1; a < dim; a++) bound = lanes_max(bound, P[a][a]);
@@ -442,8 +445,8 @@ static ALWAYS_INLINE void run_mark_cells(const struct mesh *mesh, const struct e
 }
 
 /* Sets FLAG_STRESSED of the points in a group of eight partial cells whose principal stress exceeds their conversion
- * stress. Points are examined one by one in cells whose bound, with the material of the cell, exceeds it, and in cells
- * with several materials. */
+ * stress. Points are examined one by one in cells whose bound, with the material of the cell, exceeds it, in cells with
+ * several materials, and where points have the mean dilatation of their cell, of which this bound does not hold. */
 static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *p, const struct elastic *m,
                                      int64_t group, const int dim, const bool finite)
 {
@@ -460,8 +463,8 @@ static ALWAYS_INLINE void group_mark(const struct mesh *mesh, struct particles *
         const uint8_t material = mesh->partial_material[k];
         if (k == first || material != mesh->partial_material[k - 1])
             tension = cells_tension(&m[material], &s, there, dim);
-        if (mesh->partial_stressed[k] &&
-            (tension[k - first] > m[material].trigger || cell_mixed(mesh, p, mesh->partial_cell[k], material, dim)))
+        if (mesh->partial_stressed[k] && (tension[k - first] > m[material].trigger || m[material].mean_dilatation ||
+                                          cell_mixed(mesh, p, mesh->partial_cell[k], material, dim)))
             cell_mark(mesh, p, m, mesh->partial_cell[k], dim, finite);
     }
 }

@@ -18,11 +18,13 @@ static ALWAYS_INLINE void cells_step(const struct flow_step *f, const int32_t *c
                                      const int dim, const bool finite)
 {
     struct mesh_cell s;
+    lanes change[CORNERS_MAX];
     cell_strain(&s, f->mesh->grid.h, u, dim, finite && dim > 1);
+    const bool averaged = cells_dilate(f->mesh, f->p, f->elastic, cell, &s, change, dim);
     for (int q = 0; q < 1 << dim; q++) {
         lanes stress[SYM_MAX];
         unsigned with_law = 0;
-        place_stress(f->mesh, f->p, f->elastic, cell, &s, q, stress, dim, false);
+        place_stress(f->mesh, f->p, f->elastic, cell, &s, averaged ? &change[q] : NULL, q, stress, dim, false);
         for (int l = 0; l < LANES; l++) {
             const int32_t i = place_point(f->mesh, cell[l], q, dim);
             if (i < 0) continue;

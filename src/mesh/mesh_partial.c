@@ -135,13 +135,76 @@ static real mesh_partial_entry_of(const struct cell_maker *c, real sum[CORNERS_M
     return value;
 }
 
+/* Strain of the points of a cell by its modes: [point][symmetric component][mode] [1]; shear strains are angles. */
+typedef real point_strains[CORNERS_MAX][SYM_MAX][MODES_MAX];
+
+/* Computes the strains of the points of cell I by its modes if points of the cell have one dilatation, the mean over
+ * the points of the same material (mesh_law.h). Returns false, without values, if none has. */
+static bool averaged_strains(const struct cell_maker *c, int64_t I, point_strains B)
+{
+    const int32_t *point = &c->mesh->point[I << c->dim];
+    const struct elastic *m = c->source->elastic;
+    if (!cell_averages(m, c->p->material, point, c->dim)) return false;
+    memset(B, 0, sizeof(point_strains));
+    for (int k = 0; k < c->modes; k++) {
+        real trace[CORNERS_MAX] = {0};
+        for (int q = 0; q < 1 << c->dim; q++)
+            for (int t = 0; t < c->in[k].n; t++) {
+                const struct mode_term *term = &c->in[k].at[t];
+                const int below = __builtin_popcount((unsigned)(term->set & ~q)); /* coordinates -1/4 */
+                B[q][term->row][k] += (below % 2 ? -1 : 1) * term->factor;
+            }
+        for (int q = 0; q < 1 << c->dim; q++)
+            for (int d = 0; d < c->dim; d++) trace[q] += B[q][d][k];
+        cell_differences(m, c->p->material, point, trace, c->dim);
+        for (int q = 0; q < 1 << c->dim; q++)
+            for (int d = 0; d < c->dim; d++) B[q][d][k] += trace[q] / c->dim;
+    }
+    return true;
+}
+
+/* Adds to K, [MODES_MAX][MODES_MAX], the stiffness B^T D B of a point whose strain by the modes is B, over the number
+ * of points of a whole cell. D: its stress by strain [Pa]. */
+static void averaged_point_add(const struct cell_maker *c, real B[SYM_MAX][MODES_MAX], const real *D,
+                               real K[MODES_MAX][MODES_MAX])
+{
+    for (int b = 0; b < c->modes; b++) {
+        real stress[SYM_MAX] = {0};
+        for (int s = 0; s < c->columns; s++)
+            for (int t = 0; t < c->columns; t++) stress[s] += D[s * c->columns + t] * B[t][b];
+        for (int a = 0; a < c->modes; a++)
+            for (int s = 0; s < c->columns; s++) K[a][b] += B[s][a] * stress[s] / (1 << c->dim);
+    }
+}
+
+/* Computes the stiffness matrix K, [MODES_MAX][MODES_MAX], of partial cell I by modes [Pa], whose points have the
+ * strains B, from averaged_strains. */
+static void averaged_cell_make(const struct cell_maker *c, int64_t I, point_strains B, real K[MODES_MAX][MODES_MAX])
+{
+    memset(K, 0, sizeof(real) * MODES_MAX * MODES_MAX);
+    for (int q = 0; q < 1 << c->dim; q++) {
+        const int32_t i = c->mesh->point[(I << c->dim) + q];
+        real D[SYM_MAX * SYM_MAX];
+        if (i < 0) continue;
+        point_constants(c, i, D);
+        averaged_point_add(c, B[q], D, K);
+    }
+}
+
 /* Computes the upper half of the stiffness matrix of partial cell I by modes. K: its first entry; further ones are
  * LANES apart, since the matrices of LANES cells are interleaved. K is used as symmetric: D is symmetric up to
  * round-off. */
 static void mesh_partial_cell_make(const struct cell_maker *c, int64_t I, real *K)
 {
     const int n = c->modes;
-    real sum[CORNERS_MAX][SYM_MAX * SYM_MAX];
+    real sum[CORNERS_MAX][SYM_MAX * SYM_MAX], averaged[MODES_MAX][MODES_MAX];
+    point_strains B;
+    if (averaged_strains(c, I, B)) {
+        averaged_cell_make(c, I, B, averaged);
+        for (int a = 0; a < n; a++)
+            for (int b = a; b < n; b++, K += LANES) *K = averaged[a][b];
+        return;
+    }
     cell_sums(c, I, sum);
     for (int a = 0; a < n; a++)
         for (int b = a; b < n; b++, K += LANES) *K = mesh_partial_entry_of(c, sum, &c->in[a], &c->in[b]);
@@ -160,11 +223,14 @@ static void ends_free(struct mesh *mesh)
 
 /* Computes by how much each mode of a cell contributes to the mean strain of the family of a PD-MPM point at quarter
  * point `place`, share [modes] [1]. local: part of the strain that the bonds of the point do not measure (L of struct
- * partial_stress). */
-static void end_share(const struct cell_maker *c, const real *local, int place, real *share)
+ * partial_stress); B: strains of the points by the modes from averaged_strains, NULL: points have their own
+ * dilatation. */
+static void end_share(const struct cell_maker *c, const real *local, int place, point_strains B, real *share)
 {
     for (int k = 0; k < c->modes; k++) {
         share[k] = 0;
+        for (int s = 0; s < c->columns && B; s++) share[k] += local[s] * B[place][s][k];
+        if (B) continue;
         for (int t = 0; t < c->in[k].n; t++) {
             const struct mode_term *term = &c->in[k].at[t];
             const int below = __builtin_popcount((unsigned)(term->set & ~place)); /* coordinates -1/4 */
@@ -184,12 +250,15 @@ static int64_t end_entry(const struct cell_maker *c, int32_t i)
 static void ends_of_cell(struct mesh *mesh, const struct cell_maker *c, int64_t k, int32_t *n)
 {
     const struct partial_stress *partial = c->source->partial;
+    point_strains B;
+    const bool averaged = averaged_strains(c, mesh->partial_cell[k], B);
     for (int q = 0; q < 1 << c->dim; q++) {
         const int32_t i = mesh->point[((int64_t)mesh->partial_cell[k] << c->dim) + q];
         const int64_t entry = end_entry(c, i);
         if (entry < 0) continue;
         mesh->end[*n] = (struct mesh_end){i, (int32_t)(k % LANES)};
-        end_share(c, partial->local + entry * c->columns, q, mesh->end_share + (int64_t)(*n)++ * c->modes);
+        end_share(c, partial->local + entry * c->columns, q, averaged ? B : NULL,
+                  mesh->end_share + (int64_t)(*n)++ * c->modes);
     }
 }
 

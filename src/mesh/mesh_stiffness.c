@@ -5,6 +5,7 @@
 #include "base/eigenvalue.h"
 #include "base/memory.h"
 #include "mesh_parts.h"
+#include "kernels/mesh/mesh_law.h"
 #include "kernels/mesh/mesh_point.h"
 
 /* Adds the contribution of a point at quarter point q to the stiffness K for displacements of the corners [N/m], column
@@ -28,6 +29,39 @@ static void point_stiffness(real *K, const struct elastic *m, int dim, real h, r
     }
 }
 
+/* Replaces in the stiffness K [n][n] for displacements of the corners of cell I [N/m] the share of the dilatation of
+ * each point of material `material` by that of their mean (mesh_law.h): subtracts V k t (x) t of every point and adds
+ * their number times V k mean t (x) mean t. t: trace of the strain by the displacements; k: averaged_stiffness. */
+static void average_dilatation(const struct mesh *mesh, const struct elastic *m, const struct particles *p, int64_t I,
+                               uint8_t material, real *K)
+{
+    const int dim = mesh->grid.dim, n = dim << dim;
+    const real by = averaged_stiffness(m, dim) * mesh->volume;
+    real sum[CELL_UNKNOWNS_MAX] = {0};
+    int points = 0;
+    for (int q = 0; q < 1 << dim; q++) {
+        const int32_t i = mesh->point[(I << dim) + q];
+        real t[CELL_UNKNOWNS_MAX];
+        if (i < 0 || p->material[i] != material) continue;
+        points++;
+        for (int a = 0; a < n; a++) sum[a] += t[a] = mesh_slope(dim, a / dim, q, a % dim) / mesh->grid.h;
+        for (int b = 0; b < n; b++)
+            for (int a = 0; a < n; a++) K[b * n + a] -= by * t[a] * t[b];
+    }
+    for (int b = 0; b < n && points > 0; b++)
+        for (int a = 0; a < n; a++) K[b * n + a] += by * sum[a] * sum[b] / points;
+}
+
+/* Returns true if point q of cell I, of material `material`, is the first point of the cell of this material. */
+static bool first_of_material(const struct mesh *mesh, const struct particles *p, int64_t I, int q, uint8_t material)
+{
+    for (int k = 0; k < q; k++) {
+        const int32_t i = mesh->point[(I << mesh->grid.dim) + k];
+        if (i >= 0 && p->material[i] == material) return false;
+    }
+    return true;
+}
+
 bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic, const struct particles *p, int64_t I,
                          real *K)
 {
@@ -37,7 +71,10 @@ bool mesh_cell_stiffness(const struct mesh *mesh, const struct elastic *elastic,
     for (int q = 0; q < 1 << dim; q++) {
         const int32_t i = mesh->point[(I << dim) + q];
         if (i < 0) continue;
-        point_stiffness(K, &elastic[p->material[i]], dim, mesh->grid.h, mesh->volume, q);
+        const struct elastic *m = &elastic[p->material[i]];
+        point_stiffness(K, m, dim, mesh->grid.h, mesh->volume, q);
+        if (m->mean_dilatation && first_of_material(mesh, p, I, q, p->material[i]))
+            average_dilatation(mesh, m, p, I, p->material[i], K);
         any = true;
     }
     return any;
@@ -62,7 +99,7 @@ static void mesh_scaled_stiffness(void *context, const real *x, real *y)
 
 /* Returns the largest eigenvalue of m^-1/2 K m^-1/2 for one cell with points at the quarter points `places`, one bit
  * each [1/s^2]. No eigenvalue of the mesh exceeds that of its stiffest cell alone, with the masses of the points of the
- * cell. */
+ * cell. Cells whose points have one dilatation are softer; their bound is that of points with their own. */
 static real cell_eigenvalue(const struct elastic *m, int dim, real h, real V, real density, unsigned places)
 {
     const int corners = 1 << dim, n = corners * dim;

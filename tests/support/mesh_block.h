@@ -57,6 +57,15 @@ static inline void block_make(struct block *b, enum space space, bool hole, bool
     block_make_with(b, space, hole, cubic, 0);
 }
 
+/* Gives the points of a cell one dilatation (elastic.mean_dilatation). mixed: a tenth of the points become of another
+ * material, so that cells have several. */
+static inline void block_average(struct block *b, bool mixed)
+{
+    for (int m = 0; m < CLOUD_MATERIALS; m++) b->elastic[m].mean_dilatation = b->c.p.dim > 1;
+    for (int64_t i = 0; i < b->c.p.n && mixed; i++) b->c.p.material[i] = i * 7 % 11 == 0;
+    mesh_remove_converted(&b->mesh, &b->c.p, &b->source, NULL, 0);
+}
+
 static void block_free(struct block *b)
 {
     mesh_free(&b->mesh);
@@ -93,13 +102,13 @@ static inline void rotation(struct block *b, real angle, real stretch)
 
 /* ---- reference implementation: energy point by point ------------------------------------------------------------- */
 
-static real point_energy(const struct block *b, int64_t i, bool finite)
+/* Computes the strain e of point i, dim x dim, in the axes of its cell. */
+static void point_strain(const struct block *b, int64_t i, bool finite, real *e)
 {
     const struct mesh *mesh = &b->mesh;
     const int dim = b->c.p.dim, place = mesh->place[i] & ((1 << dim) - 1);
     const int64_t I = mesh->place[i] >> dim;
-    const struct elastic *m = &b->elastic[b->c.p.material[i]];
-    real F[9] = {0}, mean[9] = {0}, R[9] = {1}, e[9], normal = 0, shear = 0, trace = 0;
+    real F[9] = {0}, mean[9] = {0}, R[9] = {1};
     for (int a = 0; a < dim; a++)
         for (int k = 0; k < dim; k++) {
             F[a * dim + k] = mean[a * dim + k] = a == k;
@@ -121,14 +130,43 @@ static real point_energy(const struct block *b, int64_t i, bool finite)
             e[a * dim + k] = -(a == k);
             for (int c = 0; c < dim; c++) e[a * dim + k] += R[c * dim + a] * F[c * dim + k];
         }
+}
+
+/* Returns the trace of the strain of point i: its own, or the mean over the points of its cell of its material. */
+static real point_trace(const struct block *b, int64_t i, bool finite)
+{
+    const int dim = b->c.p.dim;
+    real sum = 0;
+    int n = 0;
+    for (int q = 0; q < 1 << dim; q++) {
+        const int64_t j = b->mesh.point[(b->mesh.place[i] >> dim << dim) + q];
+        real e[9];
+        if (j < 0 || b->c.p.material[j] != b->c.p.material[i]) continue;
+        if (!b->elastic[b->c.p.material[i]].mean_dilatation && j != i) continue;
+        point_strain(b, j, finite, e);
+        n++;
+        for (int d = 0; d < dim; d++) sum += e[d * (dim + 1)];
+    }
+    return sum / n;
+}
+
+static real point_energy(const struct block *b, int64_t i, bool finite)
+{
+    const int dim = b->c.p.dim;
+    const struct elastic *m = &b->elastic[b->c.p.material[i]];
+    real e[9], normal = 0, shear = 0, trace = 0, dilatation = point_trace(b, i, finite);
+    point_strain(b, i, finite, e);
+    for (int d = 0; d < dim; d++) trace += e[d * (dim + 1)];
+    for (int d = 0; d < dim; d++) e[d * (dim + 1)] += (dilatation - trace) / dim;
+    trace = 0;
     for (int a = 0; a < dim; a++) {
         normal += square(e[a * dim + a]), trace += e[a * dim + a];
         for (int k = 0; k < a; k++) shear += square(e[a * dim + k] + e[k * dim + a]);
     }
-    return 0.5 * mesh->volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
+    return 0.5 * b->mesh.volume * ((m->c11 - m->c12) * normal + m->c12 * square(trace) + m->shear * shear);
 }
 
-static real plain_energy(const struct block *b, bool finite)
+static inline real plain_energy(const struct block *b, bool finite)
 {
     real sum = 0;
     for (int64_t i = 0; i < b->c.p.n; i++)

@@ -7,10 +7,12 @@
 
 /* f = -dW/du by central differences of the plain energy of the cells around a node. Tolerance 1e-7 of the largest
  * force: third derivatives times the squared step, and round-off of the energy over the step. */
-static void gradient_evaluate(enum space space, bool finite, bool cubic)
+/* averaged: 1: with one dilatation in a cell, 2: and with several materials. */
+static void gradient_evaluate(enum space space, bool finite, bool cubic, int averaged)
 {
     struct block b;
     block_make(&b, space, true, cubic);
+    if (averaged) block_average(&b, averaged > 1);
     shake(&b, 0.15, 5);
     forces(&b, finite);
     const real scale = largest_force(&b), step = 1e-4 * CLOUD_SPACING;
@@ -44,9 +46,14 @@ static void test_gradient(void **state)
 {
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
-        for (int finite = 0; finite < 2; finite++) gradient_evaluate(spaces[s], finite, false);
-    gradient_evaluate(SPACE_PLANE_STRESS, true, true); /* constants of a lattice, anisotropic */
-    gradient_evaluate(SPACE_SOLID, true, true);
+        for (int finite = 0; finite < 2; finite++) gradient_evaluate(spaces[s], finite, false, 0);
+    gradient_evaluate(SPACE_PLANE_STRESS, true, true, 0); /* constants of a lattice, anisotropic */
+    gradient_evaluate(SPACE_SOLID, true, true, 0);
+    for (unsigned s = 1; s < COUNT_OF(spaces); s++)
+        for (int averaged = 1; averaged < 3; averaged++) {
+            gradient_evaluate(spaces[s], false, true, averaged);
+            gradient_evaluate(spaces[s], true, false, averaged);
+        }
 }
 
 /* The closed form of complete cells and the stiffness of cut ones equal the same sums over points, to round-off. */
@@ -54,11 +61,12 @@ static void test_whole_and_cut(void **state)
 {
     (void)state;
     for (unsigned s = 0; s < COUNT_OF(spaces); s++)
-        for (int finite = 0; finite < 2; finite++) {
+        for (int finite = 0; finite < 4; finite++) { /* 2, 3: with one dilatation in a cell */
             struct block b;
             block_make(&b, spaces[s], false, true);
+            if (finite > 1) block_average(&b, false);
             shake(&b, 0.2, 11);
-            forces(&b, finite);
+            forces(&b, finite % 2);
             real *whole[DIM_MAX];
             for (int d = 0; d < b.c.p.dim; d++) {
                 whole[d] = NEW("test.whole", b.mesh.grid.n, real);
@@ -69,7 +77,7 @@ static void test_whole_and_cut(void **state)
             b.source.partial = &nothing;
             mesh_remove_converted(&b.mesh, &b.c.p, &b.source, NULL, 0);
             assert_int_equal(b.mesh.runs, 0);
-            forces(&b, finite);
+            forces(&b, finite % 2);
             for (int64_t I = 0; I < b.mesh.grid.n; I++)
                 for (int d = 0; d < b.c.p.dim; d++)
                     assert_near(b.mesh.grid.force[d][I], whole[d][I],
@@ -80,9 +88,9 @@ static void test_whole_and_cut(void **state)
         }
 }
 
-/* Computes the stress that a point transfers at small strain: C : e minus the part carried by bonds, without its
- * antisymmetric part. */
-static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
+/* Computes the stress that a point transfers at small strain by its own motion: C : e minus the part carried by bonds,
+ * without its antisymmetric part; e has the trace of point_trace. */
+static void given_own(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
 {
     const struct mesh *mesh = &b->mesh;
     const int dim = b->c.p.dim, n = symmetric_count(dim), place = mesh->place[i] & ((1 << dim) - 1);
@@ -95,6 +103,8 @@ static void given(const struct block *b, const struct partial_stress *partial, i
                 g[a * dim + k] += mesh_slope(dim, c, place, k) / mesh->grid.h *
                                   mesh->displacement[a][(mesh->place[i] >> dim) + mesh->corner[c]];
     for (int a = 0; a < dim; a++) trace += g[a * dim + a];
+    for (int a = 0; a < dim; a++) g[a * dim + a] += (point_trace(b, i, false) - trace) / dim;
+    trace = point_trace(b, i, false);
     for (int k = 0; k < n; k++) {
         int a, d;
         symmetric_axes(dim, k, &a, &d);
@@ -108,15 +118,35 @@ static void given(const struct block *b, const struct partial_stress *partial, i
     }
 }
 
+/* Computes the stress that a point transfers: that of given_own, whose mean stress is the mean over the points of its
+ * cell and material if they have one dilatation. */
+static void given(const struct block *b, const struct partial_stress *partial, int64_t i, real *P)
+{
+    const struct particles *p = &b->c.p;
+    real pressure = 0, own = 0;
+    int n = 0;
+    for (int q = 0; q < 1 << p->dim && b->elastic[p->material[i]].mean_dilatation; q++) {
+        const int64_t j = b->mesh.point[(b->mesh.place[i] >> p->dim << p->dim) + q];
+        if (j < 0 || p->material[j] != p->material[i]) continue;
+        given_own(b, partial, j, P);
+        n++;
+        for (int d = 0; d < p->dim; d++) pressure += P[d * (p->dim + 1)] / p->dim;
+    }
+    given_own(b, partial, i, P);
+    for (int d = 0; d < p->dim; d++) own += P[d * (p->dim + 1)] / p->dim;
+    for (int d = 0; d < p->dim && n > 0; d++) P[d * (p->dim + 1)] += pressure / n - own;
+}
+
 /* Partial cells with a random partial stress that derives from an energy, compared with sums of V P grad N over points:
  * round-off of a few hundred terms. Later changes are followed cell by cell. */
 static void test_partial(void **state)
 {
     (void)state;
-    for (unsigned s = 0; s < COUNT_OF(spaces); s++) {
+    for (unsigned round = 0; round < 3 * COUNT_OF(spaces); round++) {
         struct block b;
         struct partial_stress partial;
-        block_make(&b, spaces[s], true, false);
+        block_make(&b, spaces[round / 3], true, false);
+        if (round % 3) block_average(&b, round % 3 > 1); /* with one dilatation in a cell; and with several materials */
         const struct particles *p = &b.c.p;
         const int dim = p->dim, n = symmetric_count(dim);
         partial_of(&partial, p, b.c.material, 0.2);
