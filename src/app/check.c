@@ -36,7 +36,7 @@ static void say_frames(const struct run *e)
             printf("frame          body %s: %s frame (%s)\n", e->scene->body[b].name,
                    e->frame->choice[b].reference ? "reference" : "current", e->frame->choice[b].reason);
     if (e->frame->mesh.points > 0)
-        printf("mesh           %lld material points in linear cells of two spacings\n",
+        printf("mesh           %lld material points in the reference frame, with linear grid cells of two spacings\n",
                (long long)e->frame->mesh.points);
 }
 
@@ -70,10 +70,10 @@ static void say_contact_of_bonds(const struct scene *s)
         say_names(s, s->bodies, s->bodies + s->rigids);
         if (s->rigids > 1) printf(" (there is no contact between rigid bodies)");
     }
-    printf("; %s",
-           s->contact_form == CONTACT_PAIR ? "pairs of particles (faces that slide interlock)" : "smooth faces");
+    printf("; %s", s->contact_form == CONTACT_PAIR ? "forces between pairs of particles (sliding faces interlock)"
+                                                   : "smooth faces");
     if (s->contact_friction > 0)
-        printf(", friction %.3g (faces along the lattice have 0.007 without it)", s->contact_friction);
+        printf(", coefficient of friction %.3g (added to some 0.007 that the lattice causes)", s->contact_friction);
     putchar('\n');
 }
 
@@ -140,11 +140,12 @@ static void say_time_step(const struct run *e)
 static void say_basis(const struct scene *scene, const struct cost *c)
 {
     if (c->basis == COST_SCALED)
-        printf("; all steps take %.2g times the first ones, as measured with %.3g times the spacing", c->growth,
-               c->coarser);
+        printf("; a step of the whole run takes on average %.2g times as long as the first steps, as measured with "
+               "%.3g times the spacing",
+               c->growth, c->coarser);
     if (c->basis == COST_FIRST)
-        printf("; all steps are taken to be like the first ones%s",
-               scene->method == METHOD_ADAPTIVE ? ", and more as particles convert" : "");
+        printf("; the estimate assumes that all steps take as long as the first ones%s",
+               scene->method == METHOD_ADAPTIVE ? ", and steps take longer as particles convert" : "");
     if (c->all_peridynamic > 0) printf("; %.2g s if all of it were peridynamic", c->all_peridynamic);
 }
 
@@ -178,8 +179,8 @@ static void say_cost(const struct run *e, const struct cost *c, int threads)
             printf("%.2g s)", c->most);
         else
             printf("any time)");
-        printf(" on %d idle core%s, %.1g s of it to write: %.3g ns per particle and step at first", threads, many,
-               c->output, 1e9 * c->step / (double)e->part.n);
+        printf(" on %d idle core%s, of which %.1g s for writing files; the first steps take %.3g ns per particle",
+               threads, many, c->output, 1e9 * c->step / (double)e->part.n);
         say_basis(e->scene, c);
     }
     printf("\nmemory         about %.0f MB\n", 1e-6 * c->bytes);

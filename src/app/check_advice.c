@@ -232,8 +232,8 @@ static void advise_rise(const struct scene *s, const struct material_tables *tab
     for (int k = b + 1; k < s->boundaries; k++)
         if (rises_in(&s->boundary[k], rise)) fprintf(out, ", %s", s->boundary[k].name), more++;
     fprintf(out,
-            " change%s while a wave travels %.3g spacings; below %d spacings waves disperse: use a spacing of %s or a "
-            "slower load\n",
+            " change%s within the time in which a wave travels %.3g spacings; waves shorter than %d spacings disperse: "
+            "use a spacing of %s or a slower load\n",
             more ? "" : "s", length, WAVE, length_in_words(s->spacing * length / WAVE, 2, s->spacing).text);
 }
 

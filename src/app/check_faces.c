@@ -158,12 +158,12 @@ void print_face_off_axis(const struct run *e, const struct boundary *b)
     face_free(&f);
     memory_free(selected);
     if (!(w.other > SHARE_LEAST * w.area)) return;
-    printf("; %.0f %% of the area seen from %c%c has other normals, by %.0f degrees on average", 100 * w.other / w.area,
-           "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);
+    printf(
+        "; on %.0f %% of the area seen from %c%c the surface is inclined to this direction, by %.0f degrees on average",
+        100 * w.other / w.area, "xyz"[b->face], b -> side > 0 ? '+' : '-', w.angle / w.other);
     if (b->region.n > 0) return;
     if (isfinite(cut))
-        printf(": a region with %c %s %.6g m leaves it out", "xyz"[b->face],
-               b -> side > 0 ? ">=" : "<=", b->side * cut);
+        printf(": a region with %c %s %.6g m excludes it", "xyz"[b->face], b -> side > 0 ? ">=" : "<=", b->side * cut);
     else
         printf(": give a region to choose the face");
 }

@@ -66,10 +66,10 @@ void print_levels_saving(const struct run *e, const struct cost *c)
     for (int level = 1; level <= l->n; level++) cells += (double)levels_count_cells(l, level);
     if (l->n == 0 || cells == 0) return;
     if (e->part.n < e->part.n_body)
-        printf("levels         %s particles become %s at first", many((double)e->part.n_body, millions, all),
-               many((double)e->part.n, millions, made));
+        printf("levels         %s particles would fill the body, and coarse cells replace them by %s at the start",
+               many((double)e->part.n_body, millions, all), many((double)e->part.n, millions, made));
     else
-        printf("levels         %s of %s particles move as %s coarse cells",
+        printf("levels         %s of %s particles are in coarse cells, of which there are %s",
                many(points_in_coarse_cells(l, e->part.dim), millions, few), many((double)e->part.n_body, millions, all),
                many(cells, false, made));
     printf("; memory %s", much_memory(c->bytes, memory));

@@ -79,11 +79,12 @@ void print_list_advice(const struct run *e, FILE *out)
                 s->body[b].name, layers, s->surface == SURFACE_VOLUME ? "volume" : "none",
                 layer_stiffness_error(s, s->surface, layers));
         if (s->body[b].list.lattice)
-            fprintf(out, "with pd.surface: moments by %d %%\n", layer_stiffness_error(s, SURFACE_MOMENTS, layers));
+            fprintf(out, "with pd.surface: moments by up to %d %%\n",
+                    layer_stiffness_error(s, SURFACE_MOMENTS, layers));
         else
             fprintf(out,
-                    "in a list that is a lattice (positions at whole spacings, volumes of the spacing) by %d %%, with "
-                    "pd.surface: moments\n",
+                    "with pd.surface: moments by %d %%, but this requires a list that is a lattice (positions at whole "
+                    "spacings, volumes of spacing cubed or squared)\n",
                     layer_stiffness_error(s, SURFACE_MOMENTS, layers));
     }
 }

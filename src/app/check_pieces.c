@@ -28,13 +28,12 @@ static void say_body(const struct scene *s, const struct fragments *f, const boo
         if (first < 0) first = k;
     }
     if (pieces < 2) return;
-    printf(
-        "pieces         body %s: %lld that no bond joins; all but the heaviest have %lld particles together, the next "
-        "one is at (",
-        s->body[body].name, (long long)pieces, (long long)particles);
+    printf("pieces         body %s consists of %lld pieces without bonds between them; all pieces but the heaviest "
+           "have %lld particles together, and the second heaviest is at (",
+           s->body[body].name, (long long)pieces, (long long)particles);
     for (int d = 0; d < s->dim; d++) printf("%s%.4g", d ? ", " : "", f->fragment[first].x[d]);
     printf(") m%s\n",
-           free_ones > 0 ? "; nothing holds some of them, so that there is no equilibrium: add supports" : "");
+           free_ones > 0 ? "; some pieces have no support, so that there is no equilibrium: add supports" : "");
 }
 
 void print_pieces(const struct run *e)

@@ -23,7 +23,7 @@ static void say_hull(const struct shape_file *f)
     printf("shape          %s: %lld %s, %lld shell%s", printable_name(f->path[0]).text, (long long)h->faces,
            f->dim == 3 ? "triangles" : "edges", (long long)h->shells, h->shells == 1 ? "" : "s");
     if (h->open_edges > 0)
-        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but it is clear what is inside",
+        printf(", open at %lld edges, one at (%.4g, %.4g, %.4g) m, but inside and outside can be distinguished",
                (long long)h->open_edges, h->open_at[0], h->open_at[1], h->open_at[2]);
     else
         printf(", closed");
@@ -31,8 +31,8 @@ static void say_hull(const struct shape_file *f)
     if (h->dropped > 0 && f->kind == SHAPE_STL) printf(", %lld without area or given twice", (long long)h->dropped);
     const int slits = hull_slits(h);
     if (slits > 0)
-        printf(", its nodes doubled at %d free surface%s inside: %s", slits, slits > 1 ? "s" : "",
-               slits > 1 ? "pre-cracks" : "a pre-crack");
+        printf(", with pairs of nodes at one position along %d surface%s inside the body: %s", slits,
+               slits > 1 ? "s" : "", slits > 1 ? "pre-cracks" : "a pre-crack");
     printf(", encloses %.4g m^%d", h->volume, f->dim);
     if (f->geometry.sets > 0) printf("; sets");
     for (int k = 0; k < f->geometry.sets && k < 12; k++) printf("%s %s", k ? "," : "", f->geometry.set[k].name);
@@ -47,7 +47,7 @@ static void say_image(const struct scene *scene, const struct shape_file *f)
     if (f->dim == 3) printf(" x %lld", (long long)v->n[2]);
     printf(" voxels of %.4g m", v->size[0]);
     if (scene->spacing > 1.001 * v->size[0])
-        printf("; a particle covers %.3g of them and has the grey value at its position",
+        printf("; a particle covers %.3g voxels and takes the grey value at its centre",
                pow(scene->spacing / v->size[0], f->dim));
     putchar('\n');
 }

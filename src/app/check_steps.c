@@ -77,14 +77,15 @@ void print_load_steps(const struct run *e)
         s->steps.number, by[s->steps.control], s->duration, s->solver_tolerance);
     if (!scene_bonds_break(s) || s->method == METHOD_MPM) return;
     if (is_sif_driven(e))
-        printf("cracks         %d %s%s driven by the hoop stress around %s, 2 spacings in each increment%s\n", tips,
-               s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
+        printf("cracks         %d crack %s%s extended in the direction of the largest hoop stress around %s, 2 "
+               "spacings in each increment%s\n",
+               tips, s->dim == 3 ? "front" : "tip", tips > 1 ? "s are" : " is", tips > 1 ? "them" : "it",
                s->dim == 3 ? ", straight through the body" : "");
     else
-        printf(
-            "cracks         grow by the bonds beyond their critical stretch, some 2 spacings in each increment%s%s\n",
-            tips == 0 ? "; there is no pre-crack whose load is known in theory" : "; not by hoop stress: ",
-            tips == 0 ? "" : sif_why_not(e, NULL));
+        printf("cracks         grow where bonds exceed their critical stretch, some 2 spacings in each increment%s%s\n",
+               tips == 0 ? "; the scene has no pre-crack, from which a crack could be extended by the hoop stress"
+                         : "; they are not extended by the hoop stress, as ",
+               tips == 0 ? "" : sif_why_not(e, NULL));
 }
 
 /* ---- advice ------------------------------------------------------------------------------------------------------ */
@@ -123,12 +124,11 @@ static void advise_lengths(const struct run *e, FILE *out)
                    behind = crack_behind(e->scene, &e->part, tip) / h;
         const bool short_crack = behind<FEW, short_way = ahead> 0 && ahead < FEW;
         if (!tip->from_crack || (!short_crack && !short_way)) continue;
-        fprintf(
-            out,
-            "accuracy       tip at (%.4g, %.4g) m: %.0f spacings of %s; the load at which a crack grows is off by some "
-            "2 %% at 20 spacings, 0.5 %% at 40, more below 20\n",
-            tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
-            short_crack ? "crack behind it" : "body ahead of it");
+        fprintf(out,
+                "accuracy       crack tip at (%.4g, %.4g) m: there are only %.0f spacings of %s; the error of the load "
+                "at which the crack grows is some 0.5 %% with 40 spacings, 2 %% with 20 and larger below\n",
+                tip->origin[0], tip->origin[1], short_crack ? behind : ahead,
+                short_crack ? "crack behind it" : "body ahead of it");
     }
 }
 

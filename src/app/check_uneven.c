@@ -139,8 +139,8 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
     real low, high;
     int said = 0;
     if (fabs(cells - nearbyint(cells)) < 1e-3 * cells) {
-        fprintf(out, "; particles.spacing divides it, but its faces lie beside the lattice of the body's first solid: "
-                     "moved by half a spacing they would not\n");
+        fprintf(out, "; particles.spacing divides its width, but its faces are not midway between particles of the "
+                     "lattice that begins at the body's first solid: move this part by half a spacing\n");
         return;
     }
     width_ends(p, u, &low, &high);
@@ -154,7 +154,7 @@ static void say_spacings(const struct uneven *u, const struct piece *p, FILE *ou
             fprintf(out, "%s%s %s", said++ ? " or " : "; particles.spacing ", text, unit.name);
             break;
         }
-    fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing is closer\n");
+    fprintf(out, said ? " divides it\n" : "; a smaller particles.spacing reduces the difference\n");
 }
 
 struct length_text length_in_words(real length, int digits, real spacing)
@@ -195,8 +195,8 @@ void print_uneven_parts(struct uneven_list *list, FILE *out)
             fprintf(out, "long, at ");
         say_place(u->at, dim, out);
         if (u->more > 0) fprintf(out, " (and %d more like it)", u->more);
-        fprintf(out, ", is %.4g m of particles: %s %.1f %% too %s", u->filled, dim > 1 ? "its sections are" : "it is",
-                100 * fabs(u->off),
+        fprintf(out, ", is represented by %.4g m of particles: %s %.1f %% too %s", u->filled,
+                dim > 1 ? "its sections are" : "it is", 100 * fabs(u->off),
                 dim == 1     ? u->off > 0 ? "long" : "short"
                 : u->off > 0 ? "large"
                              : "small");

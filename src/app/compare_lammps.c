@@ -26,7 +26,10 @@ static status lammps_time_step(const char *folder, double *dt)
     while (from && *dt == 0 && fgets(line, sizeof line, from))
         if (sscanf(line, "timestep %lf", dt) != 1) *dt = 0;
     if (from) fclose(from);
-    return *dt > 0 && isfinite(*dt) ? OK : status_set(FAILED, "%s tells no timestep", printable_name(path.text).text);
+    return *dt > 0 && isfinite(*dt)
+               ? OK
+               : status_set(FAILED, "%s contains no line `timestep`, which gives the time of its frames",
+                            printable_name(path.text).text);
 }
 
 status lammps_frames_list(const char *folder, int *n, struct listed_frame **list)
@@ -69,7 +72,8 @@ static status check_sort(struct check *c, int64_t n, const char *path)
     memory_free(whole ? c->h.value : sorted);
     if (whole) c->h.value = sorted;
     return whole ? OK
-                 : status_set(FAILED, "%s does not belong to the run of LAMMPS beside it", printable_name(path).text);
+                 : status_set(FAILED, "%s is not from the LAMMPS run in this folder: it must have each particle once",
+                              printable_name(path).text);
 }
 
 static status check_read(struct check *c, const char *folder, int64_t n)

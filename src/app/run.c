@@ -47,13 +47,14 @@ static void print_breaks(const struct run *e)
         print_position(" to ", tip->place, e->part.dim);
         printf(" m%s", tip->from_crack ? "" : ", not from a pre-crack");
     }
-    if (tied > 1) printf(", one of %lld tips of equal growth within a spacing", (long long)tied);
+    if (tied > 1) printf(", one of %lld tips whose growth is equal to within a spacing", (long long)tied);
     if (broke || tip) printf("\n");
     if (isnan(w->driven_time)) return;
     if (in_steps)
-        printf("  first bond of driven particles broken in load step %.0f\n", w->driven_time / e->clock.dt);
+        printf("  first bond broken of particles that a boundary drives: in load step %.0f\n",
+               w->driven_time / e->clock.dt);
     else
-        printf("  first bond of driven particles broken at %.4g s\n", w->driven_time);
+        printf("  first bond broken of particles that a boundary drives: at %.4g s\n", w->driven_time);
 }
 
 static void print_summary(const struct run *e, const char *folder, double wall)
@@ -70,7 +71,7 @@ static void print_summary(const struct run *e, const char *folder, double wall)
     if (in_steps && e->statics->record.area > 0)
         printf("  released %.4g J over %.4g m^2 of new crack: %.4g J/m^2\n", e->statics->record.released,
                e->statics->record.area, e->statics->record.released / e->statics->record.area);
-    printf("  peridynamic share %.2f %% at the start, %.2f %% at the end\n",
+    printf("  peridynamic particles: %.2f %% at the start, %.2f %% at the end\n",
            100.0 * (double)e->coupling->conversion.start / (double)e->part.n_body,
            100.0 * (double)e->part.n_of[KIND_PD] / (double)e->part.n_body);
     printf("  energy balance %.2g, momentum %.2g\n", e->diagnostics->now.balance_error,

@@ -276,11 +276,10 @@ status contact_rigid_archive(struct contact *c, struct archive *a)
         snprintf(name, sizeof name, "contact/near_place_%d", b);
         TRY(a->exchange(a, name, near->x, sizeof near->x + sizeof near->turn));
         if (near->n < 0 || near->n > c->rows)
-            return status_set(
-                FAILED,
-                "cannot resume: the checkpoint has %lld particles beside a rigid body, and %lld at most can be: start "
-                "again with --overwrite",
-                (long long)near->n, (long long)c->rows);
+            return status_set(FAILED,
+                              "cannot resume: the checkpoint lists %lld particles near a rigid body, but this run can "
+                              "have %lld at most: start again with --overwrite",
+                              (long long)near->n, (long long)c->rows);
         snprintf(name, sizeof name, "contact/near_row_%d", b);
         TRY(contact_archive_array(a, name, (void **)&near->row, near->n, sizeof *near->row));
         snprintf(name, sizeof name, "contact/near_zero_%d", b);

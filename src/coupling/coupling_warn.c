@@ -33,11 +33,10 @@ static void warn_of_reference(const struct scene *s, const struct reference_fram
     if (names.all == 0) return;
     for (int b = 0; b < s->bodies; b++)
         if (reference->choice[b].reference) name_add(&names, s->body[b].name);
-    warnings_add(
-        to,
-        "%s %s in the reference frame (mpm.frame), where material points meet no other body and pass through it; with "
-        "mpm.frame: current bodies meet; if this is meant: accept: [contact]",
-        names.text, names.all > 1 ? "are" : "is");
+    warnings_add(to,
+                 "%s %s in the reference frame (mpm.frame), where material points have no contact and pass through "
+                 "other bodies; with mpm.frame: current they have contact; if this is meant: accept: [contact]",
+                 names.text, names.all > 1 ? "are" : "is");
 }
 
 /* Warns of missing contact between several bodies, depending on the method. */
@@ -50,9 +49,9 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
     if (s->method == METHOD_PD && (s->contact_between != CONTACT_NONE || scene_at_rest(s))) return;
     if (s->method == METHOD_PD)
         warnings_add(to,
-                     "contact.between: none: peridynamic bodies pass through each other%s; with contact.between: "
-                     "bodies, or all, they meet; if this is meant: accept: [contact]",
-                     s->rigids > 0 ? " (they do meet rigid bodies)" : "");
+                     "contact.between: none: peridynamic bodies have no contact and pass through each other%s; "
+                     "contact.between: bodies or all gives them contact; if this is meant: accept: [contact]",
+                     s->rigids > 0 ? " (they have contact with rigid bodies)" : "");
     else
         warn_of_reference(s, reference, to);
     if (s->method == METHOD_ADAPTIVE && current)
@@ -62,7 +61,7 @@ static void warn_of_contact(const struct scene *s, const struct reference_frame 
                      "or handshake; here %s; if this is meant: accept: [contact]",
                      s->contact_between == CONTACT_NONE ? "contact.between is none"
                      : !s->contact_convert              ? "contact.convert is false"
-                                                        : "the coupling is another one");
+                                                        : "the coupling is a different one");
 }
 
 /* Returns true if two particles start with the same velocity, as parts of joined bodies; colliding bodies do not. */

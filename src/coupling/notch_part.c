@@ -35,7 +35,8 @@ static status notches_check(const struct scene *s, const struct notches *n)
     for (int k = 0; k < n->n && s->conversion.notch == NOTCH_SLIT; k++)
         if (!n->notch[k].slit)
             return status_set(REFUSED,
-                              "conversion.notch: crack %d cannot be a slit of the mesh: %s; auto or bonds is expected",
+                              "conversion.notch: crack %d cannot be a slit of the mesh (a row of doubled nodes): %s; "
+                              "conversion.notch: auto or bonds is expected",
                               k + 1, n->notch[k].reason);
     return OK;
 }

@@ -99,19 +99,19 @@ void voids_warn(const struct run *e, struct warnings *to)
     char place[96];
     if (grid.n > 0)
         warnings_add(to,
-                     "body %s has a void too narrow for its grid, at %s m: %lld points share "
-                     "nodes with points on the other side; %smethod pd and method adaptive keep it open, a smaller "
-                     "particles.spacing does, too",
+                     "body %s has a void too narrow for its grid, at %s m: %lld material points share grid nodes with "
+                     "points on the other side of the void, which closes it; use %smethod: pd, method: adaptive or a "
+                     "smaller particles.spacing",
                      s->body[e->part.body[grid.first]].name, void_position_text(&e->part, grid.first, place),
-                     (long long)grid.n, uncut ? "" : "mpm.frame reference, ");
+                     (long long)grid.n, uncut ? "" : "mpm.frame: reference, ");
     for (int b = 0; b < s->bodies && s->dim > 1; b++) {
         if (s->body[b].joined != b || surface_is_exact(s, b)) continue;
         const struct closed gap = closed_in_lattice(s, &e->part, &e->cells, b, voids_reach(s, e->source.family.cutoff));
         if (gap.n == 0) continue;
         warnings_add(to,
-                     "body %s has a void of one or two particles' width at %s m, at %lld particles in all: lists and "
-                     "images give particles only, and %s join both sides of the void; give its faces by `cracks`, or "
-                     "use a smaller particles.spacing",
+                     "body %s has a void one or two particles wide at %s m, beside %lld particles in all: a list or "
+                     "image defines no faces, so that %s join both sides of the void; define its faces by the key "
+                     "cracks, or use a smaller particles.spacing",
                      s->body[b].name, void_position_text(&e->part, gap.first, place), (long long)gap.n,
                      s->method == METHOD_MPM  ? "cells"
                      : s->method == METHOD_PD ? "bonds"

@@ -29,7 +29,8 @@ static status particles_check(const struct scene *s, const struct particles *p)
         }
         if (!good || !(sum == 0))
             return status_set(FAILED,
-                              "cannot resume: particle %lld of the checkpoint is in no state that a run can be in",
+                              "cannot resume: particle %lld of the checkpoint has a state that is impossible in a run "
+                              "of this scene; start again with --overwrite",
                               (long long)i);
     }
     return OK;

@@ -283,8 +283,8 @@ static status make_affordable(const struct scene *s, const struct particles *p, 
     real longest;
     if (memory <= 0 || bytes <= memory) return OK;
     return status_set(REFUSED,
-                      "particles.spacing: about %.2g particles would need some %.2g GB, and %.2g can be had (%s); a "
-                      "larger one is expected",
+                      "particles.spacing: about %.2g particles would need some %.2g GB of memory, and %.2g GB are "
+                      "available (%s); a larger one is expected",
                       particles_now(s, p, &longest), bytes * 1e-9, memory * 1e-9, machine_memory_limit_name());
 }
 

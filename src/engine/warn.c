@@ -97,8 +97,9 @@ static void warn_of_materials(const struct scene *s, const struct material_table
         const struct material *a = &s->material[m];
         if (isfinite(tables->elastic[m].trigger) && tables->elastic[m].trigger_mean > a->young * a->critical_stretch)
             warnings_add(to,
-                         "material %s converts at %.4g Pa, above E s_c = %.4g Pa: material points may pass the "
-                         "strain at which bonds break",
+                         "material %s: material points convert to bonds at a stress of %.4g Pa, above the %.4g Pa (E "
+                         "s_c) at which bonds break, so that they may exceed the critical stretch before they convert: "
+                         "use a lower conversion.stress",
                          a->name, tables->elastic[m].trigger_mean, a->young * a->critical_stretch);
     }
 }
@@ -197,7 +198,10 @@ void engine_warn_of_input(struct run *e)
 {
     const struct scene *s = e->scene;
     struct warnings *to = &e->warnings;
-    if (s->renamed[0]) warnings_add(to, "%s; earlier names work in this version, with the same meaning", s->renamed);
+    if (s->renamed[0])
+        warnings_add(
+            to, "the scene uses earlier names of keys (%s), which this version still accepts with the same meaning",
+            s->renamed);
     warn_of_step(s, &e->clock, to);
     warn_of_horizon(s, to);
     warn_of_coupling(s, e->coupling_kind, to);

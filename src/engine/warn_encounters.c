@@ -93,13 +93,13 @@ static void warn_of_flight(const struct scene *s, const struct flight *f, int a,
     if (other < 0 || soonest <= s->duration) return;
     if (isfinite(soonest))
         warnings_add(to,
-                     "body %s reaches %s after %.3g s, the duration is %.3g s: check its place (mm?) and velocity, or "
-                     "the duration",
+                     "body %s reaches %s after %.3g s, but the duration is %.3g s: check its position (mm?) and "
+                     "velocity, or the duration",
                      s->body[a].name, s->body[other].name, soonest, s->duration);
     else
         warnings_add(to,
-                     "body %s meets no other body, as its velocity leads past %s or away from it: check its place and "
-                     "the sign of its velocity",
+                     "body %s meets no other body, as its velocity leads past %s or away from it: check its position "
+                     "and the sign of its velocity",
                      s->body[a].name, s->body[other].name);
 }
 

@@ -55,7 +55,7 @@ static void warn_of_subtracted(const struct scene_body *b, int k, int dim, struc
             b->name, k + 1, apart);
     else if (!point_found(&b->shape.solid[k], &before, dim, true, low, high))
         warnings_add(to,
-                     "body %s: solid %d of its shape removes nothing, as it lies outside of the body; check its place",
+                     "body %s: solid %d of its shape removes nothing, as it is outside the body; check its position",
                      b->name, k + 1);
 }
 

@@ -39,8 +39,8 @@ static status settings_refuse(const struct lammps_settings *settings, const stru
                                    settings->of[k].value);
     if (settings->n == 0)
         return status_set(REFUSED,
-                          "%s: once bonds break, particles of peri/lps keep the weight of their whole neighbourhood, "
-                          "and results differ; model: bond, or --allow-different, is expected",
+                          "%s: results differ once bonds break, as in LAMMPS (peri/lps) the weighted volume of a "
+                          "particle still includes broken bonds; model: bond, or --allow-different, is expected",
                           printable_name(s->path).text);
     return status_set(REFUSED,
                       "%s: LAMMPS has the same result only with%s; set these keys in the scene, or use "
@@ -238,17 +238,17 @@ static status files_write(struct exported *x, const struct lammps_types *t)
  * scene. */
 static void export_print(const struct exported *x, const struct lammps_types *t)
 {
-    printf("%s: run it there with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
+    printf("%s: run LAMMPS in this folder with: lmp -in in.lammps\n", printable_name(x->request->folder).text);
     if (x->cut > 0)
-        printf("%lld bonds cut, by %lld exclusions among %d types of particles\n", (long long)x->cut,
-               (long long)t->pairs, t->n);
+        printf("%lld bonds are cut by pre-cracks: LAMMPS excludes %lld pairs among %d types of particles\n",
+               (long long)x->cut, (long long)t->pairs, t->n);
     lammps_cost_write(stdout, x);
     left_out_write(stdout, x->s);
     for (int k = 0; k < x->settings.n; k++)
         printf("differs from the scene: %s: %s\n", x->settings.of[k].key, x->settings.of[k].value);
     if (lammps_families_differ(x->s))
-        puts(
-            "differs from Cleave once bonds break: particles of peri/lps keep the weight of their whole neighbourhood");
+        puts("differs from Cleave once bonds break: in peri/lps the weighted volume of a particle still includes "
+             "broken bonds");
 }
 
 static status export_write(struct exported *x)

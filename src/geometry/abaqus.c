@@ -174,7 +174,8 @@ static status nodes_read(struct deck *d)
     int set;
     const char *system = parameter(d, "SYSTEM");
     if (system && strcasecmp(system, "R") != 0)
-        return source_fault(d->s, "coordinates in the system %.10s; x, y, z are expected", system);
+        return source_fault(d->s, "coordinates in the system %.10s are not supported; Cartesian x, y, z are expected",
+                            system);
     TRY(set_named(d, "NSET", true, &set));
     for (char field[FIELD]; data_line(d->s); source_next_line(d->s)) {
         int32_t label;
@@ -234,7 +235,8 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
         int32_t label;
         if (!deck_field(d->s, field)) {
             source_next_line(d->s);
-            if (!data_line(d->s)) return source_fault(d->s, "an element of %d nodes has but %d", size->nodes, k);
+            if (!data_line(d->s))
+                return source_fault(d->s, "an element of a type with %d nodes lists only %d", size->nodes, k);
             continue;
         }
         TRY(deck_label(d->s, field, &label));
@@ -245,7 +247,7 @@ static status element_nodes(struct deck *d, const struct size *size, int32_t *no
         k++;
     }
     if (!deck_field(d->s, field) || field[0] == '\0') return OK;
-    return source_fault(d->s, "an element of %d nodes has more, such as %.20s", size->nodes, field);
+    return source_fault(d->s, "an element of a type with %d nodes lists more, such as %.20s", size->nodes, field);
 }
 
 /* Reads the elements of *ELEMENT. Unsupported types are skipped. */
@@ -441,7 +443,8 @@ static status instance_read(struct deck *d)
     real shift[DIM_MAX] = {0}, turn[7] = {0};
     char field[FIELD];
     if (scope < 0)
-        return source_fault(d->s, "an instance of part %.40s, which the file does not define", part ? part : "?");
+        return source_fault(d->s, "an instance refers to part %.40s, which the file does not define",
+                            part ? part : "?");
     struct scope *p = &d->scope[scope];
     if (p->placed) return source_fault(d->s, "part %.40s is in the assembly twice; once is expected", p->name);
     if (data_line(d->s)) {
@@ -469,12 +472,13 @@ static status keyword_follow(struct deck *d)
     const char *name = d->key.name;
     for (size_t k = 0; k < COUNT_OF(makers); k++)
         if (strcmp(name, makers[k]) == 0)
-            return source_fault(d->s, "*%s; a deck that writes out all nodes and elements in x, y, z is expected",
-                                name);
+            return source_fault(
+                d->s, "keyword *%s is not supported; a deck that lists all nodes and elements in x, y, z is expected",
+                name);
     const bool node = strcmp(name, "NODE") == 0, element = strcmp(name, "ELEMENT") == 0;
     const bool nset = strcmp(name, "NSET") == 0, elset = strcmp(name, "ELSET") == 0;
     if ((node || element || nset || elset) && parameter(d, "INPUT"))
-        return source_fault(d->s, "*%s reads another file; a single file is expected", name);
+        return source_fault(d->s, "keyword *%s includes another file; a single file is expected", name);
     if (node) return nodes_read(d);
     if (element) return elements_read(d);
     if (nset || elset) return set_read(d, nset);

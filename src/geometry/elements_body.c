@@ -232,12 +232,12 @@ static status body_dim_of(const struct element_mesh *m, const char *path, int di
     *body_dim = dim == 3 && n[3] == 0 ? 2 : dim;
     if (dim == 2 && n[3] > 0)
         return status_set(REFUSED,
-                          "%s: its elements fill a space; space: solid is expected, or a mesh of triangles or "
-                          "quadrilaterals in the plane",
+                          "%s: the mesh has volume elements; space: solid, or a plane mesh of triangles or "
+                          "quadrilaterals, is expected",
                           path);
     if (n[*body_dim] > 0) return OK;
-    return status_set(REFUSED, "%s: %lld nodes and no element that fills a body%s%s; %s are expected", path,
-                      (long long)m->nodes, m->skipped[0] ? ", but others such as " : "", m->skipped,
+    return status_set(REFUSED, "%s: the mesh has %lld nodes but no elements that can fill a body%s%s; %s are expected",
+                      path, (long long)m->nodes, m->skipped[0] ? ", but others such as " : "", m->skipped,
                       dim == 2 ? "triangles or quadrilaterals"
                                : "tetrahedra, hexahedra, prisms, pyramids or a closed surface of triangles");
 }
@@ -256,8 +256,8 @@ static status check_plane(const struct element_mesh *m, const char *path)
     const real extent = real_max(high[0] - low[0], high[1] - low[1]);
     if (high[2] - low[2] <= 1e-6 * extent) return OK;
     return status_set(REFUSED,
-                      "%s: its elements are not in a plane z = const: z goes from %.6g to %.6g; in the plane such "
-                      "a mesh is expected",
+                      "%s: the elements are not in one plane z = const, but z varies from %.6g to %.6g; a plane mesh "
+                      "is expected in this space",
                       path, low[2], high[2]);
 }
 

@@ -52,9 +52,8 @@ status builder_set_fineness(struct builder *b, const char *path, real fine)
     b->pieces = sagitta > 0 ? pieces_for(sagitta, b->sagitta, most) : 1;
     if (sagitta <= COARSE_MOST * b->sagitta * most * most && sagitta * b->scale < FARTHEST) return OK;
     return status_set(REFUSED,
-                      "%s: curved edges of its second-order elements bulge by up to %.3g m, and more than %d pieces of "
-                      "them would be needed for the spacing; a mesh of more elements, or a larger particles.spacing, "
-                      "is expected",
+                      "%s: second-order elements have edges curved by up to %.3g m, which at this spacing would need "
+                      "more than %d straight pieces each; a finer mesh, or a larger particles.spacing, is expected",
                       path, sagitta * b->scale, most);
 }
 

@@ -29,19 +29,22 @@ static const struct format *format_of(const char *path)
 static status check_closed(const struct hull *s, const char *path)
 {
     const real *at = s->open_at;
-    if (s->faces == 0) return status_set(REFUSED, "%s: its faces cancel each other; a body is expected", path);
+    if (s->faces == 0)
+        return status_set(REFUSED,
+                          "%s: pairs of its faces coincide and cancel each other, so that no body is left; the surface "
+                          "of a body is expected",
+                          path);
     for (int d = 0; d < s->dim; d++)
         if (!(fabs(s->node[0].low[d]) < FARTHEST && fabs(s->node[0].high[d]) < FARTHEST))
-            return status_set(REFUSED, "%s: coordinates up to %.3g m; see whether the unit is right", path,
-                              real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
+            return status_set(REFUSED, "%s: coordinates of up to %.3g m are too large; check the unit of the file",
+                              path, real_max(fabs(s->node[0].low[d]), fabs(s->node[0].high[d])));
     const real doubt = s->open_edges > 0 ? hull_ambiguous_share(s) : 0;
     if (doubt > DOUBT_MOST)
-        return status_set(
-            REFUSED,
-            "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) "
-            "m, and %.0f %% of the places in it are neither inside nor outside; a closed surface is expected "
-            "(a program for meshes closes holes and turns faces: admesh, MeshLab)",
-            path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
+        return status_set(REFUSED,
+                          "%s: its surface is open or turned inside out at %lld edges, one at (%.6g, %.6g, %.6g) m, so "
+                          "that %.0f %% of the positions in it are neither inside nor outside; a closed surface is "
+                          "expected (admesh or MeshLab close holes and orient faces)",
+                          path, (long long)s->open_edges, at[0], at[1], at[2], 100 * doubt);
     if (s->volume > 0) return OK;
     return status_set(REFUSED, "%s: encloses no volume; a body is expected", path);
 }

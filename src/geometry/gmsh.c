@@ -68,8 +68,8 @@ static status type_of(const struct source *s, int64_t number, const struct gmsh_
             return OK;
         }
     return source_fault(s,
-                        "elements of Gmsh's type %lld; lines, triangles, quadrilaterals, tetrahedra, hexahedra, prisms "
-                        "and pyramids are read",
+                        "Gmsh's element type %lld is not supported; lines, triangles, quadrilaterals, tetrahedra, "
+                        "hexahedra, prisms and pyramids are",
                         (long long)number);
 }
 
@@ -111,10 +111,10 @@ static status check_straight(const struct gmsh *g, const struct gmsh_type *type,
     for (int d = 0; d < DIM_MAX; d++)
         along2 += square(b[d] - a[d]), arm2 += square(c[d] - a[d]), both += (b[d] - a[d]) * (c[d] - a[d]);
     if (arm2 * along2 - square(both) <= square(STRAIGHT * along2)) return OK;
-    return source_fault(g->s,
-                        "curved elements of order %d; the second order is read with its curves (gmsh -order 2 "
-                        "saves it)",
-                        type->order);
+    return source_fault(
+        g->s,
+        "curved elements of order %d are not supported; curved elements of order 2 are (gmsh -order 2 saves them)",
+        type->order);
 }
 
 /* Reads the nodes of an element and appends it. Middle nodes are kept in second-order elements only; edges of higher
@@ -367,8 +367,10 @@ static status format_read(struct gmsh *g)
     source_read_word(g->s, version, sizeof version);
     g->old = strcmp(version, "2.2") == 0 || strcmp(version, "2") == 0;
     if (!g->old && strcmp(version, "4.1") != 0)
-        return source_fault(g->s, "format %s of Gmsh; 2.2 and 4.1 are read (gmsh -save -format msh41 writes it)",
-                            version);
+        return source_fault(
+            g->s,
+            "Gmsh's file format %s is not supported; 2.2 and 4.1 are (gmsh -save -format msh41 writes the latter)",
+            version);
     TRY(source_read_integer(g->s, "kind of file", &bytes));
     TRY(source_read_integer(g->s, "size of numbers", &size));
     if (size != 8) return source_fault(g->s, "numbers of %lld bytes; 8 are expected", (long long)size);
@@ -425,7 +427,7 @@ static status sections_read(struct gmsh *g)
     section_skip(g->s, name);
     while (source_skip_blanks(g->s)) {
         source_read_word(g->s, name, sizeof name);
-        if (name[0] != '$') return source_fault(g->s, "%.30s: a section such as $Nodes is expected", name);
+        if (name[0] != '$') return source_fault(g->s, "a section such as $Nodes is expected, not %.30s", name);
         TRY(section_read(g, name));
     }
     if (!g->node.entry) return source_fault(g->s, "ends without $Nodes");

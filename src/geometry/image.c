@@ -16,13 +16,16 @@ status pages_add(struct pages *p, const struct source *s, int64_t width, int64_t
     const real all = (real)width * (real)height * (real)(p->n + 1);
     if (width < 1 || height < 1) return status_set(REFUSED, "%s: an image without pixels", s->path);
     if (p->n > 0 && (width != p->width || height != p->height))
-        return status_set(REFUSED, "%s: %lld x %lld pixels where slices before it have %lld x %lld", s->path,
-                          (long long)width, (long long)height, (long long)p->width, (long long)p->height);
+        return status_set(REFUSED,
+                          "%s: this slice has %lld x %lld pixels, and earlier slices have %lld x %lld; slices of equal "
+                          "size are expected",
+                          s->path, (long long)width, (long long)height, (long long)p->width, (long long)p->height);
     if ((real)width * (real)height > (real)s->length * SHRINKS_MOST * BITS)
-        return status_set(REFUSED, "%s: claims %lld x %lld pixels, more than a file of its size holds", s->path,
-                          (long long)width, (long long)height);
+        return status_set(
+            REFUSED, "%s: its header gives %lld x %lld pixels, more than a file of its size can contain; it is damaged",
+            s->path, (long long)width, (long long)height);
     if (all > VOXELS_MAX || (memory > 0 && all * BYTES_A_VOXEL > (real)memory))
-        return status_set(REFUSED, "%s: %.3g voxels are more than memory holds; fewer or smaller slices are expected",
+        return status_set(REFUSED, "%s: %.3g voxels do not fit in memory; fewer or smaller slices are expected",
                           s->path, all);
     const int64_t size = width * height;
     p->grey = memory_resize("image.grey", p->grey, p->n * size, (p->n + 1) * size, sizeof *p->grey);
@@ -50,7 +53,8 @@ static status files_read(struct pages *p, int files, char *const *path, int dim)
 {
     for (int k = 0; k < files; k++) TRY(file_read(p, path[k]));
     if (dim == 3 || p->n == 1) return OK;
-    return status_set(REFUSED, "%s: %lld images; in the plane one is expected", path[0], (long long)p->n);
+    return status_set(REFUSED, "%s: the file has %lld images; in plane spaces a single image is expected", path[0],
+                      (long long)p->n);
 }
 
 /* Reverses the row order of each page, so that y increases with the row. */

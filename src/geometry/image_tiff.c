@@ -92,25 +92,28 @@ static int samples_used(const struct samples *a)
 static status check_samples(const struct samples *a, const char *path)
 {
     if (a->format == SAMPLEFORMAT_IEEEFP || a->format == SAMPLEFORMAT_COMPLEXIEEEFP || a->bits > 16)
-        return status_set(REFUSED, "%s: values of %d bits or with fractions; grey values of 8 or 16 bits are expected",
-                          path, a->bits);
+        return status_set(
+            REFUSED,
+            "%s: pixels of %d bits or with fractions are not supported; grey values of 8 or 16 bits are expected", path,
+            a->bits);
     if (a->format == SAMPLEFORMAT_INT || a->format == SAMPLEFORMAT_COMPLEXINT)
         return status_set(REFUSED,
-                          "%s: values of %d bits with a sign; grey values without are expected: add %d to "
-                          "each and save them as unsigned",
+                          "%s: pixels are signed values of %d bits; unsigned grey values are expected: add %d to each "
+                          "and save them as unsigned",
                           path, a->bits, 1 << (a->bits - 1));
     if (a->bits != 1 && a->bits != 2 && a->bits != 4 && a->bits != 8 && a->bits != 16)
-        return status_set(REFUSED, "%s: values of %d bits; grey values of 8 or 16 bits are expected", path, a->bits);
+        return status_set(REFUSED, "%s: pixels of %d bits are not supported; grey values of 8 or 16 bits are expected",
+                          path, a->bits);
     if (a->bits == 16 && samples_used(a) == 0)
         return status_set(REFUSED,
-                          "%s: values of 16 bits that are neither grey nor red, green and blue; these, or 8 "
-                          "bits, are expected",
+                          "%s: pixels of 16 bits are neither grey nor red, green and blue; an image of such pixels, or "
+                          "of 8 bits, is expected",
                           path);
     if (a->orientation >= ORIENTATION_TOPLEFT && a->orientation <= ORIENTATION_BOTLEFT) return OK;
-    return status_set(REFUSED,
-                      "%s: its rows are columns (orientation %d); an image that begins with its upper row is "
-                      "expected",
-                      path, a->orientation);
+    return status_set(
+        REFUSED,
+        "%s: its rows are stored as columns (TIFF orientation %d); an image that is stored row by row is expected",
+        path, a->orientation);
 }
 
 /* Samples of a page while they are read. */

@@ -69,7 +69,7 @@ static status words_read(struct element_mesh *m, struct source *s)
             for (int d = 0; d < 3; d++) TRY(source_read_real(s, "coordinate", &X[d]));
             TRY(corner_add(m, s, X));
         } else if (strcasecmp(word, "endfacet") == 0 && m->nodes % 3 != 0) {
-            return source_fault(s, "a facet of %d corners; three are expected", (int)(m->nodes % 3));
+            return source_fault(s, "a facet with %d corners is given; three corners are expected", (int)(m->nodes % 3));
         } else if (strcasecmp(word, "endsolid") == 0 || strcasecmp(word, "solid") == 0) {
             ended = strcasecmp(word, "endsolid") == 0;
             source_next_line(s);
@@ -140,12 +140,13 @@ status stl_read(struct element_mesh *m, struct source *s)
     else if (s->length >= HEADER + COUNT) {
         s->binary = true;
         return source_fault(s,
-                            "no STL: %lld bytes, and %lld triangles, as it says, would be %lld; it is cut off or of "
-                            "another kind",
+                            "not a whole STL file: it has %lld bytes, but the %lld triangles that its header gives "
+                            "need %lld; it is cut off or not in the STL format",
                             (long long)s->length, (long long)word_at(s, HEADER),
                             HEADER + COUNT + FACET * (long long)word_at(s, HEADER));
     } else {
-        return source_fault(s, "no STL: it neither begins with solid nor holds a header of %d bytes", HEADER + COUNT);
+        return source_fault(s, "not an STL file: it neither begins with `solid` nor has a header of %d bytes",
+                            HEADER + COUNT);
     }
     if (m->elements == 0) return source_fault(s, "holds no triangle");
     corners_weld(m);

@@ -45,8 +45,8 @@ static status absorbing_mirrors_check(const struct loads *l, const struct partic
             if (!is_absorbing(&l->load[b]) || !absorbs_in_mirror(&l->load[b], &l->load[m], p, l->spacing)) continue;
             return status_prepend_location(
                 one->place, status_set(REFUSED,
-                                       "boundary %s: the body continues behind mirror %s at this face; a "
-                                       "face of the whole body is expected",
+                                       "boundary %s: mirror %s continues the body at this face, so that it is not a "
+                                       "face of the whole body; choose a face that no mirror touches",
                                        one->name, mirror->name));
         }
     return OK;
@@ -62,8 +62,8 @@ status loads_absorbing_check(const struct loads *l, const struct particles *p)
             if (!both || !absorb_same(&l->load[a], &l->load[b])) continue;
             return status_prepend_location(other->place,
                                            status_set(REFUSED,
-                                                      "boundary %s: boundary %s absorbs at this face already; "
-                                                      "each part of a face is expected once",
+                                                      "boundary %s: boundary %s already absorbs at this face; give "
+                                                      "each part of a face in one boundary only",
                                                       other->name, one->name));
         }
     return OK;

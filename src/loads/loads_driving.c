@@ -55,10 +55,11 @@ void load_displacement_at(const struct load *l, const struct particles *p, int64
 status load_check_displacement_known(const struct boundary *b)
 {
     if (b->kind != BOUNDARY_VELOCITY || b->displaces || b->frozen || !boundary_in_time(b)) return OK;
-    return status_set(REFUSED,
-                      "boundary %s: the displacement of a velocity that is a formula of t is not known; a displacement "
-                      "that is a formula of t, or a velocity times a function of time, is expected",
-                      b->name);
+    return status_set(
+        REFUSED,
+        "boundary %s: with this solver or frame a velocity that is a formula of t cannot be integrated to a "
+        "displacement; a displacement as a formula of t, or a velocity times a function of time, is expected",
+        b->name);
 }
 
 /* ---- a step ------------------------------------------------------------------------------------------------------ */

@@ -16,7 +16,8 @@ static const char *frame_obstacle(const struct particles *p, const struct grid_m
 {
     const int64_t pieces = mesh_count_parts(p, &mpm->field[0].grid, hollow);
     if (pieces == 0)
-        return "its particles do not lie two a cell and direction; mpm.origin or a mirror puts the nodes elsewhere";
+        return "mpm.origin or a mirror shifts the grid nodes, so that grid cells do not contain two particles in each "
+               "direction";
     return pieces > 1 ? "it is in pieces, which meet on the grid of frame current only" : NULL;
 }
 

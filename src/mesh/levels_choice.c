@@ -158,11 +158,12 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
     else if (r->waves == 0)
         snprintf(text, room, "%s is sudden", name);
     else if (r->pulse)
-        snprintf(text, room, "%s is %.3g spacings of wave long", name, 4 * r->waves);
+        snprintf(text, room, "%s makes a wave %.3g spacings long", name, 4 * r->waves);
     else if (isinf(r->waves))
         snprintf(text, room, "%s does not change", name);
     else
-        snprintf(text, room, "%s rises within %.3g s = %.3g spacings of wave", name, r->seconds, r->waves);
+        snprintf(text, room, "%s rises within %.3g s, in which a wave travels %.3g spacings", name, r->seconds,
+                 r->waves);
 }
 
 /* Writes the pulse length, or the rise and body thickness, that cells of `edge` spacings require. edges: minimum number
@@ -170,10 +171,11 @@ static void rise_text(const struct scene *s, const struct load_rise *r, char *te
 static void want_text(const struct levels_choice *c, int edge, int edges, char *text, size_t room)
 {
     if (c->rise.pulse)
-        snprintf(text, room, "want pulses of %g", 4 * RISES * edge);
+        snprintf(text, room, "require waves at least %g spacings long", 4 * RISES * edge);
     else
-        snprintf(text, room, "want a rise over %g, or a body %d spacings across, which this is %.3g", RISES * edge,
-                 edges * edge, c->across);
+        snprintf(text, room,
+                 "require a rise over at least %g spacings, or a body at least %d spacings thick, and this one is %.3g",
+                 RISES * edge, edges * edge, c->across);
 }
 
 /* Writes the reason for the number of levels that was chosen automatically. */
@@ -184,32 +186,36 @@ static void automatic_text(const struct levels_choice *c, const struct scene *s,
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 4, ACROSS, want, sizeof want);
     if (c->why == LEVELS_AT_REST)
-        snprintf(text, room, "none, as a static solver has no use for them");
+        snprintf(text, room, "no coarse cells, as they save no time with a static solver");
     else if (c->why == LEVELS_NO_MESH)
-        snprintf(text, room, "none without material points in the reference frame");
+        snprintf(text, room, "no coarse cells, as no material points are in the reference frame");
     else if (c->why == LEVELS_FEW)
-        snprintf(text, room, "none, as the body has %lld particles: from %d on they save time", (long long)c->particles,
-                 PAYS);
+        snprintf(text, room, "no coarse cells, as the body has %lld particles: they save time from %d particles on",
+                 (long long)c->particles, PAYS);
     else if (c->why == LEVELS_DAMPED)
-        snprintf(text, room, "none with damping, which has one time step");
+        snprintf(text, room, "no coarse cells, as damping requires one time step for the whole body");
     else if (c->why == LEVELS_LONG_STEP)
-        snprintf(text, room, "none, as time.step is %.2f of the critical step, and coarse cells are stable up to %.2f",
-                 c->step_share, LEVELS_STEP_MOST);
+        snprintf(
+            text, room,
+            "no coarse cells, as time.step is %.2f of the critical time step, and they are stable up to %.2f of it",
+            c->step_share, LEVELS_STEP_MOST);
     else if (c->why == LEVELS_THIN && c->automatic == 0)
         snprintf(text, room,
                  "no coarse cells, as no part of the body is %d spacings thick, which %d cells of 4 spacings need",
                  4 * CELLS_ACROSS, CELLS_ACROSS);
     else if (c->why == LEVELS_THIN)
-        snprintf(text, room, "cells of %d spacings at most, as no part of the body is thick enough for %d of the next",
-                 edge, CELLS_ACROSS);
+        snprintf(
+            text, room,
+            "coarse cells of up to %d spacings, as no part of the body is thick enough for %d cells of twice that size",
+            edge, CELLS_ACROSS);
     else if (c->automatic == 0)
-        snprintf(text, room, "none, as %s: cells of 4 spacings %s", load, want);
+        snprintf(text, room, "no coarse cells, as %s: cells of 4 spacings %s", load, want);
     else if (c->rise.pulse || !(c->across / ACROSS > c->rise.waves / RISES))
-        snprintf(text, room, "this far field needs cells of %d spacings at most (%s)", edge, load);
+        snprintf(text, room, "coarse cells of up to %d spacings, the largest that resolve the waves (%s)", edge, load);
     else
         snprintf(text, room,
-                 "this far field needs cells of %d spacings at most (%s; the body is %.3g spacings across, "
-                 "%d or more of such cells)",
+                 "coarse cells of up to %d spacings, the largest that resolve the waves (%s) or the body, which is "
+                 "%.3g spacings thick: at least %d such cells",
                  edge, load, c->across, ACROSS);
 }
 
@@ -220,9 +226,10 @@ void frame_levels_describe(const struct levels_choice *c, const struct scene *s,
     if (!c->given)
         snprintf(text, room, "%s", why);
     else if (c->levels == 0)
-        snprintf(text, room, "none by mpm.levels; auto: %s", why);
+        snprintf(text, room, "no coarse cells, as mpm.levels is 0; auto would choose: %s", why);
     else
-        snprintf(text, room, "cells of up to %d spacings by mpm.levels; auto: %s", 2 << c->levels, why);
+        snprintf(text, room, "coarse cells of up to %d spacings, as mpm.levels requires; auto would choose: %s",
+                 2 << c->levels, why);
 }
 
 /* Writes to text where the body is too thin for the coarse cells that the scene prescribes. Returns false, without
@@ -241,9 +248,9 @@ static bool thin_text(const struct reference_frame *r, char *text, size_t room)
     real at[DIM_MAX] = {0};
     for (int d = 0; d < g->dim; d++) at[d] = grid_position(g, d, first / g->stride[d] % g->count[d]) + 0.5 * g->h;
     snprintf(text, room,
-             "mpm.levels: %d makes cells of %d spacings at (%.4g, %.4g, %.4g) m, where fewer than %d of "
-             "them lie across the body, in %.0f %% of all coarse cells: thin parts bend too stiffly in them, natural "
-             "frequencies come out some 5 %% too high; auto leaves them out",
+             "mpm.levels: %d makes coarse cells of %d spacings in thin parts, as at (%.4g, %.4g, %.4g) m, with fewer "
+             "than %d cells across the part (%.0f %% of all coarse cells): such parts bend too stiffly, and natural "
+             "frequencies are some 5 %% too high; with mpm.levels: auto thin parts have no coarse cells",
              r->levels.n, 2 << level, at[0], at[1], at[2], CELLS_ACROSS, 100.0 * (double)thin / (double)coarse);
     return true;
 }
@@ -259,7 +266,9 @@ bool frame_levels_exceed_limit(const struct levels_choice *c, const struct refer
     if (c->levels <= levels) return thin_text(r, text, room);
     rise_text(s, &c->rise, load, sizeof load);
     want_text(c, 2 << c->levels, ACROSS_LEAST, want, sizeof want);
-    snprintf(text, room, "mpm.levels: %d makes cells of %d spacings, and %s: such cells %s; %d or auto would do",
-             c->levels, 2 << c->levels, load, want, levels);
+    snprintf(
+        text, room,
+        "mpm.levels: %d makes coarse cells of %d spacings, and %s: cells of this size %s; use mpm.levels: %d or auto",
+        c->levels, 2 << c->levels, load, want, levels);
     return true;
 }

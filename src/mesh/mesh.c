@@ -20,7 +20,8 @@
 static status meshed_body(const struct particles *p, int64_t i, const char *what)
 {
     return status_set(REFUSED,
-                      "mpm.frame reference: the particle at (%.6g, %.6g, %.6g) m %s; frame current is expected",
+                      "mpm.frame: reference is impossible, as the particle at (%.6g, %.6g, %.6g) m %s; mpm.frame: "
+                      "current is expected",
                       p->X[0][i], p->dim > 1 ? p->X[1][i] : 0.0, p->dim > 2 ? p->X[2][i] : 0.0, what);
 }
 
@@ -51,12 +52,13 @@ static status points_place(struct mesh *mesh, const struct particles *p)
         const int64_t place = mesh_point_slot(mesh, p, i);
         if (place < 0)
             return meshed_body(p, i,
-                               "is not one of two a cell and direction (a lattice, mpm.cell 2, "
-                               "mpm.origin between particles)");
-        if (mesh->point[place] >= 0) return meshed_body(p, i, "shares its place with another");
+                               "is not one of two particles per grid cell and direction, which require a lattice, "
+                               "mpm.cell: 2 and an mpm.origin midway between particles");
+        if (mesh->point[place] >= 0)
+            return meshed_body(p, i, "shares its position in the grid cell with another particle");
         if (mesh->points == 0) mesh->volume = p->volume0[i];
         if (fabs(p->volume0[i] - mesh->volume) > VOLUME_TOLERANCE * mesh->volume)
-            return meshed_body(p, i, "has another volume than the others");
+            return meshed_body(p, i, "has a volume that differs from that of other particles");
         mesh->place[i] = (int32_t)place;
         mesh->point[place] = (int32_t)i;
         mesh->points++;

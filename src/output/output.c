@@ -124,11 +124,11 @@ static void difference_text(const char *a, const char *b, char *text, size_t roo
     size_t own;
     const int path = (int)(line_meaning(b, &own) - b);
     if (path > 0 && path < SHOWN && strncmp(a, b, (size_t)path) == 0) {
-        snprintf(text, room, "line %d, %.*s: this list has changed since", line, path, b);
+        snprintf(text, room, "line %d, %.*s: this list differs from that of the earlier run", line, path, b);
         return;
     }
-    snprintf(text, room, "line %d was `%.*s` and is `%.*s`", line, la < SHOWN ? la : SHOWN, a, lb < SHOWN ? lb : SHOWN,
-             b);
+    snprintf(text, room, "line %d was `%.*s` and is now `%.*s`", line, la < SHOWN ? la : SHOWN, a,
+             lb < SHOWN ? lb : SHOWN, b);
 }
 
 /* Returns true if the file is the scene.yaml of a run: Cleave wrote it and it is beside a folder of frames, which a run
@@ -439,8 +439,8 @@ static status series_archive(struct frame_series *s, struct archive *a)
     if (!a->saving) {
         if (frames < 0 || a->stored_size(a, entry_name) != (int64_t)frames * (int64_t)sizeof *s->entry)
             return status_set(FAILED,
-                              "cannot resume: the checkpoint names %d frames, and its list of them has another length: "
-                              "start again with --overwrite",
+                              "cannot resume: the checkpoint counts %d frames, but its list of frames has a different "
+                              "length, so that it is damaged: start again with --overwrite",
                               frames);
         memory_free(s->entry);
         s->entry = NEW("output.frames", frames, struct frame_entry);

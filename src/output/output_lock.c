@@ -37,7 +37,7 @@ static status lock_file_check(int fd, const char *path)
     const ssize_t length = pread(fd, begin, sizeof begin, 0);
     if (length < 0) return file_fault(path, errno);
     if (length == 0 || (length == (ssize_t)sizeof begin && memcmp(begin, lock_begin, sizeof begin) == 0)) return OK;
-    return status_set(REFUSED, "%s is no lock of a run; choose another -o", path);
+    return status_set(REFUSED, "%s is not the lock file of a run; choose another -o", path);
 }
 
 /* Locks an open file. Returns 0, EAGAIN if another process holds the lock, or another errno. */
@@ -57,7 +57,7 @@ static status say_holder(int fd, const char *folder)
     const ssize_t length = pread(fd, who, sizeof who - 1, 0);
     who[length > 0 ? length : 0] = '\0';
     who[strcspn(who, "\n")] = '\0';
-    return status_set(REFUSED, "%s: %s runs in it; wait for it, or choose another -o", folder,
+    return status_set(REFUSED, "%s: this folder is in use by a run, %s; wait for its end, or choose another -o", folder,
                       who[0] ? who : "another process");
 }
 
@@ -99,10 +99,12 @@ status folder_lock(struct folder_lock *l, const char *folder)
         TRY(own);
         if (shared)
             return status_set(REFUSED,
-                              "%s has another name elsewhere (a hard link), where a run would write too; remove it",
+                              "%s is a hard link, so that a run would also write to the same file elsewhere; remove it",
                               path.text);
     }
-    if (l->fd < 0) return status_set(REFUSED, "%s: another run begins and ends in it; choose another -o", folder);
+    if (l->fd < 0)
+        return status_set(REFUSED, "%s: other runs begin and end in this folder all the time; choose another -o",
+                          folder);
     sign(l->fd);
     return OK;
 }

@@ -312,9 +312,9 @@ static status draw_made(struct run *e, const struct scene *s, const struct plot_
     cloud_free(&c);
     TRY(drew);
     const int said =
-        printf("%s: %lld places, %d boundary condition%s, %d pre-crack%s, %d probe%s\n", printable_name(path.text).text,
-               (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s", s->cracks, s->cracks == 1 ? "" : "s",
-               s->probes, s->probes == 1 ? "" : "s");
+        printf("%s: %lld particles, %d boundary condition%s, %d pre-crack%s, %d probe%s\n",
+               printable_name(path.text).text, (long long)drawn, s->boundaries, s->boundaries == 1 ? "" : "s",
+               s->cracks, s->cracks == 1 ? "" : "s", s->probes, s->probes == 1 ? "" : "s");
     return said < 0 || fflush(stdout) != 0 ? status_set(FAILED, "cannot write to standard output") : OK;
 }
 

@@ -103,8 +103,10 @@ static status find_tip(struct sif_tracked *w, const struct probe_request *r, con
     w->follows = tip_meant(r, o);
     const struct tip *tip = w->follows >= 0 ? &o->tips->tip[w->follows] : NULL;
     if (!tip && !r->has_at)
-        return status_set(REFUSED, "probe \"%s\": no pre-crack ends inside a body; at and direction can name a tip",
-                          r->name);
+        return status_set(
+            REFUSED,
+            "probe \"%s\": no pre-crack ends inside a body; give the crack tip by the keys `at` and `direction`",
+            r->name);
     if (!tip && !r->has_direction)
         return status_set(
             REFUSED,

@@ -270,8 +270,8 @@ static status check_loads_grow(const struct run *e)
     if (e->scene->steps.control == CONTROL_LOAD || half != size || quarter != size) return OK;
     return status_set(
         REFUSED,
-        "steps.control: energy and opening scale loads and supports that grow with pseudo-time, and here they are "
-        "constant; time: {ramp: {until: %.3g s}} in the boundary that loads the body is expected",
+        "steps.control: energy or opening requires loads or displacements that grow with pseudo-time, and all of this "
+        "scene are constant; add time: {ramp: {until: %.3g s}} to the boundary that loads the body",
         whole);
 }
 
@@ -284,8 +284,8 @@ status statics_check(const struct run *e)
     for (int b = 0; b < s->bodies && s->method != METHOD_PD; b++)
         if (!e->frame->choice[b].reference)
             return status_set(REFUSED,
-                              "solver: load steps need material points in the reference frame, and body %s is not in "
-                              "it%s%s; method: pd, or solver: explicit, is expected",
+                              "solver: load steps require material points in the reference frame, and body %s is in "
+                              "the current frame%s%s; method: pd, or solver: explicit, is expected",
                               s->body[b].name, e->frame->choice[b].reason ? ": " : "",
                               e->frame->choice[b].reason ? e->frame->choice[b].reason : "");
     return OK;
@@ -310,8 +310,8 @@ static void warn_large_flow(struct warnings *to, const struct particles *p)
     char text[200];
     for (int64_t i = 0; i < p->n && p->plastic_correction[0]; i++) most = real_max(most, p->plastic_strain[i]);
     snprintf(text, sizeof text,
-             "the plastic strain has reached %.2g, and load steps are for a few per cent: check that the body can "
-             "carry its loads, or use smaller loads or solver: explicit",
+             "the plastic strain has reached %.2g; load steps assume small strains, of a few percent: check that the "
+             "body can carry its loads, or use smaller loads or solver: explicit",
              most);
     if (most > FLOW_LARGE) warnings_add_and_print(to, text);
 }
@@ -324,7 +324,7 @@ static void warn_missed_bodies(struct warnings *to, const struct rigid_body *bod
         const struct rigid_body *r = &body[k];
         char text[200];
         snprintf(text, sizeof text,
-                 "rigid body %.60s has moved by a load step without force on it: check that it touches a body, and "
+                 "no force acted on rigid body %.60s while it moved in a load step: check that it touches a body, and "
                  "that this body is held",
                  r->name);
         if (r->motion == RIGID_DRIVEN && r->force_most <= ROUND_OFF * largest) warnings_add_and_print(to, text);

@@ -71,7 +71,7 @@ static const char *front_find(const struct tips *t, struct sif_plane *plane)
         make_unit(along);
         if (!found) memcpy(plane->front, along, sizeof along);
         vector_product(along, plane->front, turn);
-        if (dot(turn, turn, 3) > square(STRAIGHT)) return "fronts are not parallel";
+        if (dot(turn, turn, 3) > square(STRAIGHT)) return "the crack fronts are not parallel";
         found = true;
     }
     return found ? NULL : "no pre-crack ends in the body";
@@ -93,7 +93,7 @@ static const char *mirrors_find(struct sif_plane *plane)
         const int axis = m.axis;
         if (plane->dim == 3 && fabs(plane->front[axis]) > 1 - STRAIGHT) continue;
         for (m.axis = 0; m.axis < 2 && fabs(plane->axis[m.axis][axis]) < 1 - STRAIGHT;) m.axis++;
-        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry is oblique to them";
+        if (m.axis == 2 || plane->mirrors == 2 * DIM_MAX) return "a plane of symmetry is oblique to the crack fronts";
         if (plane->axis[m.axis][axis] < 0) m.at = -m.at, m.outside = -m.outside;
         plane->mirror[plane->mirrors++] = m;
     }
@@ -126,12 +126,13 @@ static const char *cracks_check(const struct crack_list *l, const struct sif_pla
 {
     for (int k = 0; k < l->n; k++) {
         real at[2][DIM_MAX] = {{0}};
-        if (!sif_plane_segment(plane, &l->crack[k], at)) return "a pre-crack does not lie along them";
+        if (!sif_plane_segment(plane, &l->crack[k], at)) return "a pre-crack is not parallel to the crack fronts";
         for (int c = 0; c < l->crack[k].n; c++) {
             real P[2];
             sif_plane_project(plane, l->crack[k].corner[c], P);
             const real off = real_min(hypot(P[0] - at[0][0], P[1] - at[0][1]), hypot(P[0] - at[1][0], P[1] - at[1][1]));
-            if (off > RAGGED * plane->spacing) return "a pre-crack is no rectangle along them";
+            if (off > RAGGED * plane->spacing)
+                return "a pre-crack is not a rectangle with edges along the crack fronts";
         }
     }
     return NULL;
@@ -148,7 +149,7 @@ static const char *fronts_check(const struct tips *t, const struct particles *p,
         sif_plane_project(plane, t->tip[k].along, along);
         sif_point_ahead(at[0], h, along, at[1]);
         const real width = sif_plane_width(plane, p, at[0], at[1]);
-        if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a front ends within the body";
+        if (width > 2 * sqrt(dot(t->tip[k].edge, t->tip[k].edge, 3)) + h) return "a crack front ends inside the body";
     }
     return NULL;
 }

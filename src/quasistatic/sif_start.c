@@ -99,8 +99,8 @@ status sif_check(const struct run *e)
     if (!scene_in_steps(e->scene) || e->scene->steps.path != PATH_HOOP || e->scene->dim != 3) return OK;
     const char *fault = sif_why_not(e, NULL);
     return fault ? status_set(REFUSED,
-                              "steps.path: hoop leads straight fronts that go through the body, and %s; bonds, or "
-                              "auto, is expected",
+                              "steps.path: hoop (crack growth by the hoop stress) requires straight, parallel crack "
+                              "fronts through the whole body, and %s; steps.path: bonds or auto is expected",
                               fault)
                  : OK;
 }

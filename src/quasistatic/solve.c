@@ -61,10 +61,10 @@ static int64_t bonds_past_limit(const struct bonds *b, const struct particles *p
 /* Warns of bonds beyond their critical stretch. past: their number. */
 static void warn_past_limit(struct warnings *to, int64_t past)
 {
-    char text[160];
+    char text[200];
     snprintf(text, sizeof text,
-             "%lld bonds are beyond their critical stretch in the solution, and none broke: smaller loads, or "
-             "solver explicit",
+             "in this equilibrium %lld bonds exceed their critical stretch, and bonds do not break here: use smaller "
+             "loads, load steps or solver: explicit",
              (long long)past);
     if (past > 0) warnings_add_and_print(to, text);
 }
@@ -122,8 +122,8 @@ static status not_converged(const struct solver *s, real tolerance, int64_t step
             (long long)step);
     if (s->residual * s->scale <= s->noise)
         return status_set(FAILED,
-                          "the residual stays at %.3g of the load, %.3g is wanted: strains are so small that the "
-                          "round-off of positions shows; a larger solver_tolerance is expected",
+                          "the residual stays at %.3g of the load, and %.3g is required: strains are so small that "
+                          "round-off of the positions dominates; use a larger solver_tolerance",
                           s->residual, tolerance);
     return status_set(FAILED,
                       "no equilibrium after %lld steps: the residual is %.3g of the load, %.3g is required; raise "

@@ -21,8 +21,8 @@ static void warn_of_solver(const struct run *e, struct warnings *to)
     for (int m = 0; m < s->materials && scene_in_steps(s); m++)
         if (s->model == MODEL_BOND && material_yields(&s->material[m]) && isfinite(s->material[m].critical_stretch))
             warnings_add(to,
-                         "bonds of %s yield before they break: the work that separates it is %.3g J/m^2; elastic "
-                         "ones would take %.3g",
+                         "bonds of material %s yield before they break, so that a crack dissipates %.3g J/m^2; elastic "
+                         "bonds of the same critical stretch would dissipate %.3g J/m^2",
                          s->material[m].name, toughness_of_material(&e->source.family, s->model, &s->material[m]),
                          family_crossing_energy(&e->source.family, &s->material[m]));
     if (!scene_at_rest(s)) return;

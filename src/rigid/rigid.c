@@ -119,10 +119,10 @@ status rigid_make(struct rigid_body *r, const struct region *shape, int dim, rea
     array_copy(r->motion == RIGID_DRIVEN ? r->speed : r->v, velocity, dim, sizeof *velocity);
     for (int d = 0; d < DIM_MAX; d++) r->turn[d][d] = 1;
     if (!bounded && r->motion != RIGID_FIXED)
-        return status_set(REFUSED,
-                          "rigid body %s moves, and its shape has no end; a shape of boxes, balls, discs and "
-                          "cylinders is expected",
-                          r->name);
+        return status_set(
+            REFUSED,
+            "rigid body %s moves, but its shape is infinite; a shape of boxes, balls, discs or cylinders is expected",
+            r->name);
     if (bounded && !(region_moments(shape, dim, &box, r->centre, second) > 0))
         return status_set(REFUSED, "rigid body %s has no volume", r->name);
     for (int d = 0; d < dim && bounded; d++) r->radius += square(0.5 * (box.to[d] - box.from[d]));

@@ -36,8 +36,8 @@ static status check_mirrors(const struct rigid_body *r, const struct scene *s)
         const real at = mirror->at, gap = s->spacing;
         if (mirror->kind != BOUNDARY_MIRROR || from[mirror->axis] > at + gap || to[mirror->axis] < at - gap) continue;
         return status_set(REFUSED,
-                          "rigid body %s flies (it has a mass), and mirrors do not act on it, so that it must not "
-                          "touch the mirror of boundary %s; a scene without the mirror is expected",
+                          "rigid body %s moves freely (it has a mass), and mirrors do not act on it, so that it must "
+                          "not touch the mirror of boundary %s; a scene without the mirror is expected",
                           r->name, mirror->name);
     }
     return OK;

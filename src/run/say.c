@@ -19,11 +19,12 @@ void warn_of_yielding(const struct scene *s, struct warnings *to)
 {
     for (int m = 0; m < s->materials && s->method != METHOD_MPM && s->dim > 1; m++)
         if (material_yields(&s->material[m]))
-            warnings_add(to,
-                         "material %s: bonds%s yield one by one, so that a %s of them bears about %.2f times what its "
-                         "yield_stress says in tension, %.2f times in shear, and contracts across by %.2f of its "
-                         "plastic strain; by von Mises' law, which method mpm has, these are 1, 1 and %s",
-                         s->material[m].name, s->method == METHOD_PD ? "" : ", which points convert to,",
-                         bonds_bear[s->space].body, bonds_bear[s->space].pull, bonds_bear[s->space].shear,
-                         bonds_bear[s->space].across, s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
+            warnings_add(
+                to,
+                "material %s: bonds%s yield one by one, so that a %s yields at about %.2f times the yield_stress in "
+                "tension and %.2f times the von Mises stress in shear, and its lateral plastic strain is %.2f of the "
+                "axial one; with method: mpm (von Mises) these ratios are 1, 1 and %s",
+                s->material[m].name, s->method == METHOD_PD ? "" : ", which points convert to,",
+                bonds_bear[s->space].body, bonds_bear[s->space].pull, bonds_bear[s->space].shear,
+                bonds_bear[s->space].across, s->space == SPACE_PLANE_STRAIN ? "1" : "0.5");
 }

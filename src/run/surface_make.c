@@ -44,9 +44,9 @@ static status refuse_rows(const struct scene *s, const struct particles *p, int6
     particle_place(p, i, X);
     const real rows = fabs(X[m->axis] - m->at) / s->spacing, beside = rows - floor(rows);
     return status_set(REFUSED,
-                      "body %s: its lattice is not continued by the mirror of boundary %s at %c = %.6g m: its first "
-                      "row is %.3g spacings from the plane; 0.5 (a size along %c that is a multiple of "
-                      "particles.spacing), or pd.surface: volume, is expected",
+                      "body %s: the mirror of boundary %s at %c = %.6g m does not continue its lattice, as its first "
+                      "row of particles is %.3g spacings from the plane; 0.5 spacings (a size along %c that is a "
+                      "multiple of particles.spacing), or pd.surface: volume, is expected",
                       s->body[body_made_for(s, X, p->body[i])].name, m->name, "xyz"[m->axis], m -> at, beside,
                       "xyz"[m->axis]);
 }
@@ -73,12 +73,12 @@ static status refuse_apart(const struct scene *s, const struct particles *p, con
     if (body != beside)
         return status_set(
             REFUSED,
-            "bodies %s and %s are joined, but not on one lattice: their particles at %s and %s m are %s spacings "
+            "bodies %s and %s are joined, but not on one lattice: their particles at %s m and %s m are %s spacings "
             "apart; sizes and positions of both in whole spacings, or pd.surface: volume, are expected",
             own, other, here, there, apart);
     return status_set(REFUSED,
-                      "body %s is on no lattice: its particles at %s and %s m are %s spacings apart; whole numbers, or "
-                      "pd.surface volume, are expected",
+                      "body %s: its particles at %s m and %s m are %s spacings apart, so that they are not on one "
+                      "lattice; distances of whole spacings, or pd.surface: volume, are expected",
                       own, here, there, apart);
 }
 

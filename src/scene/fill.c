@@ -120,10 +120,10 @@ static status lattice_axes(const struct draft *d, int body, struct axis axis[DIM
     const struct scene *s = d->scene;
     real low[DIM_MAX], high[DIM_MAX], from[DIM_MAX], to[DIM_MAX], places = 1;
     if (!region_bounds(&s->body[body].shape, s->dim, from, to))
-        return draft_refuse(d, body, "its shape has no end; add boxes, balls or cylinders of finite size");
+        return draft_refuse(d, body, "its shape is infinite; add boxes, balls or cylinders of finite size");
     if (!first_solid_box(&s->body[body].shape, s->dim, low, high) &&
         !first_solid_box(&s->body[0].shape, s->dim, low, high))
-        return draft_refuse(d, body, "its first solid has no end; begin with one of finite size");
+        return draft_refuse(d, body, "its first solid is infinite; begin with one of finite size");
     for (int a = 0; a < s->dim; a++) {
         struct axis *x = &axis[a];
         x->centre = 0.5 * (low[a] + high[a]);

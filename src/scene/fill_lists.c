@@ -200,9 +200,9 @@ static status crowd_judge(const struct crowd *c, const struct verdict *v)
     if (c->s->method == METHOD_PD && v->apart < CROWDED * spacing && machine_memory_size() > 0 &&
         bytes > (real)machine_memory_size())
         return refuse_list(c,
-                           "its particles have %.3g neighbours each within %.4g spacings of %.4g m, whose bonds need "
-                           "some %.2g GB of the %.2g GB at hand (%s); particles of the list are %.4g m apart: a "
-                           "particles.spacing of this size is expected",
+                           "each of its particles has %.3g neighbours within %.4g spacings of %.4g m, whose bonds need "
+                           "some %.2g GB of memory, and %.2g GB are available (%s); particles of the list are %.4g m "
+                           "apart: a particles.spacing of this size is expected",
                            v->family, c->reach / spacing, spacing, bytes * 1e-9, (real)machine_memory_size() * 1e-9,
                            machine_memory_limit_name(), v->apart);
     return OK;

@@ -98,8 +98,8 @@ status list_check_memory(const char *path, int64_t n)
 {
     const real bytes = (real)n * PARTICLE_NUMBERS * sizeof(real);
     if (machine_memory_size() <= 0 || bytes <= (real)machine_memory_size()) return OK;
-    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB, and %.2g can be had (%s)", path, (real)n,
-                      1e-9 * bytes, 1e-9 * (real)machine_memory_size(), machine_memory_limit_name());
+    return status_set(REFUSED, "%s: %.3g particles need more than %.2g GB of memory, and %.2g GB are available (%s)",
+                      path, (real)n, 1e-9 * bytes, 1e-9 * (real)machine_memory_size(), machine_memory_limit_name());
 }
 
 /* ---- HDF5 -------------------------------------------------------------------------------------------------------- */
@@ -231,8 +231,8 @@ static status hdf5_column(struct particle_list *l, hid_t file, const char *path,
     unit_read_attribute(file, name, unit);
     if (column == COLUMN_X) l->n = t.rows;
     if (t.rows != l->n || (count > 1 || column < COLUMN_VOLUME ? t.columns < count : t.columns != count))
-        s = status_set(REFUSED, "%s: %s has %lld x %lld numbers; %lld x %d are wanted", path, name, (long long)t.rows,
-                       (long long)t.columns, (long long)l->n, count);
+        s = status_set(REFUSED, "%s: dataset %s has %lld x %lld numbers; %lld x %d are expected", path, name,
+                       (long long)t.rows, (long long)t.columns, (long long)l->n, count);
     else if (!unit_factor(&t.factor, unit, list_quantity[column].unit, what, sizeof what))
         s = status_set(REFUSED, "%s: %s: its unit %s %s", path, name, unit, what);
     if (t.columns > count)
@@ -258,7 +258,8 @@ static status hdf5_columns(struct particle_list *l, hid_t file, const char *path
     }
     list_note_columns(&l->head, has);
     if (!has[COLUMN_MASS] || !has[COLUMN_DENSITY]) return OK;
-    return status_set(REFUSED, "%s: mass beside density; one of the two fixes the other", path);
+    return status_set(
+        REFUSED, "%s: mass and density are both given, and each determines the other; leave one of them out", path);
 }
 
 /* Reads a list from an HDF5 file. A crash of the library on a damaged file is reported with the name of the file. */

@@ -115,7 +115,8 @@ static status header_read(struct csv *c, struct particle_list *l)
             return csv_fault(&c->in, c->in.text, "column %s is missing; the first line names the columns, as %s",
                              list_quantity[k].name, names);
     if (has[COLUMN_MASS] && has[COLUMN_DENSITY])
-        return csv_fault(&c->in, c->in.text, "mass beside density; one of the two fixes the other");
+        return csv_fault(&c->in, c->in.text,
+                         "mass and density are both given, and each determines the other; leave one of them out");
     list_note_columns(&l->head, has);
     return OK;
 }

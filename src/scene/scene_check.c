@@ -103,7 +103,9 @@ static status check_damping(struct reader *r, const struct node *root)
     if (!scene_moves(s))
         return fault(r, damping, "a static equilibrium has no velocities; solver: explicit is expected");
     if (levels && s->levels != LEVELS_AUTO && s->levels > 0)
-        return fault(r, levels, "%s levels have time steps of their own, and damping has one; 0 is expected",
+        return fault(r, levels,
+                     "%s levels of coarse cells have different time steps, and damping requires one time step for the "
+                     "whole body; mpm.levels: 0 is expected",
                      node_shown(r, levels));
     return OK;
 }
@@ -118,10 +120,11 @@ status check_supported_loads(struct reader *r, const struct node *root)
         const struct boundary *load = &s->boundary[b];
         const bool formula = load->formula[0].n + load->formula[1].n + load->formula[2].n > 0;
         if (load->kind == BOUNDARY_PRESSURE && s->irregularity > PRESSURE_SHAKEN)
-            return fault(r, node_find(n, "pressure"),
-                         "lattices shaken by more than %g of a spacing do not say where "
-                         "faces are; a traction, or less particles.irregularity, is expected",
-                         PRESSURE_SHAKEN);
+            return fault(
+                r, node_find(n, "pressure"),
+                "a pressure requires the positions of faces, which are not defined if particles.irregularity exceeds "
+                "%g spacings; a traction in its place, or a smaller particles.irregularity, is expected",
+                PRESSURE_SHAKEN);
         if (!scene_at_rest(s)) continue;
         if (load->follow)
             return fault(r, node_find(n, "follow"),
@@ -156,8 +159,8 @@ static status check_origin(struct reader *r, const struct node *root)
     for (int a = 0; a < s->dim && s->has_grid_origin && s->spacing > 0; a++)
         if (!(fabs(s->grid_origin[a]) <= FILL_FARTHEST * s->spacing))
             return fault(r, scene_check_below(root, "mpm", "origin"),
-                         "%.3g m is more than 1e7 spacings away, where doubles no longer resolve strains; a position "
-                         "near the body is expected",
+                         "%.3g m is more than 1e7 spacings from the origin, where double precision no longer resolves "
+                         "strains; a position near the origin is expected",
                          s->grid_origin[a]);
     return OK;
 }
@@ -372,8 +375,8 @@ static status check_times(struct reader *r, const struct node *root)
                       *times = scene_check_below(root, "output", "times");
     if (every && (frames || times)) return fault_both(r, frames ? frames : times, every);
     if (every && s->duration / s->every > FRAMES_MOST)
-        return fault(r, every, "%s makes more than %d frames; at least %.3g s is expected", node_shown(r, every),
-                     FRAMES_MOST, s->duration / FRAMES_MOST);
+        return fault(r, every, "an interval of %s makes more than %d frames; at least %.3g s is expected",
+                     node_shown(r, every), FRAMES_MOST, s->duration / FRAMES_MOST);
     if (every) s->frames = (int)ceil(s->duration / s->every * (1 - 1e-12)); /* the last frame is at the end */
     if (s->times.n == 0) return OK;
     if (frames) return fault_both(r, frames, times);
@@ -399,10 +402,14 @@ static status check_model(struct reader *r, const struct node *root)
     if (moments && (s->dim == 1 || s->irregularity > 0))
         return fault(r, surface, "moments needs a regular lattice in 2D or 3D; volume or none is expected");
     if (moments && s->model != MODEL_BOND && (s->method != METHOD_PD || !s->bulk))
-        return fault(r, surface, "with %s moments needs method: pd and pd.normalisation: bulk; none is expected",
+        return fault(r, surface,
+                     "with model %s the surface correction moments is possible only with method: pd and "
+                     "pd.normalisation: bulk; pd.surface: none is expected",
                      node_shown(r, model));
     if (s->model == MODEL_BOND) return OK;
-    if (s->dim == 1) return fault(r, model, "%s has no meaning in space line; bond is expected", node_shown(r, model));
+    if (s->dim == 1)
+        return fault(r, model, "model %s is not defined in one dimension (space: line); model: bond is expected",
+                     node_shown(r, model));
     if (surface && s->surface == SURFACE_VOLUME)
         return fault(r, surface,
                      "%s is for model bond; with model %s the key pd.normalisation corrects bonds near surfaces",
@@ -426,7 +433,8 @@ status check_solver(struct reader *r, const struct node *root)
                      "come to rest); mpm.transfer apic, with a shape that is not linear, is expected");
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
-            return fault(r, solver, "%s is for elastic materials, and %s yields; explicit is expected",
+            return fault(r, solver,
+                         "solver: %s is for elastic materials, and material %s yields; solver: explicit is expected",
                          node_shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)

@@ -136,8 +136,8 @@ static bool power_of_unit(struct compile *c, struct quantity *unit, real power, 
         const real twice = unit->twice[k] * power;
         if (twice != floor(twice) || fabs(twice) > POWER_MOST)
             return compile_fail(c,
-                                "has %s to a power (character %d) that makes no unit; whole and half powers of m, "
-                                "kg and s do",
+                                "raises %s (character %d) to a power whose unit cannot be represented; whole and half "
+                                "powers of m, kg and s can be",
                                 quantity_unit_name(&operand_from_top(c, 1)->q).text, place);
         unit->twice[k] = (int)twice;
     }

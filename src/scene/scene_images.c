@@ -53,7 +53,9 @@ static status check_covered(struct reader *r, const struct node *n, const struct
     for (int64_t k = all - 1; k >= 0; k--)
         if (!in[v->grey[k]]) missing++, value = v->grey[k];
     if (missing == 0) return OK;
-    return fault(r, n, "%.3g %% of the image, grey value %d for one, have no material; void leaves them out",
+    return fault(r, n,
+                 "%.3g %% of the image have grey values without a material, for instance %d; give each value a "
+                 "material, or void to leave its pixels out",
                  100 * (real)missing / (real)all, value);
 }
 
@@ -72,7 +74,9 @@ status read_grey_materials(struct reader *r, const struct node *n, const struct 
         if (s != OK) break;
         const struct grey_range range = p->range[before];
         for (int grey = range.low; grey <= range.high && s == OK; grey++) {
-            if (in[grey]) s = fault(r, c, "grey value %d is in two ranges; one is expected", grey);
+            if (in[grey])
+                s = fault(r, c, "grey value %d is in two of the ranges; each value in one range only is expected",
+                          grey);
             in[grey] = true;
         }
         if (is_void(c)) p->ranges = before;
@@ -108,7 +112,9 @@ static int material_called(const struct scene *s, const char *name)
 static status read_grey_part(struct reader *r, const struct node *solid, const struct node *entry, struct scene_body *b)
 {
     const int material = entry->kind == NODE_SCALAR ? material_called(r->scene, entry->text) : -1;
-    if (material < 0) return fault(r, entry, "there is no material %s; void leaves it out", node_shown(r, entry));
+    if (material < 0)
+        return fault(r, entry, "the scene has no material %s; to leave out the pixels of this grey value, write void",
+                     node_shown(r, entry));
     struct node *copy = node_copy(r, solid, solid->parent, "materials"), *image = node_find(copy, "image");
     struct node *values = arena_new(r, sizeof *values);
     *values = (struct node){.kind = NODE_SCALAR,

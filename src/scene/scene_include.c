@@ -37,7 +37,7 @@ static bool is_empty(const struct node *n) { return n->kind == NODE_SCALAR && *n
 /* Returns REFUSED for a mapping with two equal keys, one of which would be lost. */
 static status check_twins(const struct reader *r, const struct node *map)
 {
-    if (map->n > KEYS_MOST) return fault(r, map, "has %d keys; no mapping of a scene has so many", map->n);
+    if (map->n > KEYS_MOST) return fault(r, map, "has %d keys, more than any mapping of a scene can have", map->n);
     for (const struct node *n = map->first; n; n = n->next)
         for (const struct node *twin = map->first; twin != n; twin = twin->next)
             if (strcmp(twin->key, n->key) == 0)

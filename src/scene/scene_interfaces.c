@@ -57,8 +57,7 @@ static status interface_strength(struct reader *r, const struct node *n, struct 
     struct scene_body *one = &s->body[face->body[0]], *other = &s->body[face->body[1]];
     if (one->parts > 0 || other->parts > 0)
         return fault(r, node_find(n, "energy_release_rate"),
-                     "%s has parts of other materials; bodies of one material "
-                     "are expected",
+                     "body %s has parts of different materials; an interface joins bodies of one material each",
                      one->parts > 0 ? one->name : other->name);
     if (one->material == other->material) TRY(material_apart(r, n, other));
     const struct material *a = &s->material[one->material], *b = &s->material[other->material];
@@ -113,7 +112,9 @@ status check_joined(struct reader *r, const struct node *root)
         const int body = s->boundary[k].body;
         for (int b = 0; b < s->bodies && body >= 0; b++)
             if (b != body && s->body[b].joined == s->body[body].joined)
-                return fault(r, node_find(n, "body"), "is joined to %s, one body from then on; a region is expected",
+                return fault(r, node_find(n, "body"),
+                             "is joined to body %s by an interface, so that both are one body here; a region in place "
+                             "of this key is expected",
                              s->body[b].name);
     }
     return OK;

@@ -22,16 +22,18 @@ static status check_curve(struct reader *r, const struct node *n, const struct f
                          c->strain[0]);
         if (k == 0) continue;
         if (!(c->strain[k] > c->strain[k - 1]))
-            return fault(r, point, "plastic strain %g does not lie after %g; strains ascend", c->strain[k],
-                         c->strain[k - 1]);
+            return fault(r, point,
+                         "the plastic strain %g is not larger than the previous one, %g; strains in ascending order "
+                         "are expected",
+                         c->strain[k], c->strain[k - 1]);
         const real slope = (c->stress[k] - c->stress[k - 1]) / (c->strain[k] - c->strain[k - 1]);
         if (slope < 0)
             return fault(r, point, "the stress falls to %g Pa; a yield stress that does not fall is expected",
                          c->stress[k]);
         if (slope > before * (1 + SLOPE_ROUNDING))
             return fault(r, point,
-                         "the curve is steeper from here on (%g Pa after %g Pa per strain); a curve whose slope does "
-                         "not grow is expected",
+                         "the slope of the curve increases at this point, to %g Pa from %g Pa; a hardening curve whose "
+                         "slope does not increase is expected",
                          slope, before);
         before = slope;
     }

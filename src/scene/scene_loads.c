@@ -178,7 +178,8 @@ static status read_absorbing(struct reader *r, const struct node *map, const str
     const struct node *time = node_find(map, "time");
     if (time) return fault(r, time, "has no meaning with absorbing, which acts at all times; leave it out");
     if (n->kind == NODE_SCALAR && strcmp(n->text, "true") == 0) return OK;
-    return fault(r, n, "%s is not true; absorbing: true is expected, or no such boundary", node_shown(r, n));
+    return fault(r, n, "%s is given, but absorbing can only be true; write absorbing: true, or leave the boundary out",
+                 node_shown(r, n));
 }
 
 /* Reads the face of a boundary into b->face (axis) and b->side (+1 or -1). */
@@ -189,7 +190,8 @@ static status read_face(struct reader *r, const struct node *map, struct boundar
     if (!n) return fault_missing(r, map, k);
     int face = n->kind == NODE_SCALAR ? word_index(k->words, n->text) : -1;
     if (face < 0 || face >= 2 * r->dim)
-        return fault(r, n, "%s is no face in space %s; %s is expected", node_shown(r, n), space_names[r->scene->space],
+        return fault(r, n, "%s is not the name of a face in space %s; %s is expected", node_shown(r, n),
+                     space_names[r->scene->space],
                      r->dim == 1   ? "x+ or x-"
                      : r->dim == 2 ? "x+, x-, y+ or y-"
                                    : word_list(r, k->words));
@@ -219,7 +221,11 @@ static status kind_of_boundary(struct reader *r, const struct node *map, const s
     *kind = NULL;
     for (const struct node *n = map->first; n; n = n->next) {
         if (word_index(words, n->key) < 0) continue;
-        if (*kind) return fault(r, n, "given beside %s; two conditions are two items of the list", (*kind)->key);
+        if (*kind)
+            return fault(r, n,
+                         "is given together with %s in one item; write each boundary condition as an item of its own "
+                         "in the list",
+                         (*kind)->key);
         *kind = n;
     }
     return *kind ? OK : fault(r, map, "does nothing; %s is expected", word_list(r, words));
@@ -249,8 +255,8 @@ static status check_time_unit(struct reader *r, const struct node *kind, const s
         unit = carries_unit(r, c, b->value[k++]) || unit;
     if (!b->time_unit || (most <= 1 && !unit)) return OK;
     return fault(r, kind,
-                 "%s times a column that has a unit itself; a direction such as [0, -1], or a column without "
-                 "unit, is expected",
+                 "%s would be multiplied by a column of the file that has a unit, too; a direction such as [0, -1], or "
+                 "a column without unit, is expected",
                  node_shown(r, kind));
 }
 
@@ -423,8 +429,10 @@ static status check_sif(struct reader *r, const struct node *n, const struct nod
     if (isnan(p->outer) && c->n > 0) p->outer = c->value[c->n - 1];
     const real outer = isnan(p->outer) ? 20 * r->scene->spacing : p->outer;
     if (p->inner >= outer)
-        return fault(r, node_find(map, "inner"), "%s is not less than outer, %.6g m; about half of it is usual",
-                     node_shown(r, node_find(map, "inner")), outer);
+        return fault(
+            r, node_find(map, "inner"),
+            "the inner radius %s is not smaller than the outer radius, %.6g m; about half the outer radius is usual",
+            node_shown(r, node_find(map, "inner")), outer);
     const real shares[2] = {p->direction[0], p->direction[1]};
     if (!p->has_direction || dot(shares, shares, 2) > 0) return OK;
     return fault(r, node_find(map, "direction"), "has no length; the direction ahead of the tip is expected");

@@ -22,7 +22,10 @@ static bool evaluate(struct reader *r, struct variable *v, char *what, size_t ro
     bool fine = true;
     if (v->state == KNOWN) return true;
     if (v->state == OPEN || r->variables_open == CHAIN_MOST) {
-        snprintf(what, room, v->state == OPEN ? "depends on itself" : "depends on a chain of more than %d others",
+        snprintf(what, room,
+                 v->state == OPEN
+                     ? "depends on itself"
+                     : "depends on other variables through a chain of more than %d; a shorter chain is expected",
                  CHAIN_MOST);
         return false;
     }
@@ -170,9 +173,9 @@ void length_in_spacings_advise(struct reader *r, const struct key *k, const char
     if (k->unit != UNIT_NONE || !strstr(k->help, "in spacings")) return;
     if (!number_of_text(r, &length, text, UNIT_LENGTH, false, other, sizeof other)) return;
     if (!(r->scene->spacing > 0)) {
-        snprintf(what, room, "is a length; a number of spacings is expected");
+        snprintf(what, room, "is a length; this key takes a number of spacings");
         return;
     }
-    snprintf(what, room, "is a length; a number of spacings is expected, here %s: %.4g%s", key_leaf(k),
+    snprintf(what, room, "is a length; this key takes a number of spacings, here %s: %.4g%s", key_leaf(k),
              length / r->scene->spacing, strcmp(key_leaf(k), "horizon") ? "" : " (3.015 is usual)");
 }

@@ -69,8 +69,8 @@ static status item_of(struct reader *r, struct node *list, int index, int origin
     if (list->kind != NODE_LIST)
         return fault(r, blamed(list, origin), "is no list in this scene; [%d] has no meaning", index);
     if (index >= list->n)
-        return fault(r, blamed(list, origin), "has %d items; [%d] is behind the last (the first is [0])", list->n,
-                     index);
+        return fault(r, blamed(list, origin), "has %d items, and [%d] is beyond the last one (the first is [0])",
+                     list->n, index);
     struct node *n = list->first;
     while (index-- > 0) n = n->next;
     *out = n;
@@ -110,9 +110,9 @@ static status item_called(struct reader *r, struct node *list, const char *key, 
             return OK;
         }
     }
-    return fault(r, blamed(list, origin), "has %d item%s; %s is %s; they go by number (the first is 0)%s", list->n,
-                 list->n == 1 ? "" : "s", shown_text(r, called), number ? "behind the last" : "the name of none",
-                 names_text(r, list));
+    return fault(r, blamed(list, origin), "has %d item%s, and %s is %s; refer to an item by its number (from 0)%s",
+                 list->n, list->n == 1 ? "" : "s", shown_text(r, called),
+                 number ? "beyond the last" : "the name of none", names_text(r, list));
 }
 
 static bool is_key(const struct node *n, const char *key, size_t length)

@@ -17,7 +17,9 @@ static status read_strength(struct reader *r, const struct node *n, struct mater
     const struct node *given = NULL, *toughness = node_find(n, "toughness");
     for (size_t k = 0; k < COUNT_OF(ways); k++) {
         const struct node *way = node_find(n, ways[k]);
-        if (way && given) return fault(r, way, "given beside %s; one of the two fixes the other", given->key);
+        if (way && given)
+            return fault(r, way, "is given together with %s, and each determines the other; leave one of them out",
+                         given->key);
         if (way) given = way;
     }
     if (toughness) {
@@ -39,8 +41,8 @@ static status check_poisson(struct reader *r, const struct node *n, const struct
     const struct node *poisson = node_find(n, "poisson");
     if (!poisson || s->method == METHOD_MPM || s->model != MODEL_BOND || s->space == SPACE_LINE) return OK;
     if (fabs(m->poisson - bond) <= 1e-6) return OK;
-    return fault(r, poisson, "%s is impossible with bonds, which have %s in space %s; %s", node_shown(r, poisson),
-                 s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
+    return fault(r, poisson, "a Poisson's ratio of %s is impossible with bonds, which have %s in space %s; %s",
+                 node_shown(r, poisson), s->space == SPACE_PLANE_STRESS ? "1/3" : "1/4", space_names[s->space],
                  material_yields(m) ? "`method: mpm` has any, and yields" : "`model: ospd` has any");
 }
 
@@ -49,13 +51,17 @@ static status read_hardening(struct reader *r, const struct node *n, struct mate
 {
     const struct node *tangent = node_find(n, "yield_tangent"), *hardening = node_find(n, "yield_hardening");
     real H;
-    if (tangent && hardening) return fault(r, hardening, "given beside yield_tangent; one of the two fixes the other");
+    if (tangent && hardening)
+        return fault(r, hardening,
+                     "is given together with yield_tangent, and each determines the other; leave one of them out");
     if (hardening) {
         TRY(read_number(r, key_find("material", "yield_hardening"), hardening, &H));
         m->yield_tangent = m->young * H / (m->young + H);
     }
     if (m->yield_tangent < m->young) return OK;
-    return fault(r, tangent ? tangent : hardening, "%s is no slope below young; a tangent modulus is expected",
+    return fault(r, tangent ? tangent : hardening,
+                 "%s is not below Young's modulus; the slope of the stress-strain curve after yield, 0 to below young, "
+                 "is expected",
                  node_shown(r, tangent ? tangent : hardening));
 }
 
@@ -83,7 +89,9 @@ static status read_scatter(struct reader *r, const struct node *n, struct materi
     const char *const own[] = {[SCATTER_WEIBULL] = "modulus", [SCATTER_LOGNORMAL] = "variation"};
     const struct node *other = node_find(n, own[!s->form]);
     if (!node_find(n, own[s->form])) return fault_missing(r, n, key_find("material.scatter", own[s->form]));
-    if (other) return fault(r, other, "of the other distribution; %s is expected", own[s->form]);
+    if (other)
+        return fault(r, other, "belongs to the other distribution of strength; %s is the parameter of this one",
+                     own[s->form]);
     if (!isfinite(m->critical_stretch) && isnan(m->energy_release_rate))
         return fault(r, n, "its bonds never break; energy_release_rate, critical_stretch or toughness is expected");
     if (material_yields(m) && r->scene->method == METHOD_ADAPTIVE)
@@ -252,7 +260,10 @@ status read_bodies(struct reader *r, const struct node *root)
         r->bounded = false;
         TRY(read_grey_parts(r, one, s->body));
         if (s->materials > 1 && !parts && s->body->parts == 0)
-            return fault(r, one, "which of %d materials is it; use parts, or bodies", s->materials);
+            return fault(r, one,
+                         "the scene has %d materials, and the key body cannot name one; use parts, or bodies with a "
+                         "material each",
+                         s->materials);
         return read_body_parts(r, parts, key_find("", "parts"), s->body);
     }
     const struct node *n = many->first;
@@ -446,7 +457,8 @@ static status read_frame_region(struct reader *r, const struct node *n, int numb
             return fault(r, node_find(n, "name"), "%s is the name of another region; give it a name of its own",
                          one->name);
     if (s->duration / one->every > FRAMES_MOST)
-        return fault(r, node_find(n, "every"), "%s makes more than %d frames; at least %.3g s is expected",
+        return fault(r, node_find(n, "every"),
+                     "an interval of %s makes more than %d frames; at least %.3g s is expected",
                      node_shown(r, node_find(n, "every")), FRAMES_MOST, s->duration / FRAMES_MOST);
     return OK;
 }

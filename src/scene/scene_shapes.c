@@ -148,8 +148,8 @@ static status check_contents(struct reader *r, const struct node *n, const struc
     snprintf(found, sizeof found, "%016" PRIx64, contents);
     if (!words->contents[0] || strcmp(words->contents, found) == 0) return OK;
     return fault(r, node_find(n, "contents"),
-                 "is %s, and the file's is %s: it is another one; the one of then is expected, or no "
-                 "contents",
+                 "is %s, but the hash of the file is %s: the file has changed; restore the earlier file, or remove the "
+                 "key contents",
                  words->contents, found);
 }
 

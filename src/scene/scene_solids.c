@@ -35,7 +35,8 @@ static status check_box(struct reader *r, const struct node *n, const struct sol
 {
     for (int d = 0; d < r->dim; d++)
         if (!(s->from[d] < s->to[d]))
-            return fault(r, n, "from is not below to in %c; from is the lower corner", 'x' + d);
+            return fault(r, n, "from is not smaller than to along %c; from is the corner with the smaller coordinates",
+                         'x' + d);
     return OK;
 }
 
@@ -81,11 +82,14 @@ static status read_corners(struct reader *r, const struct node *n, struct solid 
     for (const struct node *p = list->first; p; p = p->next) TRY(read_point(r, &corner, p, s->polygon->corner[at++]));
     switch (polygon_make(s->polygon, &at)) {
     case POLYGON_SHORT:
-        return fault(r, list, "corner %d is also the next one; corners differ", at);
+        return fault(r, list, "corner %d and the next one are at the same position; remove one of them", at);
     case POLYGON_FLAT:
         return fault(r, list, "have no area; the corners of a polygon are expected");
     case POLYGON_CROSSED:
-        return fault(r, list, "the edge at corner %d meets another; edges do not cross", at);
+        return fault(r, list,
+                     "the edge that begins at corner %d touches or crosses another edge; a polygon without crossings "
+                     "is expected",
+                     at);
     case POLYGON_TIGHT:
         return fault(r, node_find(n, "round"),
                      "is too large for the edge from corner %d to the next; a smaller radius "
@@ -346,7 +350,8 @@ static status check_polygon(struct reader *r, const struct node *n, const struct
             for (int d = 0; d < DIM_MAX; d++) away[d] = c->corner[j][d] - c->corner[0][d];
             cross_at(c->corner[k], c->corner[(k + 1) % c->n], c->corner[j], part);
             if (fabs(dot(away, normal, DIM_MAX)) > 1e-6 * size * twice_area)
-                return fault(r, n, "corner %d is not in the plane of the others; a plane polygon is expected", j);
+                return fault(r, n, "corner %d is not in the plane of the other corners; a plane polygon is expected",
+                             j);
             if (dot(part, normal, DIM_MAX) < -1e-6 * square(twice_area))
                 return fault(r, n, "is not convex at corner %d; give several convex polygons", k);
         }

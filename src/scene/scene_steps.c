@@ -13,8 +13,8 @@ static status check_steps_motion(struct reader *r, const struct node *root)
             return status_prepend_location(
                 s->body[s->bodies + k].place,
                 status_set(REFUSED,
-                           "rigid body %s flies (it has a mass), and load steps have no inertia; a "
-                           "velocity, or solver: explicit, is expected",
+                           "rigid body %s has a mass and moves freely, but load steps have no inertia; a velocity in "
+                           "place of the mass, or solver: explicit, is expected",
                            s->body[s->bodies + k].name));
     if (s->growths > 0)
         return fault(r, cracks ? cracks : solver, "cracks with a prescribed speed need solver: explicit");
@@ -74,10 +74,10 @@ status check_load_steps(struct reader *r, const struct node *root)
     TRY(check_steps_loads(r, root));
     r->scene->active_set = false; /* an equilibrium involves the whole body at once */
     if (s->steps.then == THEN_EXPLICIT && s->steps.control != CONTROL_LOAD)
-        return fault(
-            r, tree_find(root, "steps.then"),
-            "explicit is possible with steps.control: load only; %s follows an unstable crack through equilibria",
-            opening ? "opening" : "energy");
+        return fault(r, tree_find(root, "steps.then"),
+                     "explicit is possible only with steps.control: load; with control %s an unstable crack is "
+                     "followed by equilibria, and no explicit run is needed",
+                     opening ? "opening" : "energy");
     if (s->steps.path == PATH_HOOP && s->dim == 1)
         return fault(r, tree_find(root, "steps.path"),
                      "hoop leads the tips of cracks; bonds, or auto, is expected on a line");

@@ -26,7 +26,8 @@ static status read_table(struct reader *r, const struct node *n, struct time_fun
         TRY(read_number(r, &time, row->first, &f->t[f->n]));
         TRY(read_number(r, &factor, row->last, &f->value[f->n]));
         if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-            return fault(r, row->first, "%s does not lie after the time before; times ascend",
+            return fault(r, row->first,
+                         "time %s is not later than the previous one; times in ascending order are expected",
                          node_shown(r, row->first));
         f->n++;
     }
@@ -137,10 +138,12 @@ static status time_entry(const struct time_columns *c, char *line, struct time_f
         }
     }
     if (found < 2)
-        return csv_fault(&c->in, line, "%d values; the header says that column %d is wanted", k,
+        return csv_fault(&c->in, line,
+                         "this line has %d values, but the value of column %d is needed; add the missing values", k,
                          1 + (c->time > c->value ? c->time : c->value));
     if (f->n > 0 && !(f->t[f->n] > f->t[f->n - 1]))
-        return csv_fault(&c->in, time, "time %s does not lie after the time before; times ascend", time);
+        return csv_fault(&c->in, time,
+                         "time %s is not later than the previous one; times in ascending order are expected", time);
     return OK;
 }
 
@@ -192,7 +195,7 @@ status read_time(struct reader *r, const struct node *n, struct boundary *b)
     if (node_find(n, "file") || node_find(n, "column")) {
         for (const struct node *other = n->first; other; other = other->next)
             if (word_index("file|column", other->key) < 0)
-                return fault(r, other, "given beside file; one of %s is expected", forms);
+                return fault(r, other, "is given together with file; only one of %s is expected", forms);
         return read_time_file(r, n, b);
     }
     if (n->n != 1) return fault(r, n, "has %d keys; one of %s is expected", n->n, forms);

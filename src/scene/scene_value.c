@@ -408,7 +408,8 @@ static status read_series(struct reader *r, const struct key *k, const struct no
     for (const struct node *c = n->first; c; c = c->next) {
         TRY(read_number(r, k, c, &series->value[series->n]));
         if (series->n > 0 && !(series->value[series->n] > series->value[series->n - 1]))
-            return fault(r, c, "%s does not lie after the one before; they ascend", node_shown(r, c));
+            return fault(r, c, "%s is not larger than the previous value; values in ascending order are expected",
+                         node_shown(r, c));
         series->n++;
     }
     return OK;

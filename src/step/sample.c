@@ -487,10 +487,11 @@ static void say_torn(struct warnings *to, const struct loads *loads, const struc
             tears |= (p->flag[l->particle[k]] & both) == both;
         if (tears) name = l->boundary->name, others++;
     }
-    snprintf(text, sizeof text,
-             "boundary %s%s: bonds of the particles that it drives break, the first %s: a grip that tears off pulls no "
-             "more; they count as crack.driven_bonds, not in crack.start_time and probes",
-             name, others > 0 ? " and others" : "", when);
+    snprintf(
+        text, sizeof text,
+        "boundary %s%s: bonds of the particles that it drives break, the first %s, so that the grip may tear off and "
+        "no longer load the body; these bonds are counted in crack.driven_bonds, not in crack.start_time and probes",
+        name, others > 0 ? " and others" : "", when);
     warnings_add_and_print(to, text);
 }
 

@@ -26,9 +26,8 @@ static void say_released(const struct scene *s, const struct diagnostics *w, str
     const real released = energy_released(w);
     if (scene_at_rest(s) || released <= ENERGY_DOUBTFUL * w->energy_scale) return;
     snprintf(text, sizeof text,
-             "bonds released %.3g J more than they had stored when they broke (energy.fracture %.3g): with model %s, "
-             "particles under pressure gain energy as they lose bonds; compare with model: bond, and do not trust "
-             "later results",
+             "broken bonds released %.3g J more than they had stored (energy.fracture %.3g): with model %s, particles "
+             "under pressure gain energy as they lose bonds; compare with model: bond, and do not trust later results",
              released, -released, s->model == MODEL_OSPD ? "ospd" : "mospd");
     warnings_add_and_print(to, text);
 }
@@ -43,9 +42,10 @@ static void say_spin(const struct diagnostics *w, bool apic, struct warnings *to
     char text[360];
     if (!w->turns || !(error > SPIN_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.*f %% of the angular momentum of the bodies is lost or from nowhere (angular_momentum_error)%s",
+             "the angular momentum of the bodies has changed by %.*f %% without a moment of loads "
+             "(angular_momentum_error)%s",
              error < 0.095, 100 * error,
-             apic ? ": mpm.transfer apic leaves some percent to velocity gradients, flip keeps it to 0.1 to 1 %" : "");
+             apic ? ": mpm.transfer: apic conserves it to some percent, flip to 0.1 to 1 %" : "");
     warnings_add_and_print(to, text);
 }
 
@@ -61,9 +61,9 @@ static void say_damped(real share, struct warnings *to)
     char text[320];
     if (!(share > DAMPED_DOUBTFUL)) return;
     snprintf(text, sizeof text,
-             "%.0f %% of the energy was damped at interfaces of bonds and points (energy.damped): interface_damping "
-             "takes vibrations with wavelengths of some spacings, which in small bodies are all; interface_damping: 0 "
-             "keeps them, as method pd does",
+             "%.0f %% of the energy was damped at interfaces between bonds and material points (energy.damped): "
+             "interface_damping removes vibrations with wavelengths of some spacings, in small bodies all vibrations; "
+             "use interface_damping: 0 or method: pd to keep them",
              100 * share);
     warnings_add_and_print(to, text);
 }
@@ -151,13 +151,14 @@ void warn_of_imbalance(struct run *e)
     if (scene_at_rest(e->scene) || fabs(error) <= ENERGY_DOUBTFUL || round_off) return;
     snprintf(
         text, sizeof text,
-        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows when: do not trust later results",
-        100 * fabs(error), error < 0 ? "is lost" : "comes from nowhere", error,
-        error < 0 && apic
-            ? scene_frame_obstacle(e->scene)
-                  ? ": APIC damps what its grid does not resolve, mpm.transfer: flip keeps it"
-                  : ": APIC damps what its grid does not resolve, mpm.transfer: flip and mpm.frame: reference keep it"
-            : "");
+        "%.0f %% of the energy %s (energy.balance_error %.2g)%s; history.csv shows the time at which it began: do not "
+        "trust later results",
+        100 * fabs(error), error < 0 ? "is lost" : "has been gained without work of loads", error,
+        error < 0 && apic ? scene_frame_obstacle(e->scene)
+                                ? ": APIC damps motion that its grid does not resolve; mpm.transfer: flip keeps it"
+                                : ": APIC damps motion that its grid does not resolve; mpm.transfer: flip and "
+                                  "mpm.frame: reference keep it"
+                          : "");
     warnings_add_and_print(&e->warnings, text);
 }
 

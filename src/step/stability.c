@@ -113,17 +113,19 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     const real given = e->diagnostics->energy_start + e->loads.work + e->loads.constraint_work;
     if (!loads_explain_motion(&e->part, e->frame, given)) return false;
     if (e->stability->start_speed >= speed) {
-        snprintf(text, room,
-                 "no smaller time step helps: the scene starts with %.3g m/s, %.3g times the wave speed: check the "
-                 "velocities of its bodies and of `initial`, and their units",
-                 e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
+        snprintf(
+            text, room,
+            "a smaller time step does not help: the scene starts with %.3g m/s, %.3g times the wave speed: check the "
+            "velocities of its bodies and of `initial`, and their units",
+            e->stability->start_speed, e->stability->start_speed / e->tables.wave_speed);
         return true;
     }
     if (start_strain(e->scene) >= LARGE_STRAIN) {
-        snprintf(text, room,
-                 "no smaller time step helps: the scene starts with a strain of %.3g, whose energy throws the body "
-                 "apart: check the displacement gradients of `initial` (0.001 is a strain of 0.1 %%)",
-                 start_strain(e->scene));
+        snprintf(
+            text, room,
+            "a smaller time step does not help: the scene starts with a strain of %.3g, whose energy throws the body "
+            "apart: check the displacement gradients of `initial` (0.001 is a strain of 0.1 %%)",
+            start_strain(e->scene));
         return true;
     }
     for (int b = 0; b < e->loads.n; b++) {
@@ -137,13 +139,14 @@ static bool load_explanation(const struct run *e, real steps, char *text, size_t
     char within[40] = "";
     if (b->kind != BOUNDARY_VELOCITY) snprintf(within, sizeof within, " in %.0f step%s", window, window > 1 ? "s" : "");
     snprintf(text, room,
-             "no smaller time step helps: boundary %s, a %s of %.3g %s, %s its particles %.3g m/s%s, %.3g times the "
-             "wave speed, and loads have done %.3g J of work: check its value and unit",
+             "a smaller time step does not help: boundary %s, a %s of %.3g %s, %s %.3g m/s%s, %.3g times the wave "
+             "speed, and loads have done %.3g J of work: check its value and unit",
              b->name, b->displaces ? "displacement" : word[b->kind], value,
              b->displaces ? "m"
              : b->by_mass ? "N/kg"
                           : unit[b->kind],
-             b->kind == BOUNDARY_VELOCITY ? "drives" : "gives", speed, within, speed / e->tables.wave_speed, work);
+             b->kind == BOUNDARY_VELOCITY ? "drives its particles at" : "gives its particles a speed of", speed, within,
+             speed / e->tables.wave_speed, work);
     return true;
 }
 
@@ -222,8 +225,8 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     const enum growth_rate rate = growth_rate(rise, e->clock.step, value, &steps);
     if (scene_in_steps(e->scene)) { /* load steps have no time step */
         snprintf(text, room,
-                 "in an equilibrium: find out where it comes from by more load steps (steps.number) or a smaller "
-                 "solver_tolerance, and please report the scene");
+                 "this occurred in an equilibrium: use more load steps (steps.number) or a smaller solver_tolerance to "
+                 "find its origin, and please report the scene");
         return;
     }
     if (load_explanation(e, steps, text, room)) return;
@@ -236,20 +239,21 @@ void stability_remedy(const struct run *e, const struct rise *rise, real value, 
     say_others(e->scene, e->frame, e->coupling_kind, others, sizeof others);
     if (rate == RISE_UNSURE) {
         const int used = say_step(e->scene, &e->clock, text, room);
-        snprintf(text + used, room - (size_t)used, "; if it is no better then, something gains energy: try %s", others);
+        snprintf(text + used, room - (size_t)used,
+                 "; if the run is still unstable with it, a method of this scene gains energy: try %s", others);
         return;
     }
     if (e->diagnostics->now.balance_error < 0 && e->diagnostics->now.energy.fracture >= 0) {
         snprintf(text, room,
-                 "a smaller step (now %.2f of the critical %.3g s) need not help, and the balance of energies shows no "
-                 "gain: loads or supports may drive it: check them, or try %s",
+                 "a smaller time step (now %.2f of the critical %.3g s) may not help, as the energy balance shows no "
+                 "gain: loads or supports may drive the motion: check them, or try %s",
                  e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
         return;
     }
     snprintf(text, room,
-             "the energy error took %s%.0f steps to grow tenfold; an unstable time step takes fewer than %d, so that a "
-             "smaller step (now %.2f of the critical %.3g s) may not help; a method of this scene gains energy: try "
-             "%s, and report the scene",
+             "the energy error took %s%.0f steps to grow tenfold; with an unstable time step it takes fewer than %d, "
+             "so that a smaller time step (now %.2f of the critical %.3g s) may not help; a method of this scene gains "
+             "energy: try %s, and please report the scene",
              isfinite(steps) ? "" : "more than ", isfinite(steps) ? steps : (real)RISE_STEPS, RISE_STEPS,
              e->clock.dt / e->clock.dt_critical, e->clock.dt_critical, others);
 }
@@ -285,8 +289,8 @@ static status inversion_check(const struct run_clock *clock, const struct partic
         snprintf(what, sizeof what, "particle %d", (int)p->id[i]);
     }
     return status_set(FAILED,
-                      "inverted at step %lld, t = %.3g s: at %s, from (%.6g, %.6g, %.6g) m, the mesh of the reference "
-                      "frame is inverted; use mpm.frame: current, or check loads and supports",
+                      "inverted at step %lld, t = %.3g s: the mesh of the reference frame is turned inside out at %s, "
+                      "from (%.6g, %.6g, %.6g) m; use mpm.frame: current, or check loads and supports",
                       (long long)clock->step, clock->t, what, X[0], X[1], X[2]);
 }
 
@@ -366,7 +370,7 @@ static status unstable(const struct particles *p, const struct run_clock *clock,
     for (int d = 0; d < p->dim; d++)
         used += snprintf(position + used, sizeof position - (size_t)used, "%s%.6g", d > 0 ? ", " : "", p->X[d][i]);
     return status_set(FAILED,
-                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest of a body %s; %s",
+                      "unstable at step %lld, t = %.3g s: particle %d at (%s) m is the fastest one of a body %s; %s",
                       (long long)clock->step, clock->t, (int)p->id[i], position, what, remedy);
 }
 
@@ -457,7 +461,8 @@ status energy_check(struct run *e)
         return unstable(&e->part, &e->clock, "whose velocities change sign in every step", remedy);
     }
     if (!gains(&e->clock, w)) return OK;
-    snprintf(what, sizeof what, "with %.0f %% of its energy from nowhere", 100 * excess / w->energy_scale);
+    snprintf(what, sizeof what, "with %.0f %% of its energy gained without work of loads",
+             100 * excess / w->energy_scale);
     stability_remedy(e, &e->stability->excess, excess, remedy, sizeof remedy);
     return unstable(&e->part, &e->clock, what, remedy);
 }

@@ -164,8 +164,8 @@ status figures_find(const struct convergence_study *s, const char *const *wanted
     for (int f = 0; f < s->table.figures && wanteds == 0; f++)
         if (is_of_interest(s, s->table.figure[f]) && is_one_of_several(s, s->table.figure[f]))
             fprintf(stderr,
-                    "%s is left out, as several positions are equal in a run, which reports one of them; --of %s shows "
-                    "it\n",
+                    "figure %s is left out, as several positions of a run tie for it and the run reports one of them; "
+                    "--of %s includes it\n",
                     s->table.figure[f], s->table.figure[f]);
     for (int part = 0; part < 3; part++)
         for (int f = 0; f < s->table.figures; f++)
@@ -320,9 +320,9 @@ void figures_print(const struct convergence_study *s, const struct figure_study 
     for (int f = 0; f < shown; f++) figure_print(&figure[f], s->own);
     for (int f = 0; f < figures; f++) lost += figure[f].c.verdict == VERDICT_DIVERGES;
     if (lost > 0)
-        printf(
-            "%d of %d figures do not converge at these spacings: their +- is a bound, not an estimate of the error\n",
-            lost, figures);
+        printf("%d of %d figures do not converge at these spacings: their +- is an upper bound of the error, not an "
+               "estimate\n",
+               lost, figures);
     if (shown < figures)
         printf("%d more figures", figures - shown);
     else

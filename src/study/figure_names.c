@@ -195,7 +195,8 @@ status figure_name_check(const struct scene *s, const char *name)
         lacks = figure_lacks(s, group, name, dot + 1);
     }
     if (known && !lacks) return OK;
-    if (known) return status_set(REFUSED, "%.80s: no run of this scene has this figure: it needs %s", name, lacks);
+    if (known)
+        return status_set(REFUSED, "%.80s: runs of this scene do not have this figure, which requires %s", name, lacks);
     const bool similar = n.distance <= (int)strlen(n.name) / 2;
     return status_set(REFUSED,
                       "%.80s: summary.json has no such figure; %s%s, and names in it are joined by points, as in "

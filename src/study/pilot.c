@@ -191,14 +191,16 @@ static status search_end(struct pilot *to, const struct pilot_search *p, const s
     if (other)
         return status_set(REFUSED,
                           "%s: two methods converge to different values of %s: %s to %.4g +- %.2g, %s to %.4g +- %.2g; "
-                          "write the method that represents it, and particles.spacing",
+                          "give the method that represents this scene, and particles.spacing",
                           p->scene, p->figure, best->name, best->value, best->width, other->name, other->value,
                           other->width);
     candidate_write(to, p, best, best->spacing);
     if (!p->options.quiet)
-        fprintf(stderr, "pilot          %s, spacing %.4g mm: %s within %.2g %% %s, in about %.2g s on one thread\n",
+        fprintf(stderr,
+                "pilot          chosen: method %s, spacing %.4g mm; the error of %s is within %.2g %% %s, and the run "
+                "takes about %.2g s on one thread\n",
                 best->name, 1e3 * best->spacing, p->figure, 100 * best->expected,
-                best->seen ? "as seen" : "as expected from coarser ones", best->seconds);
+                best->seen ? "in a pilot run" : "by extrapolation from coarser pilot runs", best->seconds);
     return OK;
 }
 
@@ -209,8 +211,8 @@ static status pilot_search_all(struct pilot *to, struct pilot_search *p)
     TRY(figures_check_replaceable(p->folder));
     if (!p->options.quiet)
         fprintf(stderr,
-                "pilot          runs at coarse spacings choose method and spacing for %s within %.3g %%, in at most "
-                "%.3g s (accuracy.budget); they are in %s\n",
+                "pilot          pilot runs at coarse spacings choose the method and the spacing for an error of %s "
+                "within %.3g %%; they take at most %.3g s (accuracy.budget), and their results are in %s\n",
                 pilot_figure(p), 100 * p->wish.within, p->wish.budget, printable_name(p->folder).text);
     if (!p->options.quiet && p->wish.at_rest)
         fprintf(stderr, "pilot          the solver of this scene finds one equilibrium, in which no bond breaks; a "

@@ -90,8 +90,8 @@ status pilot_judge(struct pilot_search *p, struct pilot_candidate *c, const stru
     const struct figure_study *f = *wanted ? figure : figure_usual(figure, figures);
     status done = OK;
     if (f && !(fabs(f->c.extrapolated) > 1e-9 * f->c.uncertainty[0]))
-        done =
-            status_set(REFUSED, "accuracy.of: %s is zero, of which nothing is a share; name another figure", f->name);
+        done = status_set(REFUSED, "accuracy.of: %s is zero, so that no relative error is defined; name another figure",
+                          f->name);
     else if (!f)
         done = status_set(
             REFUSED, "accuracy.of: the scene has no probe, no crack and no energy that could be compared; add a probe");
@@ -110,11 +110,11 @@ void pilot_print(const struct pilot_search *p, const struct pilot_candidate *c)
     if (c->failed[0])
         fprintf(stderr, "pilot          %s: %s\n", c->name, c->failed);
     else if (c->seen)
-        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s\n", c->name, p->figure,
-                100 * c->expected, 1e3 * c->spacing, c->seconds);
+        fprintf(stderr, "pilot          method %s: %s +- %.2g %% at a spacing of %.4g mm, in %.2g s\n", c->name,
+                p->figure, 100 * c->expected, 1e3 * c->spacing, c->seconds);
     else {
-        fprintf(stderr, "pilot          %s: %s +- %.2g %% at %.4g mm, in %.2g s", c->name, p->figure, 100 * c->reached,
-                1e3 * c->finest, c->finest_seconds);
+        fprintf(stderr, "pilot          method %s: %s +- %.2g %% at a spacing of %.4g mm, in %.2g s", c->name,
+                p->figure, 100 * c->reached, 1e3 * c->finest, c->finest_seconds);
         if (c->spacing > 0)
             fprintf(stderr, "; %.2g %% would need %.4g mm, %.2g s", 100 * p->wish.within, 1e3 * c->spacing, c->seconds);
         fputc('\n', stderr);

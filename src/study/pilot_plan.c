@@ -73,8 +73,8 @@ status pilot_plan(struct pilot_search *p)
     for (int b = 0; b < s->bodies; b++)
         if (s->body[b].file)
             return status_set(REFUSED,
-                              "%s: method: auto varies the spacing, and a body's particles come from a list, which has "
-                              "one; write a method and particles.spacing",
+                              "%s: method: auto varies the spacing, but a body of this scene comes from a particle "
+                              "list, whose spacing is fixed; give a method and particles.spacing",
                               p->scene);
     if (!(p->wish.spacing > 0) && !(spacing_that_resolves(s) > 0))
         return status_set(REFUSED,
@@ -90,8 +90,8 @@ status pilot_plan(struct pilot_search *p)
     candidates_find(p);
     return p->n > 0 ? OK
                     : status_set(REFUSED,
-                                 "%s: pilot runs have no method for the scene with its model, solver and "
-                                 "pd.region; write a method and particles.spacing",
+                                 "%s: no method of the pilot runs can be combined with the model, solver and pd.region "
+                                 "of the scene; give a method and particles.spacing",
                                  p->scene);
 }
 
@@ -110,9 +110,11 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
     TRY(pilot_plan(&p));
     const double spacing = 1e3 * w->provisional.spacing;
     fprintf(out, "%s can be read\n", printable_name(scene).text);
-    fprintf(out, "auto           cleave run chooses by pilot runs; the scene.yaml that it leaves can be checked\n");
-    fprintf(out, "auto           they judge %s, within %.3g %%\n", pilot_figure(&p), 100 * w->within);
-    fprintf(out, "auto           they vary the method (");
+    fprintf(out, "auto           cleave run chooses method and spacing by pilot runs; check can read the scene.yaml "
+                 "that the run writes\n");
+    fprintf(out, "auto           pilot runs estimate the error of %s; %.3g %% is allowed\n", pilot_figure(&p),
+            100 * w->within);
+    fprintf(out, "auto           pilot runs vary the method (");
     for (int k = 0; k < p.n; k++) fprintf(out, "%s%s", k > 0 ? ", " : "", p.at[k].name);
     if (w->spacing > 0)
         fprintf(out, "), the spacing (%.4g mm as given, and coarser)", spacing);
@@ -124,8 +126,8 @@ status pilot_plan_print(const struct pilot_wish *w, const char *scene, FILE *out
                      "that grows under "
                      "rising loads takes method: pd or adaptive with solver: static\n");
     fprintf(out,
-            "auto           they cost at most %.4g s (accuracy.budget), of which %.4g s are for the first %d runs of "
-            "each method; the run that they choose costs at most %.4g s\n",
+            "auto           pilot runs take at most %.4g s (accuracy.budget), of which %.4g s are for the first %d "
+            "runs of each method; the run that is chosen takes at most %.4g s\n",
             w->budget, PILOT_FIRST_SHARE * w->budget, PILOT_RUNS_FIRST * PILOT_LEVELS_FIRST, PILOT_LONGEST * w->budget);
     return OK;
 }

@@ -33,7 +33,7 @@ first=$!
 await "$work/live" 3 $first
 kill -STOP $first                        # holds the folder, however fast the machine is
 for how in --resume --overwrite ""; do
-    refused "a second run $how" "$work/live" "live: process $first on .* runs in it" $flat -s particles.spacing=1mm $how
+    refused "a second run $how" "$work/live" "live: this folder is in use by a run, process $first on" $flat -s particles.spacing=1mm $how
 done
 kill -KILL $first
 wait $first 2>/dev/null
@@ -61,7 +61,7 @@ same "a folder that is moved: the next run" "$work/once" "$work/gone"
 # A lock file that is also a link to another user's file.
 echo mine >"$work/mine"
 ln "$work/mine" "$work/once/.running"
-refused "a lock with another name" "$work/once" "running has another name elsewhere" $small --overwrite
+refused "a lock with another name" "$work/once" "running is a hard link" $small --overwrite
 is "and what is in it" "$(cat "$work/mine")" mine
 rm "$work/once/.running"
 

@@ -26,7 +26,7 @@ for threads in 1 2; do
         case $result in
             0) pass ;;
             1) is "$megabytes MB, $threads threads: lines: $(cat "$work/err")" "$(wc -l <"$work/err")" 1; failed=$((failed + 1)) ;;
-            2) is "$megabytes MB, $threads threads: refused: $(cat "$work/err")" "$(grep -c 'can be had (ulimit -v)' "$work/err")" "$(wc -l <"$work/err")"
+            2) is "$megabytes MB, $threads threads: refused: $(cat "$work/err")" "$(grep -c 'GB are available (ulimit -v)' "$work/err")" "$(wc -l <"$work/err")"
                failed=$((failed + 1)) ;;
             *) fail "$megabytes MB, $threads threads: status $result: $(cat "$work/err")" ;;
         esac
@@ -36,5 +36,5 @@ for threads in 1 2; do
 done
 (ulimit -v 1500000; exec "$cleave" run -q -o "$work/large" $solid -s method=pd -s particles.spacing=0.3mm) 2>"$work/err"
 is "a scene beyond the limit: exit status" $? 2
-holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB, and 1.[0-9] can be had (ulimit -v)' "$work/err"
+holds "a scene beyond the limit: $(cat "$work/err")" grep -q 'GB of memory, and 1.[0-9] GB are available (ulimit -v)' "$work/err"
 finish

@@ -108,7 +108,7 @@ done <<'END'
 5|method: adaptive^contact: {stiffness: 1e9}|6:11|it is a factor of the stiffness of the bonds
 5|method: adaptive^time: 10 us|6:1|the simulated time is the key `duration`
 5|method: adaptive^crack: [{at: 1}]|6:1|pre-cracks are the key `cracks`
-10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|a number of spacings is expected, here horizon: 3
+10|particles: {spacing: 1 mm, horizon: 3 mm}|10:28|this key takes a number of spacings, here horizon: 3
 2|space: plane stress^crack: {from: [0, 0], to: [1 mm, 0]}|3:9|from: unknown key; pre-cracks are a list of their own: cracks: [{from:
 13|  - {from: [10 mm, 5 mm], length: 5 mm}|13:27|length: unknown key; a crack is given by its ends
 16|    pressure: 1 MPa^    face: y+|17:5|pressure acts on every free face of the particles in `region`
@@ -166,7 +166,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|the first point is the yield stress
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains ascend
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|steeper from here on
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {linear: {modulus: 1 GPa}}}|6:64|is for material points; `method: mpm` is expected
 6|material: {young: 190 GPa, density: 7800, kinematic: {modulus: 1 GPa}}|6:43|yield_stress is expected beside it
@@ -180,7 +180,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, taylor_quinney: 0.9}|6:43|no meaning without specific_heat
 6|material: steel|6:1|not a mapping
 8|  - box: {from: [0, 0], to: [20 mm, 10 mm, 1]}|8:25|3 components
-8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not below to
+8|  - box: {from: [0, 0], to: [-20 mm, 10 mm]}|8:5|from is not smaller than to
 8|  - box: {from: [0, 0], to: [inf, 10 mm]}|8:30|not finite
 8|  - ball: {centre: [0, 0], radius: 1e30}|10:13|particles; 2e9 is the most
 8|  - cylinder: {radius: 1}|8:5|not in space plane stress
@@ -223,7 +223,7 @@ done <<'END'
 19|output: {samples: 0}|19:10|out of range
 19|output: {compress: maybe}|19:10|true or false
 20|probes: [crack]|20:10|does not belong here
-20|probes: [sif: {inner: 21 mm}]|20:16|is not less than outer
+20|probes: [sif: {inner: 21 mm}]|20:16|is not smaller than the outer radius
 20|probes: [growth]|20:10|growth is expected
 20|probes: [growth: {of: a}]^growth: [{name: b, at: [10 mm, 5 mm], direction: [-1, 0], speed: 1 m/s}]|20:19|no growth a
 20|growth: [{at: [0, 0], direction: [1, 0], speed: 1 m/s, smoothing: 1 mm}]|20:56|without probe
@@ -262,7 +262,7 @@ done <<'END'
 14|boundary:^  - {mirror: {axis: x, at: 0}}^  - {mirror: {axis: x, at: 0}}|bad.yaml:16:5: boundary[1]: boundary boundary1|remove one of the two
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [1, 1], to: [2, 2]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|no particle
 14|boundary:^  - {absorbing: true, face: x+, region: {box: {from: [10 mm, 0], to: [12 mm, 10 mm]}}}|bad.yaml:15:5: boundary[0]: boundary boundary0|are in front of every particle
-14|boundary:^  - {absorbing: true, face: x+}^  - {absorbing: true, face: y+}^  - {absorbing: true, face: x+, region: {box: {from: [15 mm, 4 mm], to: [20 mm, 6 mm]}}}|bad.yaml:17:5: boundary[2]: boundary boundary2|boundary0 absorbs at this face already
+14|boundary:^  - {absorbing: true, face: x+}^  - {absorbing: true, face: y+}^  - {absorbing: true, face: x+, region: {box: {from: [15 mm, 4 mm], to: [20 mm, 6 mm]}}}|bad.yaml:17:5: boundary[2]: boundary boundary2|boundary0 already absorbs at this face
 14|initial: [{displacement_gradient: [-2, 0, 0, 0]}]^boundary:|bad.yaml:14:11: initial[0]: |inside out
 8|  - box: {from: [0, 0], to: [1e-9, 1e-9]}|bad.yaml:7:1: body: body body|holds no particle
 END

@@ -41,9 +41,9 @@ says "no trial" '^time step' plate_crack
 holds "no trial: neither run time nor memory" sh -c "! grep -qE '^(run time|memory)' '$work/said'"
 # Short runs are tried completely. 1e7 steps are not tried, and the prediction assumes that all are like the first; a step above the
 # critical one fails in the trial.
-costs "tried" 'run time  *about .* at first; [0-9.e-]* s if all' bar_spall -t 1
-costs "too long to try" 'run time  *at least .* like the first ones, and more as particles convert' plate_crack -s duration=1s
-costs "too long, but nothing converts" 'run time  *about .* like the first ones$' plate_crack -s duration=1s -s method=mpm
+costs "tried" 'run time  *about .* the first steps take .* ns per particle; [0-9.e-]* s if all' bar_spall -t 1
+costs "too long to try" 'run time  *at least .* as long as the first ones, and steps take longer as particles convert' plate_crack -s duration=1s
+costs "too long, but nothing converts" 'run time  *about .* as long as the first ones$' plate_crack -s duration=1s -s method=mpm
 costs "fails" 'run time  *at least' plate_crack -s time.step=0.3us -s output.samples=500
 [ -e results/plate_crack/history.csv ] && before=$(ls -l results/plate_crack/history.csv) || before=
 costs "check writes nothing: tried" "^run time" plate_crack
@@ -141,27 +141,27 @@ output: {frames: 0, samples: 5}
 END
 pulls() { echo "boundary=[{name: pull, traction: [0, 12 MPa], face: y+, time: {$1}}]"; }
 far=$work/far.yaml ramp=$(pulls 'ramp: {until: 0.6 us}') quick=$(pulls 'ramp: {until: 0.1 us}') pulse=$(pulls 'pulse: {until: 2 us}')
-needs='^levels  *this far field needs cells of'
-says "levels by the size" "$needs 4 spacings at most (boundary pull is sudden; the body is 200 spacings across, 50" "$far"
-says "levels by a ramp" "$needs 8 spacings at most (boundary pull rises within 6e-07 s = 23 spacings of wave)" "$far" -s "$ramp"
-says "levels and a quick ramp" "$needs 4 spacings at most (boundary pull rises .* = 3.84 spacings of wave; the body" "$far" -s "$quick"
+needs='^levels  *coarse cells of up to' largest='the largest that resolve the waves'
+says "levels by the size" "$needs 4 spacings, $largest (boundary pull is sudden) or the body, which is 200 spacings thick: at least 50 such" "$far"
+says "levels by a ramp" "$needs 8 spacings, $largest (boundary pull rises within 6e-07 s, in which a wave travels 23 spacings)" "$far" -s "$ramp"
+says "levels and a quick ramp" "$needs 4 spacings, $largest (boundary pull rises .* travels 3.84 spacings) or the body" "$far" -s "$quick"
 late=$(pulls 'ramp: {from: 5 us, until: 5.1 us}')
-says "a quick ramp, whenever it begins" 'boundary pull changes while a wave travels 3.84 spacings; below' "$far" -s "$late"
-says "levels by a pulse" "$needs 4 spacings at most (boundary pull is 76.8 spacings of wave long)" "$far" -s "$pulse"
-says "levels by nothing" "$needs 32 spacings at most (nothing loads it)" "$far" -s boundary=[]
+says "a quick ramp, whenever it begins" 'boundary pull changes within the time in which a wave travels 3.84 spacings; waves' "$far" -s "$late"
+says "levels by a pulse" "$needs 4 spacings, $largest (boundary pull makes a wave 76.8 spacings long)" "$far" -s "$pulse"
+says "levels by nothing" "$needs 32 spacings, $largest (nothing loads it)" "$far" -s boundary=[]
 says "levels: cells" '^levels  *[0-9]* cells with edges of 2 spacings, [0-9]* cells with edges of 4 spacings, [0-9]* cells with edges of 8' "$far" -s "$ramp"
-costs "levels: what they save" '^levels  *[0-9]* of 133400 particles move as [0-9]* coarse cells; memory [0-9]* MB; about' "$far"
-says "levels: none, too small" '^levels  *none, as the body has [0-9]* particles: from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
-says "levels: none, a long step" '^levels  *none, as time.step is 0.7[0-9] of the critical step, and coarse cells are stable up to 0.70' "$far" -s time.step=0.03us
+costs "levels: what they save" '^levels  *[0-9]* of 133400 particles are in coarse cells, of which there are [0-9]*; memory [0-9]* MB; about' "$far"
+says "levels: none, too small" '^levels  *no coarse cells, as the body has [0-9]* particles: they save time from 100000' "$far" -s "body={box: {from: [0, 0], to: [100 mm, 12 mm]}}"
+says "levels: none, a long step" '^levels  *no coarse cells, as time.step is 0.7[0-9] of the critical time step, and they are stable up to 0.70' "$far" -s time.step=0.03us
 narrow="body={box: {from: [0, 0], to: [200 mm, 15 mm]}}"
-says "levels: none, too sudden" 'none, as boundary pull is sudden: cells of 4 spacings want a rise over 10, or a body 200 .*is 100$' "$far" -s "$narrow"
-says "levels given" '^levels  *cells of up to 16 spacings by mpm.levels; auto: this far field needs cells of 4' "$far" -s mpm.levels=3
+says "levels: none, too sudden" 'no coarse cells, as boundary pull is sudden: cells of 4 spacings require a rise over at least 10 spacings, or a body at least 200 .*is 100$' "$far" -s "$narrow"
+says "levels given" '^levels  *coarse cells of up to 16 spacings, as mpm.levels requires; auto would choose: coarse cells of up to 4' "$far" -s mpm.levels=3
 says "levels: none, too thin" 'no coarse cells, as no part of the body is 24 spacings thick, which 6 cells of 4 spacings need$' "$far" -s boundary=[] \
     -s "body={box: {from: [0, 0], to: [1200 mm, 3 mm]}}"
-says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes cells of 4 spacings at .* in 100 % of all coarse cells' "$far" -s mpm.levels=1 \
+says "levels given to a thin body" 'accuracy  *mpm.levels: 1 makes coarse cells of 4 spacings in thin parts, as at .* (100 % of all coarse cells)' "$far" -s mpm.levels=1 \
     -s "body={box: {from: [0, 0], to: [200 mm, 2 mm]}}"
 silent "levels of what has no cells" '^levels' plate_crack -s method=pd
-costs "few particles made" '^levels  *321536 particles become [0-9]* at first; memory [6-9][0-9] MB instead of 221 MB; \(at least\|about\) .* if all of it' \
+costs "few particles made" '^levels  *321536 particles would fill the body, and coarse cells replace them by [0-9]* at the start; memory [6-9][0-9] MB instead of 221 MB; \(at least\|about\) .* if all of it' \
     kalthoff_3d_fine -s mpm.levels=1 -s particles.spacing=0.5mm -s time.step=auto -s probes=[] -s "body[0].box.to=[100 mm, 100 mm, 4 mm]" \
     -s "body[1].add.box.to=[0, 24 mm, 4 mm]" -s "boundary[0].region.box.to=[0, 24 mm, 4 mm]"
 
@@ -175,10 +175,10 @@ too_coarse()
     is "$load: warned once" "$(grep -c "^warning: mpm.levels: $words" "$work/err")" 1
 }
 initial_pulse() { echo "initial=[{pulse: {at: [50 mm, 0], direction: [1, 0], width: $1, velocity: 1}}]"; }
-too_coarse "a pulse of 77 spacings" '4 makes .* 76.8 spacings of wave long: such cells want pulses of 320; 1 or auto would do' -s "$pulse" -s mpm.levels=4
-too_coarse "a pulse of 60 spacings" '4 makes cells of 32 spacings, and initial pulse 1 is 60 ' -s boundary=[] -s "$(initial_pulse "9 mm")" -s mpm.levels=4
-too_coarse "a sudden load" '2 makes .* is sudden: such cells want a rise over 20, or a body 200 .* is 100; 1 or auto' -s "$narrow" -s mpm.levels=2
-too_coarse "a ramp of 23 spacings" '3 makes .* want a rise over 40, or a body 400 .*is 200; 2 or auto' -s "$ramp" -s mpm.levels=3
+too_coarse "a pulse of 77 spacings" '4 makes .* a wave 76.8 spacings long: cells of this size require waves at least 320 spacings long; use mpm.levels: 1 or auto' -s "$pulse" -s mpm.levels=4
+too_coarse "a pulse of 60 spacings" '4 makes coarse cells of 32 spacings, and initial pulse 1 makes a wave 60 ' -s boundary=[] -s "$(initial_pulse "9 mm")" -s mpm.levels=4
+too_coarse "a sudden load" '2 makes .* is sudden: cells of this size require a rise over at least 20 spacings, or a body at least 200 .* is 100; use mpm.levels: 1 or auto' -s "$narrow" -s mpm.levels=2
+too_coarse "a ramp of 23 spacings" '3 makes .* require a rise over at least 40 spacings, or a body at least 400 .*is 200; use mpm.levels: 2 or auto' -s "$ramp" -s mpm.levels=3
 silent "a ramp of 23 spacings and cells of 8" 'accuracy  *mpm.levels' "$far" -s "$ramp" -s mpm.levels=2
 silent "a pulse of 220 spacings and cells of 16" 'accuracy  *mpm.levels' "$far" -s boundary=[] -s "$(initial_pulse "33 mm")" -s mpm.levels=3
 silent "a sudden load and cells of 4" 'accuracy  *mpm.levels' "$far" -s "$narrow" -s mpm.levels=1
@@ -257,7 +257,7 @@ pulled sudden '25 m\/s' '0.1 ms'
 says "pulled apart" 'pulled to 2.58 times' "$work/fast.yaml"
 silent "held together" 'no longer share nodes' "$work/slow.yaml"
 silent "in time" 'no longer share nodes' "$work/fast.yaml" -s mpm.cell=3
-says "sudden load" 'boundary right changes while a wave travels 3.3. spacings' "$work/sudden.yaml"
+says "sudden load" 'boundary right changes within the time in which a wave travels 3.3. spacings' "$work/sudden.yaml"
 silent "slow load" 'changes while' "$work/slow.yaml"
 
 # ---- not needed --------------------------------------------------------------------------------------------------------
@@ -336,14 +336,14 @@ particles: {spacing: 1 mm}
 output: {frames: 0, samples: 1}
 END
 two=$work/two.yaml apart="-s bodies.right.shape.box.from=[10mm,0]"
-through="left and right are in the reference frame (mpm.frame), where material points meet no other body and pass through"
+through="left and right are in the reference frame (mpm.frame), where material points have no contact and pass through"
 says "bodies meet on the grid" '^contact .*left, right with each other, on a grid for each' "$two" $apart
 says "on one grid they stick" '^contact .*stick' "$two" $apart -s contact.between=none
 silent "the grid lets bodies meet" '^warning' "$two" $apart
 warned "reference frame" "$through" "$two" $apart -s mpm.frame=reference
 silent "reference frame: none meets" '^contact' "$two" $apart -s mpm.frame=reference
-says "one of two in the reference frame" 'left is in the reference frame (mpm.frame), where material points meet no other' "$two" $apart -s bodies.left.frame=reference
-warned "bonds" 'contact.between: none: peridynamic bodies pass through each other' "$two" $apart -s method=pd -s contact.between=none
+says "one of two in the reference frame" 'left is in the reference frame (mpm.frame), where material points have no contact' "$two" $apart -s bodies.left.frame=reference
+warned "bonds" 'contact.between: none: peridynamic bodies have no contact' "$two" $apart -s method=pd -s contact.between=none
 says "bodies of bonds meet" '^contact .*left, right with each other and with itself' "$two" $apart -s method=pd
 silent "bonds that meet" 'pass through' "$two" $apart -s method=pd -s contact.between=bodies
 warned "adaptive" 'pass through the material points of other bodies; .* here contact.convert is false' "$two" $apart -s method=adaptive -s contact.convert=false
@@ -378,7 +378,7 @@ refused "two lattices at an interface" 'bodies ring and core are joined, but not
 refused "two lattices: how far off" ') m are (1.5, 2.5) spacings apart; sizes and positions of both in whole spacings, or pd.surface: volume, are' "$rows"
 says "one lattice at an interface" 'is sound\|can be run' "$rows" -s bodies.ring.shape.ring.inner=8mm -s bodies.core.shape.disc.radius=8mm
 says "two lattices, which surface volume takes" 'is sound\|can be run' "$rows" -s pd.surface=volume
-refused "rows beside a mirror" 'body body: its lattice is not continued by the mirror of boundary half at y = 0 m: its first row is 0.25 spacings from the plane; 0.5 (' \
+refused "rows beside a mirror" 'body body: the mirror of boundary half at y = 0 m does not continue its lattice, as its first row of particles is 0.25 spacings from the plane; 0.5 spacings (' \
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3.5 mm]}}'
 says "rows that fit a mirror" 'is sound\|can be run' \
     "$rows" -s bodies= -s interfaces= -s 'boundary=[{name: half, mirror: {axis: y, at: 0}}]' -s 'body={box: {from: [0, 0], to: [40 mm, 3 mm]}}'

@@ -218,7 +218,7 @@ is "first breaks that tie" "$(figure "$work/notches" probes.break.tied)" 2
 between "one of both roots" "$(figure "$work/notches" probes.break.x)" 8e-3 10.1e-3
 between "on its plane" "$(figure "$work/notches" probes.break.y)" -1e-9 1e-9
 is "tips that tie" "$(figure "$work/notches" probes.tip.tied) $(figure "$work/notches" crack.tied)" "2 2"
-holds "terminal: two tips" grep -q 'one of 2 tips of equal growth within a spacing' "$work/said"
+holds "terminal: two tips" grep -q 'one of 2 tips whose growth is equal to within a spacing' "$work/said"
 
 cat >"$work/fork.yaml" <<'END'
 space: plane stress
@@ -268,7 +268,7 @@ near "the first" "$(figure "$work/grip" crack.driven_start_time)" "$(figure "$wo
 absent "no other break" "$(figure "$work/grip" crack.start_time)$(figure "$work/grip" probes.break.first_time)"
 holds "what tears is said" grep -q 'warning: boundary right and others: bonds of the particles that it drives break, the first at' "$work/err"
 holds "in the summary" grep -q 'right and others: bonds of the particles' "$work/grip/summary.json"
-holds "terminal" grep -q 'first bond of driven particles broken at' "$work/said"
+holds "terminal" grep -q 'first bond broken of particles that a boundary drives: at' "$work/said"
 fast='boundary right: it moves its particles up to 200 m/s faster than they are at t = 0; bonds beside it break at 54'
 holds "too fast: run" grep -q "$fast" "$work/err"
 holds "too fast: check" sh -c "'$cleave' check '$work/grip.yaml' --no-trial 2>&1 | grep -q '$fast'"
@@ -373,7 +373,7 @@ between "points keep it" "$(figure "$work/aside.mpm" angular_momentum_error)" 1e
 is "nothing is said" "$(grep -c 'angular momentum' "$work/aside.adaptive.err")" 0
 "$cleave" run "$work/aside.yaml" -q -o "$work/aside.apic" -s method=mpm -s mpm.transfer=apic 2>"$work/aside.apic.err"
 between "apic does not" "$(figure "$work/aside.apic" angular_momentum_error)" 0.01 0.05
-holds "and it is said" grep -q 'of the angular momentum of the bodies is lost' "$work/aside.apic.err"
+holds "and it is said" grep -q 'the angular momentum of the bodies has changed by .* without a moment' "$work/aside.apic.err"
 "$cleave" run "$work/aside.yaml" -q -o "$work/aside.held" -s duration=10us -s 'boundary=[{fixed: all, face: x-, body: a}]' 2>/dev/null
 is "with a support there is no such figure" "$(figure "$work/aside.held" angular_momentum_error)" ""
 
@@ -408,7 +408,7 @@ done
 # Dissipation of vibrations of small bodies by the interface zone is reported.
 "$cleave" run "$work/aside.yaml" -q -o "$work/small" -s method=adaptive -s duration=400us \
     -s "bodies=[{name: a, shape: {disc: {centre: [0, 0], radius: 6 mm}}, velocity: [60 m/s, 0]}, {name: b, shape: {ring: {centre: [14 mm, 3 mm], radius: 7 mm, inner: 4 mm}}}]" 2>"$work/small.err"
-holds "what is damped beside bonds is said: $(cat "$work/small.err")" grep -q '% of the energy was damped at interfaces of bonds and points (energy.damped)' "$work/small.err"
+holds "what is damped beside bonds is said: $(cat "$work/small.err")" grep -q '% of the energy was damped at interfaces between bonds and material points (energy.damped)' "$work/small.err"
 
 # A body with all particles driven has no reaction for any acceleration: a reaction excludes the inertia of driven particles (counting grid
 # nodes both by region and by point would give -8.1 N, mass times acceleration).

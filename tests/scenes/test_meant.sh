@@ -177,9 +177,9 @@ says "alone, and an equilibrium" "warning: $lone, and there is no equilibrium" "
 "$cleave" run "$work/lone.yaml" -q -o "$work/lone" >/dev/null 2>"$work/said"
 holds "alone: the run says it: $(cat "$work/said")" grep -qF "$lone" "$work/said"
 printf '31.5, 0.5\n31.5, 1.5\n' >>"$work/lone.csv"
-says "an island" 'pieces  *body p: 2 that no bond joins; all but the heaviest have 3 particles together, the next one is at (0.03117, 0.0008333) m$' \
+says "an island" 'pieces  *body p consists of 2 pieces without bonds between them; all pieces but the heaviest have 3 particles together, and the second heaviest is at (0.03117, 0.0008333) m$' \
     "$work/lone.yaml"
-says "an island, and an equilibrium" 'pieces .*; nothing holds some of them, so that there is no equilibrium' "$work/lone.yaml" -s solver=cg \
+says "an island, and an equilibrium" 'pieces .*; some pieces have no support, so that there is no equilibrium' "$work/lone.yaml" -s solver=cg \
     -s 'boundary=[{fixed: all, face: x-, depth: 1 mm}]'
 sed -i '/^3[01]/d' "$work/lone.csv"
 silent "none alone" 'no neighbour\|^pieces' "$work/lone.yaml"
@@ -223,13 +223,13 @@ boundary:
   - {name: end, traction: [0, 6.25 kPa], face: x+, time: {ramp: {until: 1 s}}}
 END
 cook=$work/cook.yaml
-says "a support on a slope" '^support .*; 27 % of the area seen from x- has other normals, by 72 degrees on average: a region with x <= 0.001 m leaves it out' "$cook"
-says "a load on a slope" '^load .*; 73 % of the area seen from x+ has other normals, by 47 degrees on average: a region with x >= 0.047 m leaves it out' "$cook"
+says "a support on a slope" '^support .*; on 27 % of the area seen from x- the surface is inclined to this direction, by 72 degrees on average: a region with x <= 0.001 m excludes it' "$cook"
+says "a load on a slope" '^load .*; on 73 % of the area seen from x+ the surface is inclined to this direction, by 47 degrees on average: a region with x >= 0.047 m excludes it' "$cook"
 silent "with regions" "other normals" "$cook" -s 'boundary=[{fixed: all, face: x-, depth: 1 mm, region: {box: {from: [-inf, -inf], to: [0.7 mm, inf]}}},
     {traction: [0, 6.25 kPa], face: x+, region: {box: {from: [47.4 mm, -inf], to: [inf, inf]}}}]'
 awk 'BEGIN { print "x [mm], y [mm]"; for (x = 0.5; x < 48; x++) for (y = 0.5; y < 60; y++)
     if (y >= 44 / 48 * x && y <= 44 + 16 / 48 * x) print x ", " y }' >"$work/cook.csv"
-says "a list" '^load .*; 7[0-9] % of the area seen from x+ has other normals, by 4[3-9] degrees on average: a region with x >= 0.047 m leaves it out' \
+says "a list" '^load .*; on 7[0-9] % of the area seen from x+ the surface is inclined to this direction, by 4[3-9] degrees on average: a region with x >= 0.047 m excludes it' \
     "$cook" -s "bodies=[{name: p, particles: $work/cook.csv}]" -s body= -s solver=explicit -s steps= -s method=pd -s material.poisson=1/4 -s duration=1ms \
     -s 'boundary=[{traction: [0, 6.25 kPa], face: x+}]'
 silent "a box" "other normals" "$cook" -s 'body={box: {from: [0, 0], to: [48 mm, 20 mm]}}'
@@ -293,7 +293,7 @@ ribs()
     done
 }
 ribs "ribs of a frame" 0.0025 y 20
-says "a strip half a spacing beside the lattice" 'a part 0.003 m wide .*: its sections are 33.* % too large; particles.spacing divides it, but its faces' "$frame" \
+says "a strip half a spacing beside the lattice" 'a part 0.003 m wide .*: its sections are 33.* % too large; particles.spacing divides its width, but its faces' "$frame" \
     -s 'body=[{box: {from: [0, 0], to: [40 mm, 20 mm]}}, {box: {from: [40 mm, 8.5 mm], to: [60 mm, 11.5 mm]}}]'
 silent "a strip on the lattice" 'a part 0.003 m wide' "$frame" \
     -s 'body=[{box: {from: [0, 0], to: [40 mm, 20 mm]}}, {box: {from: [40 mm, 8 mm], to: [60 mm, 11 mm]}}]'
@@ -361,7 +361,7 @@ holds "a run in which no bond yields does not" grep -q '"warnings": \[\]' "$work
 says "points that convert to bonds that yield" 'bonds, which points convert to, yield one by one' "$yield" -s method=adaptive -s steps= \
     -s solver=explicit -s duration=1us -s 'boundary.0.time={ramp: {until: 1 us}}' -s material.critical_stretch=0.2
 set -- $(limit 1)
-says "solids of bonds that yield" "a solid of them bears about $(printf %.2f "$1") times .* across by $(printf %.2f "$2") of" "$bar" -s material.yield_stress=100MPa \
+says "solids of bonds that yield" "a solid yields at about $(printf %.2f "$1") times .* lateral plastic strain is $(printf %.2f "$2") of" "$bar" -s material.yield_stress=100MPa \
     -s solver=explicit -s duration=1us
 silent "points that yield" 'one by one' "$yield" -s method=mpm
 silent "a bar of bonds that yield" "one by one" inputs/bar_plastic.yaml -s method=pd
@@ -441,7 +441,7 @@ says "a collision of ospd" "${hits}viscosity acts with model bond only" "$plates
 silent "a collision with viscosity" 'bodies collide' "$plates" -s 'space=plane strain' -s 'material.viscosity={}'
 silent "bodies that part" 'bodies collide' "$plates" -s 'initial.0.velocity=[-200, 0]'
 silent "a speed elsewhere" 'bodies collide' "$plates" -s 'initial=[{velocity: [200, 0], region: {box: {from: [50 mm, 0], to: [60 mm, 10 mm]}}}]'
-says "without contact" '^warning: contact.between: none: peridynamic bodies pass through each other; with contact.between: bodies, or all, they meet' \
+says "without contact" '^warning: contact.between: none: peridynamic bodies have no contact and pass through each other; contact.between: bodies or all gives them contact' \
     "$plates" -s contact.between=none
 silent "without contact: no collision" 'bodies collide' "$plates" -s contact.between=none
 says "without contact, adaptive" 'warning: particles that become peridynamic pass .*; here contact.between is none' "$plates" -s contact.between=none -s method=adaptive
@@ -473,7 +473,7 @@ silent "two supports of different components" '^warning: boundar' "$plate" -s 'b
 solids() { echo "body=[{box: {from: [0, 0], to: [20 mm, 20 mm]}}, {$1}]"; }
 says "a hole in m" '^warning: body body: solid 2 of its shape removes nothing: it is 11.3 m from the body; check its units (mm?)$' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [10, 10], radius: 2}}')"
-says "a hole beside a corner" 'solid 2 of its shape removes nothing, as it lies outside' "$plate" \
+says "a hole beside a corner" 'solid 2 of its shape removes nothing, as it is outside' "$plate" \
     -s "$(solids 'subtract: {disc: {centre: [21.5 mm, 21.5 mm], radius: 2 mm}}')"
 says "a disc that is not subtracted" '^warning: body body: solid 2 of its shape adds nothing, as the solids before it contain it' "$plate" \
     -s "$(solids 'disc: {centre: [10 mm, 10 mm], radius: 2 mm}')"

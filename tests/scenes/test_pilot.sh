@@ -27,9 +27,9 @@ begun=$(date +%s)
 is "bars that meet" $? 0
 between "budget" $(($(date +%s) - begun)) 0 60
 near "kinetic energy" "$(figure collide energy.kinetic)" 1000 0.05
-holds "says what they choose: $(cat err)" grep -q "^pilot  .*choose method and spacing for energy.kinetic within 5 %" err
+holds "says what they choose: $(cat err)" grep -q "^pilot  .*choose the method and the spacing for an error of energy.kinetic within 5 %" err
 holds "says what each method needs" grep -q "^pilot  .*bonds: energy.kinetic +-" err
-holds "says what is chosen" grep -q "^pilot .*, spacing .* mm: energy.kinetic within .* %" err
+holds "says what is chosen" grep -q "^pilot  *chosen: method .*, spacing .* mm; the error of energy.kinetic is within .* %" err
 holds "error bar: $(grep -A2 uncertainty collide/summary.json)" grep -q '"energy.kinetic"' collide/summary.json
 is "no request is left in the scene" "$(grep -c '^accuracy\|^method: auto' collide/scene.yaml)" 0
 
@@ -46,8 +46,8 @@ holds "as chosen before: $(cat err)" grep -q "as chosen before" err
 holds "the same scene" cmp -s before.yaml collide/scene.yaml
 "$cleave" check collide.yaml >out 2>&1
 is "check" $? 0
-for words in "they judge energy.kinetic, within 5 %$" "they vary the method (points, bonds), the spacing (from 0.2 mm and coarser ones down to finer ones) and the time step" \
-    "they cost at most 40 s (accuracy.budget), of which 24 s .*; the run that they choose costs at most 800 s"; do
+for words in "pilot runs estimate the error of energy.kinetic; 5 % is allowed$" "pilot runs vary the method (points, bonds), the spacing (from 0.2 mm and coarser ones down to finer ones) and the time step" \
+    "pilot runs take at most 40 s (accuracy.budget), of which 24 s .*; the run that is chosen takes at most 800 s"; do
     holds "check says $words: $(cat out)" grep -q "^auto  .*$words" out
 done
 
@@ -79,7 +79,7 @@ holds "it stays" grep -q '^  spacing: 0.0002 ' own/scene.yaml
 "$cleave" check plate.yaml -s particles.spacing=1mm >out 2>&1
 is "check of an own spacing" $? 0
 holds "it is the finest: $(cat out)" grep -q "the method (states), the spacing (1 mm as given, and coarser)$" out
-holds "an energy is judged: $(cat out)" grep -q "they judge the largest of its energies, within 2 %" out
+holds "an energy is judged: $(cat out)" grep -q "pilot runs estimate the error of the largest of its energies; 2 % is allowed" out
 
 # An edge crack of 8 mm in 16 mm of aluminium, a/W = 0.5, H = W: K_I = 3.009 sigma sqrt(pi a) by boundary collocation. Without a name the
 # first probe is evaluated.
@@ -149,9 +149,9 @@ refused "accuracy_table: is no longer a key, as .method: auto. chooses by pilot 
 refused "auto does not do load steps" plate.yaml -s steps.number=3
 refused "accuracy: 0 is out of range" plate.yaml -s accuracy=0
 refused "no figure of summary.json" plate.yaml -s "accuracy={of: [1]}"
-refused "no method for the scene with its model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"
+refused "no method of the pilot runs can be combined with the model, solver and pd.region" plate.yaml -s "pd.region={box: {from: [0, 0], to: [1mm, 1mm]}}"
 printf 'x, y\n0, 0\n0.001, 0\n0, 0.001\n0.001, 0.001\n' >list.csv
-refused "particles come from a list" plate.yaml -s body= -s "bodies=[{name: a, particles: list.csv}]"
+refused "comes from a particle list" plate.yaml -s body= -s "bodies=[{name: a, particles: list.csv}]"
 
 # Other commands refuse a scene without a method at its line.
 for command in "converge" "sweep -s time.safety=0.5,0.8" "export lammps"; do

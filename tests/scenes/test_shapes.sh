@@ -33,7 +33,7 @@ mkdir -p elsewhere
 (cd elsewhere && "$cleave" run ../results/gear/scene.yaml -q -o again >/dev/null 2>&1) || fail "the echo of gear.yaml does not run"
 cmp -s results/gear/history.csv elsewhere/again/history.csv && pass || fail "the echo of gear.yaml is another run"
 sed -i 's/^1, 6.0000/1, 6.1000/' gear.inp
-refused "it is another one" check results/gear/scene.yaml
+refused "the file has changed" check results/gear/scene.yaml
 refused "" run gear.yaml -q -s duration=15us -s output.frames=1 --resume
 refused "the file has no set tooth; it has" check gear.yaml -s regions.teeth.mesh.set=tooth
 refused "unit is missing" check gear.yaml -s body='{mesh: {file: gear.inp}}'
@@ -42,9 +42,9 @@ refused "is no unit of length" check gear.yaml -s body='{mesh: {file: gear.inp, 
 # Fibres: as many particles as the image has pixels that are not void; another grey value is refused.
 "$cleave" run fibres.yaml -q -s duration=1ns -s output.frames=1 >/dev/null 2>&1 || fail "fibres.yaml does not run"
 grep -q 'values: \["1-200", "201-255"\]' results/fibres/scene.yaml && pass || fail "the echo of fibres.yaml"
-refused "have no material; void leaves them out" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0: void, 255: fibre}}}'
+refused "have grey values without a material, for instance" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0: void, 255: fibre}}}'
 refused "is in two ranges" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 128-255: fibre}}}'
-refused "there is no material glass" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 129-255: glass}}}'
+refused "the scene has no material glass" check fibres.yaml -s body='{image: {file: fibres.png, pixel: 1 um, materials: {0-128: matrix, 129-255: glass}}}'
 
 # The blade: a closed surface; half of it is refused.
 said blade.yaml "248 triangles, 1 shell, closed" -s particles.spacing=2mm -s duration=1us

@@ -157,7 +157,7 @@ holds "nothing is left behind" test ! -e none
 first=$!
 tries=0
 while [ ! -f long/duration=8us/summary.json ] && [ $tries -lt 400 ]; do sleep 0.05; tries=$((tries + 1)); done
-refused "runs in it" bar.yaml -s duration=8us,4ms -s particles.spacing=0.5mm -o long
+refused "this folder is in use by a run" bar.yaml -s duration=8us,4ms -s particles.spacing=0.5mm -o long
 kill -TERM $first
 wait $first
 is "interrupted" $? 130

@@ -106,7 +106,7 @@ for method in pd adaptive; do
     for figure in crack.start_time crack.length_end; do is "$method: slit of a mesh: $figure" "$(f mesh $figure)" "$(f box $figure)"; done
 done
 "$cleave" check "$work/mesh.yaml" >"$work/said" 2>&1
-is "the slit is said" "$(grep -c 'nodes doubled at 1 free surface inside: a pre-crack' "$work/said")" 1
+is "the slit is said" "$(grep -c 'pairs of nodes at one position along 1 surface inside the body: a pre-crack' "$work/said")" 1
 
 # ---- contact of faces, and slots that stay closed --------------------------------------------------------------------------
 

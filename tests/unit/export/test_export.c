@@ -196,7 +196,7 @@ static void what_lammps_cannot(void **state)
     refused("pd: {volume: cut-ramp, surface: none, weights: uniform, last_force: whole, influence: inverse, "
             "normalisation: local}\n"
             "contact: {between: none}\n",
-            "model: ospd\n", false, "particles of peri/lps keep the weight of their whole neighbourhood");
+            "model: ospd\n", false, "the weighted volume of a particle still includes broken bonds");
 }
 
 int main(void)

@@ -100,7 +100,7 @@ static void bad_stl(void **state)
     write_words("c.stl", "");
     refused("c.stl", 3, "c.stl: empty");
     write_words("c.stl", "PK\3\4");
-    refused("c.stl", 3, "neither begins with solid");
+    refused("c.stl", 3, "neither begins with `solid`");
     write_stl_words("c.stl", 12, "");
     refused("c.stl", 3, "it is cut off");
     write_stl_words("c.stl", 0, "endsolid");
@@ -108,20 +108,20 @@ static void bad_stl(void **state)
     write_stl_words("c.stl", 2, "vertex 1 2 nan\n");
     refused("c.stl", 3, "c.stl:16: nan is no coordinate");
     write_stl_words("c.stl", 2, "vertex 1 2 3\nendfacet\nendsolid\n");
-    refused("c.stl", 3, "a facet of 1 corners");
+    refused("c.stl", 3, "a facet with 1 corners");
     write_stl_words("c.stl", 6, "endsolid");
     refused("c.stl", 3, "open or turned inside out at 8 edges");
     write_file("c.stl", bytes, stl_bytes(bytes, 13));
     refused("c.stl", 3, "c.stl:"); /* begins with the word solid, but is binary */
     bytes[0] = 'x';
     write_file("c.stl", bytes, sizeof bytes);
-    refused("c.stl", 3, "684 bytes, and 13 triangles, as it says, would be 734");
+    refused("c.stl", 3, "it has 684 bytes, but the 13 triangles that its header gives need 734");
     stl_bytes(bytes, 12);
     memcpy(bytes + 84 + 50 * 3 + 16, &none, 4);
     write_file("c.stl", bytes, sizeof bytes);
     refused("c.stl", 3, "c.stl: triangle 3: a coordinate is not finite");
     write_stl_words("c.stl", 12, "endsolid");
-    refused("c.stl", 2, "not in a plane z = const");
+    refused("c.stl", 2, "not in one plane z = const");
 }
 
 /* ---- Gmsh -------------------------------------------------------------------------------------------------------- */
@@ -276,7 +276,7 @@ static void bad_gmsh(void **state)
     (void)state;
     static const struct {
         const char *from, *to, *message;
-    } bad[] = {{"2.2 0", "4.0 0", ":2: format 4.0 of Gmsh; 2.2 and 4.1 are read"},
+    } bad[] = {{"2.2 0", "4.0 0", ":2: Gmsh's file format 4.0 is not supported; 2.2 and 4.1 are"},
                {"$MeshFormat", "Meshformat", "$MeshFormat is expected first"},
                {"$Nodes\n12", "$Nodes\n12000000000", "12000000000 nodes are announced, more than the rest of the file"},
                {"$Nodes\n12", "$Nodes\n-1", "-1 nodes are announced, more"},
@@ -292,9 +292,9 @@ static void bad_gmsh(void **state)
         refused("bad.msh", 3, bad[k].message);
     }
     write_words("bad.msh", msh2);
-    refused("bad.msh", 2, "its elements fill a space");
+    refused("bad.msh", 2, "the mesh has volume elements");
     write_changed("bad.msh", msh4, "1 1 0 .1", "1 1 3 .1");
-    refused("bad.msh", 2, "not in a plane z = const");
+    refused("bad.msh", 2, "not in one plane z = const");
     write_changed("bad.msh", msh4, "$Entities", "$PartitionedEntities");
     refused("bad.msh", 2, "a mesh in partitions");
 }
@@ -409,10 +409,10 @@ static void bad_abaqus(void **state)
                {"2, 1., 0.", "-2, 1., 0.", ":6: -2 is no number of a node"},
                {"2, 1., 0.", "1, 1., 0.", "node 1 is given twice"},
                {"10, 1, 2, 5, 4", "10, 1, 2, 5, 44", "element 10 has node 44"},
-               {" 3, 6, 5\n", "", "an element of 4 nodes has but 1"},
-               {"CPS4R", "B31", "no element that fills a body, but others such as T3D2"},
-               {"*NSET, NSET=left", "*NGEN", "*NGEN; a deck that writes out all nodes"},
-               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET reads another file"},
+               {" 3, 6, 5\n", "", "an element of a type with 4 nodes lists only 1"},
+               {"CPS4R", "B31", "no elements that can fill a body, but others such as T3D2"},
+               {"*NSET, NSET=left", "*NGEN", "*NGEN is not supported; a deck that lists all nodes"},
+               {"*NSET, NSET=left", "*NSET, NSET=left, INPUT=x", "*NSET includes another file"},
                {"*NSET, NSET=left", "*NSET", "a set without a name"},
                {"*node, nset=all", "*node, system=C", "coordinates in the system C"},
                {"11, 11, 1\n", "1, 999999999, 1\n", "sets of more nodes or elements than the file holds"}};

@@ -224,13 +224,15 @@ static void samples_refused(void **state)
         struct layout layout;
         const char *message;
     } bad[] = {{{.bits = 16, .format = SAMPLEFORMAT_INT},
-                "a.tif: values of 16 bits with a sign; grey values without "
+                "a.tif: pixels are signed values of 16 bits; unsigned grey values "
                 "are expected: add 32768 to each"},
-               {{.bits = 8, .format = SAMPLEFORMAT_INT}, "a.tif: values of 8 bits with a sign"},
+               {{.bits = 8, .format = SAMPLEFORMAT_INT}, "a.tif: pixels are signed values of 8 bits"},
                {{.bits = 16, .format = SAMPLEFORMAT_IEEEFP}, "with fractions"},
-               {{.bits = 12, .format = SAMPLEFORMAT_UINT}, "a.tif: values of 12 bits; grey values of 8 or 16"},
-               {{.bits = 32, .format = SAMPLEFORMAT_UINT}, "values of 32 bits or with fractions"},
-               {{.bits = 8, .format = SAMPLEFORMAT_UINT, .orientation = ORIENTATION_LEFTTOP}, "its rows are columns"}};
+               {{.bits = 12, .format = SAMPLEFORMAT_UINT},
+                "a.tif: pixels of 12 bits are not supported; grey values of 8 or 16"},
+               {{.bits = 32, .format = SAMPLEFORMAT_UINT}, "pixels of 32 bits or with fractions"},
+               {{.bits = 8, .format = SAMPLEFORMAT_UINT, .orientation = ORIENTATION_LEFTTOP},
+                "its rows are stored as columns"}};
     struct voxels v;
     char name[] = "a.tif", *const paths[] = {name};
     for (size_t k = 0; k < COUNT_OF(bad); k++) {
@@ -252,7 +254,7 @@ static void a_stack_of_files(void **state)
     assert_ok(image_read(&v, 3, paths, 3, size, from));
     assert_int_equal(v.n[2], 3);
     voxels_free(&v);
-    assert_refused(image_read(&v, 2, paths, 2, size, from), "in the plane one is expected");
+    assert_refused(image_read(&v, 2, paths, 2, size, from), "in plane spaces a single image is expected");
 }
 
 static void write_bytes(const char *name, const void *bytes, size_t n)

@@ -398,7 +398,7 @@ static void test_limits(void **state)
     solution_free(&a);
     solve(&a, CRACKED, "solver=cg", "solver_tolerance=1e-12", NULL);
     assert_int_equal(a.ran, FAILED);
-    assert_non_null(strstr(status_message(), "round-off leaves 1e-8 of compact bodies"));
+    assert_non_null(strstr(status_message(), "round-off limits it to 1e-8 for compact bodies"));
     assert_true(a.e.solver->best < 1e-7);
     solution_free(&a);
     solve(&a, WHOLE "boundary:\n  - {traction: [0, 1 MPa], face: y+}\n", "solver=cg", NULL);

@@ -191,7 +191,8 @@ static void faults_are_placed(void **state)
         {UNIT_LENGTH, "x^(t/s)",
          "x^(t/s) raises a length to a power that varies (character 2); a constant number is expected as the power"},
         {UNIT_LENGTH, "x^0.3",
-         "x^0.3 has a length to a power (character 2) that makes no unit; whole and half powers of m, kg and s do"},
+         "x^0.3 raises a length (character 2) to a power whose unit cannot be represented; whole and half powers of m, "
+         "kg and s can be"},
         {UNIT_LENGTH, "sqrt(sqrt(x))",
          "sqrt(sqrt(x)) takes the square root of in m^0.5 (character 1), whose unit has no square root"},
         {UNIT_LENGTH, "2*1e20 m*1e20", "2*1e20 m*1e20 is above 1e30 in SI units; a length is expected, as 0.5 mm"},

@@ -143,7 +143,7 @@ static void added_solids_continue_the_lattice(void **state)
     s.body[0].shape.n = 1;
     s.solid[1][0] = (struct solid){.kind = SOLID_BOX, .from = {-INFINITY, -1}, .to = {INFINITY, 0}};
     s.body[1].shape.n = 1;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body layer: its shape has no end");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body layer: its shape is infinite");
     s.solid[1][0].from[0] = 0, s.solid[1][0].to[0] = 2.1;
     assert_ok(fill_particles(&p, &s.scene, NULL, 0));
     assert_int_equal(p.n, 16);
@@ -339,7 +339,7 @@ static void bad_bodies_are_refused(void **state)
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: too large for the spacing");
     s.solid[0][0].to[0] = s.solid[0][0].to[1] = 1;
     s.body[0].shape.n = 0;
-    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: its shape has no end");
+    assert_refused(fill_particles(&p, &s.scene, NULL, 0), "body plate: its shape is infinite");
     s.body[0].shape.n = 1;
     s.scene.spacing = 0;
     assert_refused(fill_particles(&p, &s.scene, NULL, 0), "particles.spacing, which is not given");

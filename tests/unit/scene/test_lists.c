@@ -84,7 +84,7 @@ static void bad_lists_are_refused(void **state)
         {"x,y,volume\n", "body plate: its list holds no particle"},
         {"x,y,weight,volume\n", "bad.csv:1:5: weight: a mass or a volume? its unit says it, as weight [kg]"},
         {"x,y,weight [m],volume\n", "bad.csv:1:5: weight: a mass or a volume?"},
-        {"x,y,mass,density\n", "bad.csv:1:1: mass beside density"},
+        {"x,y,mass,density\n", "bad.csv:1:1: mass and density are both given"},
         {"x [s],y,volume\n", "bad.csv:1:4: x: [s] is a time; a length is expected, as 0.5 mm"},
         {"x [furlong],y,volume\n", "bad.csv:1:4: x: [furlong] has an unknown unit"},
         {"x,y,volume,material\n0,0,1,glass\n", "bad.csv:2:7: the scene has no material glass; it has"},
@@ -168,7 +168,7 @@ static void hdf5_lists_are_read(void **state)
         if (part == 3) write_table(file, "material", 1, (hsize_t[]){3}, H5T_NATIVE_INT, material);
         H5Fclose(file);
         if (part == 1)
-            assert_refused(fill_particles(&p, &s.scene, NULL, 0), "volumes has 2 x 1 numbers; 3 x 1 are wanted");
+            assert_refused(fill_particles(&p, &s.scene, NULL, 0), "volumes has 2 x 1 numbers; 3 x 1 are expected");
         if (part == 1) continue;
         assert_ok(fill_particles(&p, &s.scene, NULL, 0));
         for (int i = 0; i < 3; i++) {
@@ -218,7 +218,7 @@ static void hdf5_lists_have_units(void **state)
         H5Fclose(file);
         if (part == 2)
             assert_refused(particle_list_read_head(&head, name, 2), "positions: its unit kg is a mass; a length");
-        if (part == 3) assert_refused(particle_list_read_head(&head, name, 2), "mass beside density");
+        if (part == 3) assert_refused(particle_list_read_head(&head, name, 2), "mass and density are both given");
         if (part >= 2) continue;
         assert_ok(particle_list_read_head(&head, name, 2));
         assert_string_equal(head.note, "further positions not read; no volumes: each that of the spacing");

@@ -92,9 +92,11 @@ static const struct {
     {"190 GPa", "many GPa", "7:3: young: many GPa is not a number; a stress is expected, as 190 GPa"},
     {"190 GPa", "1e-400", "7:3: young: 1e-400 is out of range; a stress above 0 is expected, as 190 GPa"},
     {"poisson: 1/3", "poisson: 0.3",
-     "8:3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; `model: ospd` has any"},
+     "8:3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space plane stress; `model: "
+     "ospd` has any"},
     {"poisson: 1/3", "poisson: 0.3\n  yield_stress: 1 GPa",
-     "8:3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; `method: mpm` has any, and "
+     "8:3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space plane stress; `method: "
+     "mpm` has any, and "
      "yields"},
     {"kJ/m^2\n", "kJ/m^2\n  yield_stress: 1 GPa\nmodel: ospd\n",
      "11:3: yield_stress: model ospd does not yield; `model: bond` does, or, with any Poisson's ratio, `method: mpm` "
@@ -102,9 +104,11 @@ static const struct {
     {"poisson: 1/3", "poisson: 0.5",
      "8:3: poisson: 0.5 is out of range; a plain number above -1 up to 0.4999 is expected"},
     {"poisson: 1/3", "critical_stretch: 0.01",
-     "8:3: critical_stretch: given beside energy_release_rate; one of the two fixes the other"},
+     "8:3: critical_stretch: is given together with energy_release_rate, and each determines the other; leave one of "
+     "them out"},
     {"poisson: 1/3", "toughness: 60 MPa",
-     "8:3: toughness: given beside energy_release_rate; one of the two fixes the other"},
+     "8:3: toughness: is given together with energy_release_rate, and each determines the other; leave one of them "
+     "out"},
     {"poisson: 1/3", "yield_hardening: -1 GPa",
      "8:3: yield_hardening: -1 GPa is out of range; a stress from 0 on is expected, as 190 GPa"},
     {"poisson: 1/3", "young: 2 GPa", "8:3: young: given twice, first in line 7; keep one"},
@@ -161,7 +165,8 @@ static const struct {
     {"[0, -100 mm]", "[0, -100 mm, 0]", "13:19: from: has 3 components; 2 are expected in space plane stress"},
     {"[0, -100 mm]", "0", "13:19: from: 0 is not a list; 2 components are expected in space plane stress"},
     {"[0, -100 mm]", "[0, -inf]", "13:29: from[1]: -inf is not finite; a length is expected, as 0.5 mm"},
-    {"from: [0, -100 mm]", "from: [0, 100 mm]", "13:13: box: from is not below to in y; from is the lower corner"},
+    {"from: [0, -100 mm]", "from: [0, 100 mm]",
+     "13:13: box: from is not smaller than to along y; from is the corner with the smaller coordinates"},
     {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "cylinder: {radius: 1}",
      "13:13: cylinder: not in space plane stress; disc, polygon, ellipse, ring or box is expected"},
     {"box: {from: [0, -100 mm], to: [100 mm, 100 mm]}", "disc: {centre: [0, 0], radius: 0}",
@@ -195,7 +200,8 @@ static const struct {
      "28:16: fixed[1]: z is no axis of space plane stress; x or y is expected"},
     {"velocity: [22 m/s, free]", "fixed: [x, x]", "28:16: fixed[1]: x is given twice; each axis is expected once"},
     {"velocity: [22 m/s, free]\n", "velocity: [22 m/s, free]\n    fixed: all\n",
-     "29:5: fixed: given beside velocity; two conditions are two items of the list"},
+     "29:5: fixed: is given together with velocity in one item; write each boundary condition as an item of its own in "
+     "the list"},
     {"    velocity: [22 m/s, free]\n", "",
      "26:5: boundary[0]: does nothing; fixed, velocity, displacement, rotation, traction, pressure, body_force, mirror "
      "or absorbing is expected"},
@@ -206,7 +212,7 @@ static const struct {
     {"{step: {until: 5 us}}", "sometimes",
      "29:5: time: sometimes is no function of time; constant, step, pulse, ramp, table or file is expected"},
     {"{step: {until: 5 us}}", "{table: [[1 us, 0], [0, 1]]}",
-     "29:32: table[1][0]: 0 does not lie after the time before; times ascend"},
+     "29:32: table[1][0]: time 0 is not later than the previous one; times in ascending order are expected"},
     {"{step: {until: 5 us}}", "{table: [[1 us, 0]]}", "29:12: table: has 1 items; 2 to 50000 are expected"},
     {"{step: {until: 5 us}}", "{table: [[1 us, 0], 3]}",
      "29:31: table[1]: 3 is not a pair; [time, factor] is expected, as [5 us, 1]"},
@@ -225,7 +231,8 @@ static const struct {
     {"traction: [1 MPa, 0], face: x+", "body_force: [1, 0], profile: {sine: {wavelength: 1, direction: [0, 0]}}",
      "30:70: direction: its length is 0 or not finite; the direction in which the force varies is expected"},
     {", face: x+", "", "30:5: face: missing in boundary; x+, x-, y+, y-, z+ or z- is expected"},
-    {"face: x+", "face: z+", "30:40: face: z+ is no face in space plane stress; x+, x-, y+ or y- is expected"},
+    {"face: x+", "face: z+",
+     "30:40: face: z+ is not the name of a face in space plane stress; x+, x-, y+ or y- is expected"},
     {"name: pull", "name: impact", "30:5: boundary[1]: impact is the name of another boundary; every one has its own"},
     {"name: impact\n", "name: impact\n    body: plat\n", "27:5: body: there is no body plat; the nearest is plate"},
     {"boundary: impact", "boundary: impct",
@@ -233,11 +240,12 @@ static const struct {
      "`name`)"},
     {"  - tip\n", "  - tip\n  - tip\n", "35:5: probes[1]: tip is the name of another probe; give it a name of its own"},
     {"  - tip\n", "  - sif: {inner: 20 mm, contours: [10 mm, 15 mm]}\n",
-     "34:11: inner: 20 mm is not less than outer, 0.015 m; about half of it is usual"},
+     "34:11: inner: the inner radius 20 mm is not smaller than the outer radius, 0.015 m; about half the outer radius "
+     "is usual"},
     {"  - tip\n", "  - sif: {direction: [0, 0]}\n",
      "34:11: direction: has no length; the direction ahead of the tip is expected"},
     {"  - tip\n", "  - sif: {contours: [2 mm, 1 mm]}\n",
-     "34:28: contours[1]: 1 mm does not lie after the one before; they ascend"},
+     "34:28: contours[1]: 1 mm is not larger than the previous value; values in ascending order are expected"},
     {"probes:\n",
      "initial: [{pulse: {at: [0, 0], direction: [1, 0], width: 1, velocity: 1, polarisation: [1, 1]}}]\nprobes:\n",
      "33:74: polarisation: is neither along direction nor across it; particles of a plane wave move along or across"},
@@ -254,7 +262,8 @@ static const struct {
     {"frames: 20", "frames: 20, times: [1 us]", "32:22: times: given beside frames; keep one of the two"},
     {"frames: 20", "times: []", "32:10: times: has 0 items; 1 to 100000 are expected"},
     {"frames: 20", "times: 5 us", "32:10: times: 5 us is not a list"},
-    {"frames: 20", "times: [2 us, 2 us]", "32:24: times[1]: 2 us does not lie after the one before; they ascend"},
+    {"frames: 20", "times: [2 us, 2 us]",
+     "32:24: times[1]: 2 us is not larger than the previous value; values in ascending order are expected"},
     {"frames: 20", "times: [0, 2 us]", "32:18: times[0]: 0 is out of range; a time above 0 is expected, as 20 us"},
     {"  - tip\n", "  - tips\n", "34:5: tips: unknown key; the nearest is tip"},
     {", at: [1 mm, 1 mm]", "", "35:5: at: missing in probes.point; a list of numbers is expected"},
@@ -372,22 +381,21 @@ static void test_overrides(void **state)
         {{"materiel.young", "1"}, "-s materiel.young=1: materiel: unknown key; the nearest is material"},
         {{"material", "steel"}, "-s material=steel: material: steel is not a mapping of keys to values"},
         {{"boundary.velocity", "[1, 0]"},
-         "-s boundary.velocity=[1, 0]: boundary: has 2 items; velocity is the name of none; they go by number (the "
-         "first is 0) "
-         "or by name (impact, pull)"},
+         "-s boundary.velocity=[1, 0]: boundary: has 2 items, and velocity is the name of none; refer to an item "
+         "by its number (from 0) or by name (impact, pull)"},
         {{"boundary.2.velocity", "[1, 0]"},
-         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items; 2 is behind the last; they go by number (the first is "
-         "0) "
-         "or by name (impact, pull)"},
+         "-s boundary.2.velocity=[1, 0]: boundary: has 2 items, and 2 is beyond the last; refer to an item by its "
+         "number (from 0) or by name (impact, pull)"},
         {{"boundary.0.velocity.2", "1"},
-         "-s boundary.0.velocity.2=1: velocity: has 2 items; 2 is behind the last; they go by number (the first is 0)"},
+         "-s boundary.0.velocity.2=1: velocity: has 2 items, and 2 is beyond the last; refer to an item by its number "
+         "(from 0)"},
         {{"boundary.0.velocity", "[0, 20 kg]"},
          "-s boundary.0.velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
         {{"material.0.young", "1"}, "-s material.0.young=1: material: is no list in this scene; 0 has no meaning"},
         {{"growth.0.speed", "1"}, "-s growth.0.speed=1: growth: is no list in this scene; 0 has no meaning"},
         {{"probes.a.att", "[0, 0]"}, "-s probes.a.att=[0, 0]: att: unknown key; the nearest is at"},
         {{"boundary[2].velocity", "[1, 0]"},
-         "-s boundary[2].velocity=[1, 0]: boundary: has 2 items; [2] is behind the last (the first is [0])"},
+         "-s boundary[2].velocity=[1, 0]: boundary: has 2 items, and [2] is beyond the last one (the first is [0])"},
         {{"boundary[0].velocity", "[0, 20 kg]"},
          "-s boundary[0].velocity=[0, 20 kg]: velocity[1]: 20 kg is a mass; a velocity is expected, as 22 m/s"},
         {{"boundary[0].velocity[1]", "fre"},
@@ -414,7 +422,8 @@ static void test_overrides(void **state)
          "indent, a key ends in `: `, brackets close"},
         {{"method", "*a"}, "-s method=*a: an alias (*) is not allowed in a scene; write the value out"},
         {{"material.poisson", "0.3"},
-         "-s material.poisson=0.3: poisson: 0.3 is impossible with bonds, which have 1/3 in space plane stress; "
+         "-s material.poisson=0.3: poisson: a Poisson's ratio of 0.3 is impossible with bonds, which have 1/3 in space "
+         "plane stress; "
          "`model: ospd` has any"},
         {{"duration", ""}, "x:1:1: duration: missing; a time is expected, as 20 us"},
     };

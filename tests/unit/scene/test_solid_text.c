@@ -220,7 +220,7 @@ static void test_refusals(void **state)
         int dim;
         const char *regions, *shape, *message;
     } cases[] = {
-        {2, "", "{polygon: {corners: [[0, 0], [1, 1], [1, 0], [0, 1]]}}", "edges do not cross"},
+        {2, "", "{polygon: {corners: [[0, 0], [1, 1], [1, 0], [0, 1]]}}", "a polygon without crossings"},
         {2, "", "{polygon: {corners: [[0, 0], [1, 0], [1, 1]], round: 1}}", "a smaller radius is expected"},
         {2, "", "{polygon: {corners: [[0, 0], [1, 0]]}}", "has 2 items"},
         {2, "", "{polygon: {round: 1}}", "corners: missing in solid.polygon"},
@@ -243,7 +243,7 @@ static void test_refusals(void **state)
         {2, "regions: {grip: {box: {from: [0, 0], to: [1, 1]}}, other: {region: grip}}\n", "girp",
          "there is no region girp; the nearest is grip"},
         {2, "regions: {a: {region: b}, b: [{region: c}], c: {region: a}}\n", "a", "region a is part of itself"},
-        {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not below to"},
+        {2, "regions: {a: {box: {from: [0, 0], to: [-1, 1]}}}\n", "a", "from is not smaller than to"},
         {2, "regions: {a: {box: {from: [0, 0], to: [1, 1]}}, a: {all: true}}\n", "a", "given twice"},
         {2, "regions: {'a b': {box: {from: [0, 0], to: [1, 1]}}}\n", "a b", "is no name"},
         {2, "regions: 3\n", "a", "is not a mapping"},

@@ -76,7 +76,7 @@ static void bad_files_are_refused(void **state)
         {"", "blast.csv: empty"},
         {"time, value\n", "blast.csv: has no times below its header"},
         {"0, 1\n1, 2\n", "blast.csv:1:1: no column is called time; a header such as time [us], value is expected"},
-        {"value, time\n1\n", "blast.csv:2:1: 1 values; the header says that column 2 is wanted"},
+        {"value, time\n1\n", "blast.csv:2:1: this line has 1 values, but the value of column 2 is needed"},
         {"time, a, b\n1,2,3\n",
          "blast.csv:1:10: column b is a second column of values; give column: NAME to choose one"},
         {"time, time, b\n", "blast.csv:1:7: column time is given twice"},
@@ -84,7 +84,8 @@ static void bad_files_are_refused(void **state)
         {"time\n", "blast.csv:1:1: only one column"},
         {"time [m], b\n", "blast.csv:1:7: column time: [m] is a length; a time is expected"},
         {"time, v [m/s]\n", "blast.csv:1:10: column v: [m/s] is a velocity; a stress is expected"},
-        {"time, v\n0, 1\n2, 1\n2, 3\n", "blast.csv:4:1: time 2 does not lie after the time before; times ascend"},
+        {"time, v\n0, 1\n2, 1\n2, 3\n",
+         "blast.csv:4:1: time 2 is not later than the previous one; times in ascending order are expected"},
         {"time [us],p\n0,0,0,0\n", "blast.csv:2:5: more values than the 2 columns of the header; numbers have a point"},
         {"time,v\r0,1\r", "blast.csv:1: its lines end in carriage returns alone, line feeds are expected"},
         {"time, v\n0, x\n", "blast.csv:2:4: 'x' is no"},
@@ -100,7 +101,7 @@ static void bad_files_are_refused(void **state)
     struct scene s = {0};
     assert_refused(read_with(&s, "{column: a}", "", 0), "timed.yaml:8:38: column: has no meaning without file");
     assert_refused(read_with(&s, "{file: none.csv}", "", 0), "timed.yaml:8:38: file: none.csv cannot be read");
-    assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: given beside file");
+    assert_refused(read_with(&s, "{file: blast.csv, table: [[0, 1]]}", "", 0), "table: is given together with file");
 }
 
 /* Arbitrary bytes cause a status, never a crash. */
