@@ -434,7 +434,7 @@ status check_solver(struct reader *r, const struct node *root)
     for (int m = 0; m < s->materials; m++)
         if (material_yields(&s->material[m]))
             return fault(r, solver,
-                         "solver: %s is for elastic materials, and material %s yields; solver: explicit is expected",
+                         "%s is for elastic materials, and material %s yields; solver: explicit is expected",
                          node_shown(r, solver), s->material[m].name);
     for (int k = 0; k < s->probes; k++)
         if (s->probe[k].kind == PROBE_PULSE || s->probe[k].kind == PROBE_PATCH)

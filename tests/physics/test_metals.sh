@@ -225,5 +225,5 @@ refused "constants of a lattice" "$work/no" 'mpm.constants: isotropic' "$work/be
 refused "conversion" "$work/no" 'materials that yield need method: mpm there' "$work/beam.yaml" -s method=adaptive \
     -s "material={young: 200 GPa, density: 7850, yield_stress: 200 MPa}"
 refused "bonds" "$work/no" 'is for material points; `method: mpm` is expected' "$work/beam.yaml" -s method=pd -s material.poisson=1/3
-refused "one equilibrium" "$work/no" 'is for elastic materials, and material yields' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
+refused "one equilibrium" "$work/no" 'relaxation is for elastic materials, and material material yields' "$work/beam.yaml" -s mpm.frame=current -s solver=relaxation
 finish

@@ -132,7 +132,7 @@ kills 2 "$work/bend" "$work/bend.yaml" -s steps.number=8
 calm "$work/let_go" "$work/bend.yaml" -s 'steps={number: 6, then: explicit}' -t 1
 near "let go: the same peak" "$(figure "$work/let_go" rigid.2.force_max)" "$(most bend roller_force_y)" 2e-2
 between "let go: balance" "$(figure "$work/let_go" energy.balance_error)" -1e-3 1e-3
-refused "a body that flies" "$work/no" 'flies' "$work/bend.yaml" -s bodies.3.mass=1kg
+refused "a body that moves freely" "$work/no" 'has a mass and moves freely' "$work/bend.yaml" -s bodies.3.mass=1kg
 # ---- contact of the faces of a slender body ------------------------------------------------------------------------------
 
 # A beam of 8 layers with a slit in its middle plane along half of its length, on two supports, loaded in the middle: its faces press and

@@ -193,7 +193,7 @@ thickness: 1 mm
 duration: 20 us
 material: {young: 200 GPa, density: 8000}
 body: {box: {from: [0, 0], to: [80 mm, 10 mm]}}
-particles: {spacing: 1 mm}
+particles: {spacing: 0.5 mm}
 initial: [{pulse: {at: [40 mm, 0], width: 32 mm, velocity: -10 m/s, direction: [1, 0]}}]
 output: {frames: 4, samples: 60}
 probes: [{line: {name: axis, from: [0, 5 mm], to: [80 mm, 5 mm]}}]

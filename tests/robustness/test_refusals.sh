@@ -153,8 +153,8 @@ done <<'END'
 6|material: {young: -1, density: 7800}|6:12|out of range
 6|material: {density: 7800}|6:1|young: missing
 6|material: {young: 190 GPa, density: 7800, poisson: 0.3}|6:43|which have 1/3 in space plane stress; `model: ospd` has any
-6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given beside critical_stretch
-6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|no slope below young
+6|material: {young: 190 GPa, density: 7800, critical_stretch: 0.01, toughness: 1e6}|6:67|given together with critical_stretch
+6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, yield_tangent: 200 GPa}|6:64|not below Young's modulus
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {}}|6:64|linear, voce, power or table is expected
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa}}}|6:76|rate: missing
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {voce: {saturation: 1 GPa, rate: 9}, power: {coefficient: 1 GPa, exponent: 1}}}|6:112|keep one of the two
@@ -164,7 +164,7 @@ done <<'END'
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa]]}}|6:55|2 to 16 are expected
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1]]}}|6:75|is no point of a curve
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0.1, 1 GPa], [0.2, 2 GPa]]}}|6:63|the first point is the yield stress
-6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains ascend
+6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0, 2 GPa]]}}|6:75|strains in ascending order
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 0.9 GPa]]}}|6:75|the stress falls
 6|material: {young: 190 GPa, density: 7800, hardening: {table: [[0, 1 GPa], [0.1, 1.1 GPa], [0.2, 1.3 GPa]]}}|6:91|the slope of the curve increases
 6|material: {young: 190 GPa, density: 7800, yield_stress: 1 GPa, hardening: {table: [[0, 1 GPa], [0.1, 2 GPa]]}}|6:64|keep one of the two
@@ -206,14 +206,14 @@ done <<'END'
 16|    traction: [1 MPa, 0]|15:5|face
 16||15:5|does nothing
 16|    absorbing: true^    face: x-|19:5|no meaning with absorbing
-16|    absorbing: true^    velocity: [free, 1 m/s]|17:5|given beside absorbing
-14|boundary:^  - {absorbing: false, face: x+}|15:6|not true
+16|    absorbing: true^    velocity: [free, 1 m/s]|17:5|given together with absorbing
+14|boundary:^  - {absorbing: false, face: x+}|15:6|can only be true
 14|boundary:^  - {absorbing: true}|15:5|face
-14|boundary:^  - {absorbing: true, face: z+}|15:23|no face in space
+14|boundary:^  - {absorbing: true, face: z+}|15:23|is not the name of a face in space
 14|solver: relaxation^boundary:^  - {absorbing: true, face: x+}|16:6|has no waves
 17|    body: disk|17:5|there is no body
 18|    time: {step: {from: 6 us, until: 5 us}}|18:12|from is not before until
-18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times ascend
+18|    time: {table: [[1 us, 0], [0, 1]]}|18:32|times in ascending order
 18|    time: whenever|18:5|no function of time
 19|time: {step: 0}|19:8|out of range
 19|time: {step: 1e-30}|19:8|1e12 is the largest number
@@ -232,7 +232,7 @@ done <<'END'
 20|probes: [tip, tip]|20:15|name of another probe
 20|probes: [exact: step bar]|20:10|space: line is expected
 19|output: {frames: 2, times: [1 us]}|19:21|keep one of the two
-19|output: {times: [2 us, 1 us]}|19:24|they ascend
+19|output: {times: [2 us, 1 us]}|19:24|values in ascending order
 19|output: {frames: 2, every: 1 us}|19:21|keep one of the two
 19|output: {regions: [{name: a, every: 1 us}]}|19:20|region: missing
 19|output: {regions: [{name: frames, region: {all: true}, every: 1 us}]}|19:21|the body's own files

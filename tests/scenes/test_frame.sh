@@ -206,7 +206,7 @@ chooses current "mpm.cell: 2" $crack $few -s mpm.cell=3
 chooses current "couplings pm" $crack $few -s coupling=pgg
 chooses current "regular lattice" $crack $few -s particles.irregularity=0.1
 chooses current "yield" $crack $few -s "material.yield_stress=1 GPa"
-chooses current "nodes elsewhere" $crack $few -s "mpm.origin=[0.1 mm, 0]"
+chooses current "shifts the grid nodes" $crack $few -s "mpm.origin=[0.1 mm, 0]"
 chooses reference "keeps its neighbours" $crack $few -s "mpm.origin=[1 mm, 0]"
 chooses current "static solvers" inputs/edge_crack_k1.yaml -s method=adaptive -s solver=relaxation -s particles.spacing=0.5mm -s probes=
 chooses current "bodies meet" inputs/hopkinson_bar.yaml

@@ -68,5 +68,5 @@ if cmp "$work/glued/history.csv" "$work/glued_again/history.csv"; then pass; els
 refused "no such body" "$work/no" "no body of this name" "$work/halves.yaml" -s "interfaces=[{bodies: [low, middle]}]"
 refused "a toughness of what is apart" "$work/no" "bodies that are joined" "$work/halves.yaml" \
     -s "interfaces=[{bodies: [low, high], joined: false, energy_release_rate: 1}]"
-refused "a boundary of a joined body" "$work/no" "is joined to low" "$work/halves.yaml" -s "boundary=[{fixed: all, body: high}]"
+refused "a boundary of a joined body" "$work/no" "is joined to body low" "$work/halves.yaml" -s "boundary=[{fixed: all, body: high}]"
 finish

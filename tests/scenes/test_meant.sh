@@ -262,7 +262,7 @@ whole=$(strain whole -s bodies= -s "$box")
 near "a lattice as a list" "$(strain list)" "$whole" 1e-9
 near "a lattice as a list in decimals" "$(strain decimals -s bodies.p.particles="$work/decimals.csv" -s "$third")" "$whole" 1e-6
 says "a lattice as a list" '^accuracy  *body p: a part of 0.005 m is 1.66 horizons' "$bar"
-says "a list that is none" '^accuracy  *body p: parts of its list are 5 layers thin: with pd.surface: volume .* 48 %; in a list .* 12 %' "$bar" \
+says "a list that is none" '^accuracy  *body p: parts of its list are 5 layers thin: with pd.surface: volume .* 48 %; with pd.surface: moments by 12 %' "$bar" \
     -s bodies.p.particles="$work/shaken.csv"
 
 # ---- sections ------------------------------------------------------------------------------------------------------------
@@ -350,7 +350,7 @@ output: {frames: 0}
 END
 yield=$work/yield.yaml
 set -- $(limit 0)
-says "plates of bonds that yield" "warning: material material: bonds yield one by one, so that a plate .* $(printf %.2f "$1") times .* across by $(printf %.2f "$2") of" "$yield"
+says "plates of bonds that yield" "warning: material material: bonds yield one by one, so that a plate .* $(printf %.2f "$1") times .* lateral plastic strain is $(printf %.2f "$2") of" "$yield"
 # At 0.8 % of strain: hardening adds up to 2 GPa times 0.65 %, 4 %; a horizon of three spacings is not a circle, 3 %.
 "$cleave" run "$yield" -q -o "$work/yield" >/dev/null 2>&1
 near "a plate of bonds that yield" "$(awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /^reaction.force_x/) c = k; next }
@@ -481,7 +481,7 @@ silent "a hole" 'of its shape' "$plate" -s "$(solids 'subtract: {disc: {centre: 
 silent "a disc across an edge" 'of its shape' "$plate" -s "$(solids 'disc: {centre: [20 mm, 10 mm], radius: 2 mm}')"
 # From 20 mm to the lower end of a disc at 8.997 m, less a spacing, at 50 m/s: 0.1795 s.
 fly() { echo "bodies=[{name: plate, shape: {box: {from: [0, 0], to: [20 mm, 20 mm]}}}, {name: ball, shape: {disc: {centre: [10 mm, $1], radius: 3 mm}}, velocity: [$2]}]"; }
-says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
+says "a ball too far away" '^warning: body ball reaches plate after 0.18 s, but the duration is 1e-05 s' "$plate" -s body= -s boundary=[] -s "$(fly '9 m' '0, -50')"
 says "a ball that flies away" '^warning: body ball meets no other body, as its velocity leads past plate or away' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '0, 50')"
 says "a ball that flies past" '^warning: body ball meets no other body' "$plate" -s body= -s boundary=[] -s "$(fly '25 mm' '50, 0')"
 silent "a ball that hits" '^warning: body ball' "$plate" -s body= -s boundary=[] -s "$(fly '24.1 mm' '0, -50')"

@@ -115,7 +115,7 @@ stays()
     reason=$1; shift
     "$cleave" check "$@" >"$work/out" 2>"$work/err" || fail "$reason: $(cat "$work/err")"
     holds "auto: $reason" grep -q "^notch .*cut bonds: .*$reason" "$work/out"
-    refused "slit: $reason" "$work/not" "cannot be a slit of the mesh: .*$reason" "$@" -s conversion.notch=slit
+    refused "slit: $reason" "$work/not" "cannot be a slit of the mesh (a row of doubled nodes): .*$reason" "$@" -s conversion.notch=slit
 }
 stays "neither of its ends is inside the body" "$work/squeeze.yaml" -s "cracks=[{from: [-1 mm, 0], to: [61 mm, 0]}]"
 stays "hold all of it" "$work/squeeze.yaml" -s "cracks=[{from: [20 mm, 0], to: [30 mm, 0]}]"
